@@ -1,0 +1,43 @@
+# make demo | demo-real | test | lint | bench | stubs; everything else is set up by these.
+PY := .venv/bin/python
+export PATH := $(CURDIR)/.venv/bin:$(PATH)
+JOBS ?= $(shell nproc)
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
+
+.PHONY: demo demo-real test test-cpp test-python lint bench install install-test stubs develop clean
+
+install:
+	@./tools/setup.sh
+	@$(PY) -m pip install -q --disable-pip-version-check .
+
+install-test:
+	@./tools/setup.sh test
+	@$(PY) -m pip install -q --disable-pip-version-check --group test --group dev '.[thesis]'
+
+test: test-cpp test-python lint
+
+test-cpp: install-test
+	cmake -S . -B build/test -DCMAKE_BUILD_TYPE=Release -DRWN_WERROR=ON -DRWN_BUILD_TESTS=ON >/dev/null
+	cmake --build build/test -j $(JOBS)
+	ctest --test-dir build/test --output-on-failure -j $(JOBS)
+
+test-python: install-test
+	$(PY) -m pytest
+
+lint: install-test
+	$(PY) -m ruff check python tests bench
+	$(PY) -m mypy
+
+clean:
+	rm -rf build .venv
+
+# The type stubs of the extension; a test fails when they are stale.
+stubs: install-test
+	cd build && $(PY:%=../%) -m pybind11_stubgen rwn._core -o stubs --exit-code >/dev/null && \
+	  sed -i '/^__all__/d' stubs/rwn/_core.pyi && cp stubs/rwn/_core.pyi ../python/rwn/_core.pyi
+
+# For work on rwn itself: quick rebuilds, no build isolation.
+develop:
+	@./tools/setup.sh test
+	@[ -d .venv/lib/python3.11/site-packages/scikit_build_core ] || $(PY) -m pip install -q --disable-pip-version-check scikit-build-core pybind11 cmeel-eigen --group test --group dev
+	@$(PY) -m pip install -q --disable-pip-version-check --no-build-isolation '.[thesis]'
