@@ -10,7 +10,9 @@ import rwn
 def test_the_stubs_describe_the_extension(tmp_path: Path) -> None:
     """`make stubs` regenerates them."""
     subprocess.run(
-        [sys.executable, "-m", "pybind11_stubgen", "rwn._core", "-o", str(tmp_path)], check=True, capture_output=True
+        [sys.executable, "-m", "pybind11_stubgen", "rwn._core", "-o", str(tmp_path)],
+        check=True,
+        capture_output=True,
     )
     fresh = [s for s in (tmp_path / "rwn/_core.pyi").read_text().splitlines() if not s.startswith("__all__")]
     kept = (Path(rwn.__file__).parent / "_core.pyi").read_text().splitlines()
