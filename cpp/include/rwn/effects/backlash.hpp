@@ -18,11 +18,12 @@ struct Backlash {
                                                    .scan = {0.01, 0.05, 0.25},
                                                    .strength = true},
                                          Parameter{.name = "load_inertia",
-                                                   .unit = "1",
-                                                   .meaning = "share of the inertia behind the gap",
+                                                   .unit = "kg m^2",
+                                                   .meaning = "part of the inertia that is behind it",
                                                    .lower = 0.02,
                                                    .upper = 0.95,
                                                    .start = 0.4,
+                                                   .scale = Scale::inertia,
                                                    .scan = {0.2, 0.5}}};
   static constexpr int hiddens = 2;               // twist theta - theta_L [rad], load speed [rad/s]
   static constexpr double contact_rate = 1200.0;  // natural frequency of the closed gap [rad/s]: hard against the drive
@@ -31,8 +32,8 @@ struct Backlash {
 
   template <class S>
   static void apply(const S* p, const Motor<S>& m, const Motion<S>& x, Terms<S>& t) {
-    const S load = p[1] * m[inertia];
-    const S reduced = load * (1.0 - p[1]);
+    const S& load = p[1];
+    const S reduced = load * (m[inertia] - load) / m[inertia];
     const S& twist = x.hidden[0];
     const S& load_speed = x.hidden[1];
     const S half = 0.5 * p[0];

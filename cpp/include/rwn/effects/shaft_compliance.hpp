@@ -26,18 +26,19 @@ struct ShaftCompliance {
                                                    .start = 0.1,
                                                    .scale = Scale::damping},
                                          Parameter{.name = "load_inertia",
-                                                   .unit = "1",
-                                                   .meaning = "share of the inertia behind the shaft",
+                                                   .unit = "kg m^2",
+                                                   .meaning = "part of the inertia that is behind it",
                                                    .lower = 0.02,
                                                    .upper = 0.95,
                                                    .start = 0.4,
+                                                   .scale = Scale::inertia,
                                                    .scan = {0.25, 0.6}}};
   static constexpr int hiddens = 2;                  // twist theta - theta_L [rad], load speed [rad/s]
   static constexpr double load_viscous_share = 0.3;  // of B, on the load side
 
   template <class S>
   static void apply(const S* p, const Motor<S>& m, const Motion<S>& x, Terms<S>& t) {
-    const S load = p[2] * m[inertia];
+    const S& load = p[2];
     const S torque = p[0] * x.hidden[0] + p[1] * (x.speed - x.hidden[1]);
     const S share = load_viscous_share * m[viscous_friction];
     t.inertia -= load;
@@ -47,8 +48,8 @@ struct ShaftCompliance {
   }
   template <class S>
   static double rate(const S* p, const Motor<S>& m, const Motion<S>&, double) {
-    const double share = value_of(p[2]);
-    const double reduced = value_of(m[inertia]) * share * (1.0 - share);
+    const double load = value_of(p[2]);
+    const double reduced = load * (value_of(m[inertia]) - load) / value_of(m[inertia]);
     return std::sqrt(value_of(p[0]) / reduced) + value_of(p[1]) / reduced;
   }
 };
