@@ -144,8 +144,14 @@ def _first(
         return start[p.name]
     if known is not None:
         return known.get(p.name, p.start if p.fixed else 0.0)
+    return p.start * first_unit(effect, p, nominal, scales)
+
+
+def first_unit(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapping[str, float]) -> float:
+    """What first guesses of a parameter are multiples of: its scale; where the effect takes over a nominal friction
+    level, that level stands for its guess."""
     replaced = next((q.replaces for q in effect.parameters if q.replaces), None)
-    nominal_level = nominal.motor.get(replaced, 0.0) if replaced else 0.0
-    if nominal_level > 0.0 and p.scale == "torque" and p.unit == "N m":
-        return nominal_level * p.start / float(np.mean([q.start for q in effect.parameters if q.replaces]))
-    return p.start * scales[p.scale]
+    level = nominal.motor.get(replaced, 0.0) if replaced else 0.0
+    if level > 0.0 and p.scale == "torque" and p.unit == "N m":
+        return level / float(np.mean([q.start for q in effect.parameters if q.replaces]))
+    return scales[p.scale]

@@ -131,6 +131,10 @@ def minimise(
     for count in range(1, max_iterations + 1):
         step = _step(search, z, gradient, curvature, damping)
         promised = float(2.0 * step @ gradient - step @ curvature @ step)
+        if promised <= 0.0 and step.any():  # the ends of ranges stood in the way: shorten towards the gradient
+            damping, growth, misses = damping * 10.0, 2.0, misses + 1
+            if misses <= 8:
+                continue
         unit = max(1.0, cost / max(1, _size(normal)))
         if promised < tolerance * unit:
             status = FitStatus.CONVERGED
@@ -155,26 +159,24 @@ def _size(normal: Normal) -> int:
 
 
 def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
-    """Damped Gauss-Newton step; parameters pushed against a bound stay there."""
+    """Damped Gauss-Newton step; parameters that would leave their range go to its end, the others answer to that."""
     free = ~(((z <= search.lower) & (gradient < 0)) | ((z >= search.upper) & (gradient > 0)))
     step = np.zeros_like(z)
-    for _ in range(z.size):
-        if not free.any():
-            break
+    low = np.maximum(search.lower - z, -_reach(search))
+    high = np.minimum(search.upper - z, _reach(search))
+    while free.any():
+        held = ~free
+        load = gradient[free] - curvature[np.ix_(free, held)] @ step[held]
         part = curvature[np.ix_(free, free)]
         scale = np.sqrt(np.maximum(np.diag(part), 1e-30))
-        scaled = part / np.outer(scale, scale)
-        solved = np.linalg.solve(scaled + damping * np.eye(scale.size) + 1e-14 * np.eye(scale.size), gradient[free] / scale)
-        step[:] = 0.0
-        step[free] = solved / scale
-        step = np.clip(step, -_reach(search), _reach(search))
-        out = free & ((z + step < search.lower) | (z + step > search.upper))
+        scaled = part / np.outer(scale, scale) + (damping + 1e-13) * np.eye(scale.size)
+        step[free] = np.linalg.solve(scaled, load / scale) / scale
+        out = free & ((step < low) | (step > high))
         if not out.any():
             break
-        bounded = np.clip(z + step, search.lower, search.upper)
-        step[out] = (bounded - z)[out]
-        break
-    return np.clip(z + step, search.lower, search.upper) - z
+        step[out] = np.clip(step, low, high)[out]
+        free &= ~out
+    return step
 
 
 def _reach(search: _Search) -> Array:

@@ -130,7 +130,7 @@ class Integrator {
     }
     if (pendulum_) {
       using std::sin;
-      t.torque -= motor_[pendulum_torque] * sin(x.angle);
+      t.torque -= motor_[pendulum_torque] * sin(s.position);
     }
     return t;
   }
@@ -264,7 +264,7 @@ class Integrator {
         rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration));
       }
     }
-    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 64);
+    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 16);
   }
 
   State step(const State& s, const S& h) { return varies_ ? nonlinear_step(s, h) : linear_step(s, h); }
