@@ -5,7 +5,8 @@ namespace rwn::bind {
 
 void bind_wavelets(py::module_& m) {
   m.def("wavelet_names", [] {
-    return std::apply([](auto... w) { return std::vector<std::string>{std::string(decltype(w)::name)...}; }, Wavelets{});
+    return std::apply([](auto... w) { return std::vector<std::string>{std::string(decltype(w)::name)...}; },
+                      Wavelets{});
   });
 }
 
