@@ -59,7 +59,7 @@ py::list effect_table() {
 
 py::tuple run(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
               const std::vector<int>& active, const std::vector<int>& by, double angle_per_position,
-              double input_before) {
+              double input_before, const Array& angle) {
   const auto n = time.size();
   const auto p = static_cast<py::ssize_t>(by.size());
   std::vector<Array> out;
@@ -72,7 +72,8 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
                             active,
                             by,
                             angle_per_position,
-                            input_before};
+                            input_before,
+                            view(angle)};
   const SimulationOutput output{view(out[0]), view(out[1]), view(out[2]), view(out[3]), view(out[4]), view(out[5])};
   SimulationStatus status;
   {
@@ -89,7 +90,7 @@ void bind_simulate(py::module_& m) {
   m.def("effect_table", &effect_table, "Every effect with its parameters, as the C++ table states them.");
   m.def("parameter_count", &parameter_count);
   m.def("simulate", &run, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(), "active"_a,
-        "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0,
+        "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
         "Returns status, current, speed, position (n) and their derivatives (n, p).");
 }
 

@@ -52,6 +52,7 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
   const std::size_t n = task.time.size();
   require(n >= 2, "simulate: at least two samples are needed");
   require(task.input.size() == n, "simulate: time and input differ in length");
+  require(task.angle.empty() || task.angle.size() == n, "simulate: time and angle differ in length");
   require(task.parameters.size() == static_cast<std::size_t>(parameter_count()),
           "simulate: wrong number of parameters");
   require(task.active.size() <= max_active_effects, "simulate: too many effects at once");
@@ -96,12 +97,25 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
   std::vector<int> column_of(static_cast<std::size_t>(parameter_count()), -1);
   for (int j = 0; j < columns; ++j) column_of[static_cast<std::size_t>(task.by[static_cast<std::size_t>(j)])] = j;
 
-  SimulationSlice slice{task.time.data(),        task.input.data(),          static_cast<int>(task.time.size()),
-                        task.parameters.data(),  task.active.data(),         static_cast<int>(task.active.size()),
-                        offsets().data(),        column_of.data(),           0,
-                        task.angle_per_position, task.input_before,          pointer(output.current),
-                        pointer(output.speed),   pointer(output.position),   pointer(output.d_current),
-                        pointer(output.d_speed), pointer(output.d_position), columns};
+  SimulationSlice slice{task.time.data(),
+                        task.input.data(),
+                        static_cast<int>(task.time.size()),
+                        task.parameters.data(),
+                        task.active.data(),
+                        static_cast<int>(task.active.size()),
+                        offsets().data(),
+                        column_of.data(),
+                        0,
+                        task.angle_per_position,
+                        task.input_before,
+                        task.angle.empty() ? nullptr : task.angle.data(),
+                        pointer(output.current),
+                        pointer(output.speed),
+                        pointer(output.position),
+                        pointer(output.d_current),
+                        pointer(output.d_speed),
+                        pointer(output.d_position),
+                        columns};
   int finite = slice.samples;
   do {
     const int width = width_for(columns - slice.column);

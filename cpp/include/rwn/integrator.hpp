@@ -53,6 +53,9 @@ class Integrator {
 
   bool linear() const { return !varies_ && !dry_ && !finishes_; }
 
+  /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
+  void follow(double offset) { offset_ = offset; }
+
   /// Fixes sliding or sticking of a state that has just been set.
   void settle(State& s) const {
     if (dry_) s.direction = value_of(s.x[w]) > 0.0 ? 1.0 : value_of(s.x[w]) < 0.0 ? -1.0 : 0.0;
@@ -108,7 +111,7 @@ class Integrator {
     if constexpr (kind == Kind::dc) x.current = s.x[0];
     x.speed = s.x[w];
     x.position = s.position;
-    x.angle = angle_per_position_ * s.position;
+    x.angle = angle_per_position_ * (s.position + offset_);
     x.angle_per_position = angle_per_position_;
     x.travel = s.position - start;
     x.hidden = s.hidden.data();
@@ -127,7 +130,7 @@ class Integrator {
     }
     if (pendulum_) {
       using std::sin;
-      t.torque -= motor_[pendulum_torque] * sin(x.angle);
+      t.torque -= motor_[pendulum_torque] * sin(s.position);
     }
     return t;
   }
@@ -261,7 +264,7 @@ class Integrator {
         rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration));
       }
     }
-    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 64);
+    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 16);
   }
 
   State step(const State& s, const S& h) { return varies_ ? nonlinear_step(s, h) : linear_step(s, h); }
@@ -450,7 +453,7 @@ class Integrator {
        rates_ = false;
   S base_friction_{}, inverse_inertia_{}, inverse_inductance_{};
   S input_{};
-  double time_ = 0.0;
+  double time_ = 0.0, offset_ = 0.0;
   Vector constants_{};
   bool constants_known_ = false;
   double constants_direction_ = 0.0;

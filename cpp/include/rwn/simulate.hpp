@@ -31,6 +31,8 @@ struct SimulationTask {
   std::span<const int> by;             // (p) parameters to differentiate by
   double angle_per_position = 1.0;     // 2 pi for a linear axis
   double input_before = 0.0;           // input before the first row (matters with an input delay)
+  std::span<const double> angle;       // (n) recorded position that angle-dependent effects follow instead of the
+                                       // simulated one, which drifts; empty: free run
 };
 
 /// Signals at the rows' times, before the new input acts; derivatives are (n, p) row-major. Empty spans are not

@@ -19,6 +19,7 @@ struct SimulationSlice {
   int column;
   double angle_per_position;
   double input_before;
+  const double* angle;  // recorded position, or null
   double *current, *speed, *position, *d_current, *d_speed, *d_position;
   int columns;  // row length of the derivative arrays
 };
@@ -50,6 +51,7 @@ class Simulation {
       if (!std::isfinite(value_of(state.x[Integrator<S, kind>::w])) || !std::isfinite(value_of(state.position)))
         return k;
       write(k, state);
+      if (slice_.angle != nullptr) integrator.follow(slice_.angle[k] - value_of(state.position));
       if (k + 1 < slice_.samples) advance(integrator, state, k);
     }
     return slice_.samples;

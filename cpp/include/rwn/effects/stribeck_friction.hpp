@@ -23,7 +23,7 @@ struct StribeckFriction {
                                                    .lower = 0.0,
                                                    .upper = 1.0,
                                                    .start = 0.08,
-                                                   .scale = Scale::torque,
+                                                   .scale = Scale::torque, .scan = {0.06, 0.08},
                                                    .strength = true},
                                          Parameter{.name = "stribeck_speed",
                                                    .unit = "rad/s",
@@ -32,7 +32,7 @@ struct StribeckFriction {
                                                    .upper = 0.5,
                                                    .start = 0.03,
                                                    .scale = Scale::speed,
-                                                   .scan = {0.01, 0.03, 0.1}}};
+                                                   .scan = {0.015, 0.05, 0.15}}};
   static constexpr bool dry = true;
 
   template <class S>
