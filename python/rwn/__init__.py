@@ -3,3 +3,14 @@
 from __future__ import annotations
 
 from rwn._core import __version__ as __version__
+from rwn.diagnose import diagnose as diagnose
+from rwn.diagnosis import Diagnosis as Diagnosis
+from rwn.errors import InputError as InputError
+from rwn.identify import Fit as Fit
+from rwn.identify import identify as identify
+from rwn.model import Model as Model
+from rwn.model import read_model as read_model
+from rwn.recording import Recording as Recording
+from rwn.recording import read_recording as read_recording
+from rwn.simulation import Simulation as Simulation
+from rwn.simulation import simulate as simulate

@@ -28,6 +28,8 @@ def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.
     """
     Returns status, current, speed, position (n) and their derivatives (n, p).
     """
+def simulation_advice(arg0: str) -> str:
+    ...
 def wavelet_names() -> list[str]:
     ...
 __version__: str = '0.1.0'
