@@ -6,6 +6,9 @@ namespace rwn::bind {
 void bind_normal_equations(py::module_& m);
 void bind_simulate(py::module_& m);
 void bind_wavelets(py::module_& m);
+void bind_conventional_network(py::module_& m);
+void bind_initialisation(py::module_& m);
+void bind_trainers(py::module_& m);
 }  // namespace rwn::bind
 
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
@@ -16,4 +19,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   bind_normal_equations(m);
   bind_simulate(m);
   bind_wavelets(m);
+  bind_conventional_network(m);
+  bind_initialisation(m);
+  bind_trainers(m);
 }

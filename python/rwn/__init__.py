@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rwn._core import __version__ as __version__
+from rwn.conventional_network import ConventionalNetwork as ConventionalNetwork
 from rwn.diagnose import diagnose as diagnose
 from rwn.diagnosis import Diagnosis as Diagnosis
 from rwn.errors import InputError as InputError
@@ -14,3 +15,5 @@ from rwn.recording import Recording as Recording
 from rwn.recording import read_recording as read_recording
 from rwn.simulation import Simulation as Simulation
 from rwn.simulation import simulate as simulate
+from rwn.training import Training as Training
+from rwn.wavelets import Wavelet as Wavelet
