@@ -4,6 +4,10 @@
 
 namespace rwn::bind {
 void bind_wavelets(py::module_& m);
+void bind_recurrent_network(py::module_& m);
+void bind_structured_network(py::module_& m);
+void bind_rates(py::module_& m);
+void bind_online_training(py::module_& m);
 }  // namespace rwn::bind
 
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
@@ -12,4 +16,8 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.attr("__version__") = RWN_VERSION;
   m.def("isa", [] { return std::string(rwn::to_string(rwn::isa())); }, "Instruction set in use.");
   bind_wavelets(m);
+  bind_recurrent_network(m);
+  bind_structured_network(m);
+  bind_rates(m);
+  bind_online_training(m);
 }
