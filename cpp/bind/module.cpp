@@ -9,6 +9,10 @@ void bind_wavelets(py::module_& m);
 void bind_conventional_network(py::module_& m);
 void bind_initialisation(py::module_& m);
 void bind_trainers(py::module_& m);
+void bind_recurrent_network(py::module_& m);
+void bind_structured_network(py::module_& m);
+void bind_rates(py::module_& m);
+void bind_online_training(py::module_& m);
 }  // namespace rwn::bind
 
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
@@ -22,4 +26,8 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   bind_conventional_network(m);
   bind_initialisation(m);
   bind_trainers(m);
+  bind_recurrent_network(m);
+  bind_structured_network(m);
+  bind_rates(m);
+  bind_online_training(m);
 }

@@ -16,4 +16,10 @@ from rwn.recording import read_recording as read_recording
 from rwn.simulation import Simulation as Simulation
 from rwn.simulation import simulate as simulate
 from rwn.training import Training as Training
+from rwn.online_training import OnlineTraining as OnlineTraining
+from rwn.online_training import train_recurrent as train_recurrent
+from rwn.online_training import train_structured as train_structured
+from rwn.recurrent_network import RecurrentNetwork as RecurrentNetwork
+from rwn.structured_network import MotorParameters as MotorParameters
+from rwn.structured_network import StructuredNetwork as StructuredNetwork
 from rwn.wavelets import Wavelet as Wavelet
