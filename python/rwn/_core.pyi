@@ -2,9 +2,32 @@
 C++ core of rwn; use the classes of the rwn package, which check their input and explain themselves.
 """
 from __future__ import annotations
+import collections.abc
+import numpy
+import numpy.typing
+import typing
+class Plant:
+    """
+    The blind trials' motor, one sample at a time.
+    """
+    def __init__(self, parameters: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex], sample_time: typing.SupportsFloat | typing.SupportsIndex, voltage_scale: typing.SupportsFloat | typing.SupportsIndex, substeps: typing.SupportsInt | typing.SupportsIndex, fineness: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def sample(self) -> typing.Annotated[list[float], "FixedSize(6)"]:
+        ...
+    def step(self, voltage: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def substeps(self) -> int:
+        ...
 def isa() -> str:
     """
     Instruction set in use.
+    """
+def plant_parameter_names() -> list[str]:
+    ...
+def plant_run(parameters: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex], voltage: numpy.typing.NDArray[numpy.float64], sample_time: typing.SupportsFloat | typing.SupportsIndex, substeps: typing.SupportsInt | typing.SupportsIndex, fineness: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Rows of (current, speed, position, sensed current, sensed speed, temperature rise), one per voltage.
     """
 def wavelet_names() -> list[str]:
     ...
