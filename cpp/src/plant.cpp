@@ -52,7 +52,8 @@ double Plant::fastest_rate(double voltage_scale) const {
   const double motor_side = p_.inertia - p_.load_inertia;
   if (two_mass_) {
     const double reduced = motor_side * p_.load_inertia / p_.inertia;
-    rate = std::max(rate, std::sqrt(p_.stiffness / reduced) + p_.damping / reduced);
+    const double impacts = p_.gap > 0.0 ? 4.0 : 1.0;  // the contact force jumps
+    rate = std::max(rate, impacts * (std::sqrt(p_.stiffness / reduced) + p_.damping / reduced));
   }
   if (p_.absorber_inertia > 0.0) {
     const double reduced = p_.inertia * p_.absorber_inertia / (p_.inertia + p_.absorber_inertia);

@@ -149,7 +149,7 @@ class Problem:
 
 
 ENOUGH = 1.02  # a rival that leaves less than this, in noise units, reproduces the recordings
-HOPELESS = 1.5  # after a first look: not worth a longer fit
+PROMISING = 0.8  # of what the refitted nominal model leaves, after a first look: worth a longer fit
 STRENGTHS = (0.1, 1.0)  # of the effect where a fit starts
 
 
@@ -161,13 +161,13 @@ def fit_rival(
     uncertainty: Values,
     noise: Noise,
     situation: Situation,
-    near: Values,
+    near: Fit,
     known: Values,
     rng: np.random.Generator,
 ) -> float:
     """What the best fit of a candidate effect leaves, in noise units over all signals.
 
-    Starts from the refitted nominal values `near`, with the effect weak and strong; what a fit cannot move (a
+    Starts from the nominal values of the refit `near`, with the effect weak and strong; what a fit cannot move (a
     number of periods) is taken from `known` where it is there. A short look decides about a long fit.
     """
     best = np.inf
@@ -185,10 +185,10 @@ def fit_rival(
             effect=effect,
             start=start,
         )
-        guess = problem.pack(near)
-        fit, found = problem.solve(evaluations=5, guess=guess)
-        if fit.total < HOPELESS:
-            fit, _ = problem.solve(evaluations=15, guess=found)
+        guess = problem.pack(near.nominal)
+        fit, found = problem.solve(evaluations=7, guess=guess)
+        if fit.total < max(1.0 + PROMISING * (near.total - 1.0), 1.2):
+            fit, _ = problem.solve(evaluations=20, guess=found)
         best = min(best, fit.total)
         if best < ENOUGH:
             break

@@ -122,7 +122,7 @@ class _Composer:
                     uncertainty=nominal.uncertainty,
                     noise=noise,
                     situation=self.scene.situation,
-                    near=fit.nominal,
+                    near=fit,
                     known=values,
                     rng=self.rng,
                 ),

@@ -78,11 +78,10 @@ def _draw_backlash(rng: Rng, s: Situation) -> Values:
     return {
         "gap": min(s.speed * s.motor.time_constant * log_uniform(rng, 0.03, 0.5), 0.5),
         "load_inertia": s.motor.inertia * rng.uniform(0.25, 0.6),
+        # The closed gap: teeth on a stiff shaft, faster than any drive of the table [rad/s], damping.
+        "contact_rate": log_uniform(rng, 800.0, 2500.0),
+        "contact_damping": rng.uniform(0.2, 0.6),
     }
-
-
-CONTACT_RATE = 1200.0  # the closed gap's natural frequency [rad/s] and damping ratio: hard steel teeth seen
-CONTACT_DAMPING = 0.4  # through a stiff shaft, several times faster than any drive of the table
 
 
 def _backlash(values: Values, nominal: Values) -> Values:
@@ -90,8 +89,8 @@ def _backlash(values: Values, nominal: Values) -> Values:
     reduced = _reduced(load, nominal["inertia"])
     return _behind(load, nominal) | {
         "gap": values["gap"],
-        "stiffness": reduced * CONTACT_RATE**2,
-        "damping": 2.0 * CONTACT_DAMPING * reduced * CONTACT_RATE,
+        "stiffness": reduced * values["contact_rate"] ** 2,
+        "damping": 2.0 * values["contact_damping"] * reduced * values["contact_rate"],
     }
 
 
@@ -150,6 +149,7 @@ EFFECTS = (
         build=_backlash,
         scale=times("gap"),
         limits={"gap": (0.0, 3.0)},
+        fixed=frozenset({"contact_rate", "contact_damping"}),
         rivals=("shaft-compliance", "presliding-hysteresis", "resonance-absorber"),
         two_mass=True,
     ),
