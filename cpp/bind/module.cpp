@@ -5,6 +5,7 @@
 namespace rwn::bind {
 void bind_normal_equations(py::module_& m);
 void bind_simulate(py::module_& m);
+void bind_plant(py::module_& m);
 void bind_wavelets(py::module_& m);
 void bind_conventional_network(py::module_& m);
 void bind_initialisation(py::module_& m);
@@ -22,6 +23,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.def("isa", [] { return std::string(rwn::to_string(rwn::isa())); }, "Instruction set in use.");
   bind_normal_equations(m);
   bind_simulate(m);
+  bind_plant(m);
   bind_wavelets(m);
   bind_conventional_network(m);
   bind_initialisation(m);
