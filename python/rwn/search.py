@@ -59,6 +59,10 @@ class Search:
         this = candidate(self.nominal, (), self.scales)
         return Fitted(added=(), candidate=this, minimum=fit(self.problem, this))
 
+    def fit_start(self) -> Candidate:
+        """The nominal structure as given, not fitted."""
+        return candidate(self.nominal, (), self.scales)
+
     def map(self, function: Callable[[Candidate], Minimum], candidates: Sequence[Candidate]) -> list[Minimum]:
         """Independent fits side by side; the core releases the interpreter."""
         if self.jobs <= 1:
