@@ -26,8 +26,9 @@ def _write(path: Path, header: str, rows: int = 60, delimiter: str = ",", decima
 @pytest.mark.parametrize(
     ("unit", "factor"),
     [
-        ("rad/s", 1.0), ("rpm", np.pi / 30), ("RPM", np.pi / 30), ("1/min", np.pi / 30), ("deg/s", np.pi / 180),
-        ("°/s", np.pi / 180), ("rev/s", 2 * np.pi), ("turn/s", 2 * np.pi), ("krpm", 100 * np.pi / 3),
+        ("rad/s", 1.0), ("rpm", np.pi / 30), ("RPM", np.pi / 30), ("1/min", np.pi / 30),
+        ("deg/s", np.pi / 180), ("°/s", np.pi / 180), ("rev/s", 2 * np.pi), ("turn/s", 2 * np.pi),
+        ("krpm", 100 * np.pi / 3),
     ],
 )  # fmt: skip
 def test_speed_units(tmp_path: Path, unit: str, factor: float) -> None:
