@@ -79,7 +79,7 @@ def in_si(table: Table, name: str, column: Column, *, linear: bool) -> Array:
     """The values of signal `name` in SI."""
     signal = COLUMNS[name]
     unit = _unit(table, name, column)
-    scale = units.factor(unit, _si(signal, linear), where=f"{table.path}, column '{column.source}'")
+    scale = units.factor(unit, si_unit(signal, linear), where=f"{table.path}, column '{column.source}'")
     values: Array = table.columns[column.source] * (column.scale * scale)
     return values
 
@@ -95,7 +95,7 @@ def _unit(table: Table, name: str, column: Column) -> str:
         )
     unit = column.unit if column.unit is not None else table.units[column.source]
     if not unit:
-        shown = f"{column.source} [{_si(COLUMNS[name], False)}]"
+        shown = f"{column.source} [{si_unit(COLUMNS[name], False)}]"
         raise InputError(
             f"column '{column.source}' has no unit",
             where=table.path,
@@ -105,5 +105,6 @@ def _unit(table: Table, name: str, column: Column) -> str:
     return units.product(unit, column.scale_unit)
 
 
-def _si(signal: Signal, linear: bool) -> str:
+def si_unit(signal: Signal, linear: bool) -> str:
+    """SI unit of a signal on a rotary drive or a linear axis."""
     return (signal.linear_unit if linear else signal.unit) or signal.unit or signal.linear_unit

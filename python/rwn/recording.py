@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rwn.errors import InputError
 from rwn.formats import FORMATS, MAX_BYTES, Table
-from rwn.layout import Layout, column_map, in_si, is_linear
+from rwn.layout import Layout, column_map, in_si, is_linear, si_unit
 from rwn.samples import check_samples
 from rwn.signals import COLUMNS, SIGNALS, TIME, meant
 
@@ -162,3 +162,11 @@ def _counted_time(table: Table, layout: Layout) -> Array:
         )
     samples = len(next(iter(table.columns.values()), ()))
     return np.arange(samples, dtype=np.float64) * layout.sample_time
+
+
+def write_csv(path: str | Path, time: Array, signals: Mapping[str, Array], *, linear: bool = False) -> None:
+    """Write signals in SI as a CSV that `read_recording` reads back."""
+    units = {name: si_unit(COLUMNS[name], linear) for name in (TIME.name, *signals)}
+    header = ",".join(f"{name} [{unit}]" for name, unit in units.items())
+    values = np.column_stack([time, *signals.values()])
+    np.savetxt(path, values, fmt="%.9g", delimiter=",", header=header, comments="")
