@@ -7,8 +7,16 @@ from hypothesis import strategies as st
 
 from networks import random_network, relative, wavelets
 from rwn import Wavelet, _core
+from rwn.initialisation import DyadicGrid
 from rwn.reference import trainers as reference
-from rwn.trainers import TRAINERS, GradientDescent, LevenbergMarquardt, PatternDescent, VariableProjection
+from rwn.trainers import (
+    TRAINERS,
+    GradientDescent,
+    LevenbergMarquardt,
+    PatternDescent,
+    PatternGaussNewton,
+    VariableProjection,
+)
 
 shapes = st.fixed_dictionaries(
     {"inputs": st.integers(1, 3), "wavelets": st.integers(1, 12), "outputs": st.integers(1, 2)}
@@ -34,9 +42,7 @@ def test_gradient_descent_parity(wavelet: Wavelet, shape: dict[str, int], seed: 
 
 @settings(deadline=None, max_examples=15)
 @given(wavelets, shapes, seeds)
-def test_pattern_descent_parity_over_1000_samples(
-    wavelet: Wavelet, shape: dict[str, int], seed: int
-) -> None:
+def test_pattern_descent_parity_over_1000_samples(wavelet: Wavelet, shape: dict[str, int], seed: int) -> None:
     network, twin, rng = random_network(wavelet, **shape, seed=seed)
     x, y = rng.normal(size=(250, shape["inputs"])), rng.normal(size=(250, shape["outputs"]))
     options = {"rate": 1e-4, "momentum": 0.6, "shape_momentum": 0.8, "iterations": 4}
@@ -44,6 +50,31 @@ def test_pattern_descent_parity_over_1000_samples(
     want, history = reference.pattern_descent(twin, x, y, **options)
     assert relative(training.network.parameters, want.parameters) < 1e-12
     assert relative(training.mse, np.array(history)) < 1e-12
+
+
+@settings(deadline=None, max_examples=10)
+@given(wavelets, shapes, seeds)
+def test_pattern_gauss_newton_parity_over_1000_samples(
+    wavelet: Wavelet, shape: dict[str, int], seed: int
+) -> None:
+    network, twin, rng = random_network(wavelet, **shape, seed=seed)
+    x, y = rng.normal(size=(1000, shape["inputs"])), rng.normal(size=(1000, shape["outputs"]))
+    trainer = PatternGaussNewton(
+        noise=1.0, weight_prior=0.2, shape_prior=0.02, forgetting=0.999, iterations=1
+    )
+    shapes_prior = np.abs(np.tile(network.d.ravel(), 2)) * 0.02
+    prior = np.concatenate([np.full(network.parameters.size - shapes_prior.size, 0.2), shapes_prior])
+    want = reference.pattern_gauss_newton(twin, x, y, prior=prior, noise=1.0, forgetting=0.999)
+    assert relative(trainer.train(network, x, y).network.parameters, want.parameters) < 1e-10  # other formula
+
+
+def test_pattern_gauss_newton_is_recursive_least_squares_on_a_linear_problem() -> None:
+    truth, _, rng = random_network(Wavelet(), inputs=2, wavelets=1, outputs=1, seed=3)
+    x = rng.normal(size=(50, 2))
+    flat = truth.with_parameters(truth.parameters * np.r_[1, 1, 1, 0, 1, 1, 1, 1])
+    start = truth.with_parameters(truth.parameters * np.r_[0, 0, 0, 0, 1, 1, 1, 1])
+    training = PatternGaussNewton(noise=1e-6, shape_prior=1e-9, iterations=1).train(start, x, flat.output(x))
+    assert training.frozen_mse < 1e-12
 
 
 @settings(deadline=None, max_examples=15)
@@ -73,9 +104,22 @@ def test_second_order_trainers_return_to_a_planted_network(name: str) -> None:
     truth, _, rng = random_network(Wavelet(), inputs=2, wavelets=4, outputs=1, seed=1)
     x = rng.normal(size=(150, 2))
     start = truth.with_parameters(truth.parameters + 0.05 * rng.normal(size=truth.parameters.size))
-    training = TRAINERS[name](iterations=200).train(start, x, truth.output(x))
+    options = {"resolution": 0.0} if name == "variable-projection" else {}
+    training = TRAINERS[name](iterations=200, **options).train(start, x, truth.output(x))
     assert training.frozen_mse < 1e-24
     assert (np.diff(training.mse) <= 0).all()
+
+
+def test_variable_projection_keeps_dilations_where_the_patterns_tell_them_apart() -> None:
+    x = np.linspace(0, 1, 21)
+    y = np.sign(x - 0.47)  # asks for a jump between two patterns
+    start = DyadicGrid().start(Wavelet(), x, y, wavelets=7)
+    kept, loose = (
+        np.abs(VariableProjection(resolution=r).train(start, x, y).network.d) for r in (1.0, 0.0)
+    )
+    assert kept.min() >= 1 / 21
+    assert kept.max() <= 4
+    assert loose.min() < 1 / 21 or loose.max() > 4
 
 
 @pytest.mark.parametrize(
@@ -104,6 +148,7 @@ def test_every_outcome_is_a_status_with_advice(trainer: GradientDescent, status:
         (lambda: GradientDescent(rate=0.0), "rate must be positive"),
         (lambda: PatternDescent(shape_momentum=1.0), r"shape_momentum must be in \[0, 1\)"),
         (lambda: LevenbergMarquardt(beta=1.0), "beta must be above 1"),
+        (lambda: PatternGaussNewton(forgetting=1.5), r"forgetting must be in \(0, 1\]"),
         (lambda: VariableProjection(iterations=-1), "iterations must not be negative"),
     ],
 )

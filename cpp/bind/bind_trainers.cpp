@@ -34,6 +34,14 @@ void bind_trainers(py::module_& m) {
         },
         "network"_a, "x"_a.noconvert(), "y"_a.noconvert(), py::kw_only(), "rate"_a, "momentum"_a, "shape_momentum"_a,
         "iterations"_a, "target"_a, "stall"_a, release);
+  m.def("pattern_gauss_newton",
+        [](const ConventionalNetwork& network, const RowMatrixRef& x, const RowMatrixRef& y, double noise, double weight_prior,
+           double shape_prior, double forgetting, int iterations, double target, double stall) {
+          return PatternGaussNewton{noise, weight_prior, shape_prior, forgetting, iterations, target, stall}.train(network, x,
+                                                                                                                  y);
+        },
+        "network"_a, "x"_a.noconvert(), "y"_a.noconvert(), py::kw_only(), "noise"_a, "weight_prior"_a, "shape_prior"_a,
+        "forgetting"_a, "iterations"_a, "target"_a, "stall"_a, release);
   m.def("levenberg_marquardt",
         [](const ConventionalNetwork& network, const RowMatrixRef& x, const RowMatrixRef& y, double mu, double beta,
            int iterations, double target, double stall) {
@@ -43,10 +51,10 @@ void bind_trainers(py::module_& m) {
         "stall"_a, release);
   m.def("variable_projection",
         [](const ConventionalNetwork& network, const RowMatrixRef& x, const RowMatrixRef& y, double mu, double beta,
-           int iterations, double target, double stall) {
-          return train(VariableProjection{mu, beta, iterations, target, stall}, network, x, y);
+           double resolution, int iterations, double target, double stall) {
+          return train(VariableProjection{mu, beta, resolution, iterations, target, stall}, network, x, y);
         },
-        "network"_a, "x"_a.noconvert(), "y"_a.noconvert(), py::kw_only(), "mu"_a, "beta"_a, "iterations"_a, "target"_a,
+        "network"_a, "x"_a.noconvert(), "y"_a.noconvert(), py::kw_only(), "mu"_a, "beta"_a, "resolution"_a, "iterations"_a, "target"_a,
         "stall"_a, release);
 }
 

@@ -99,6 +99,22 @@ TEST(PatternDescent, ReportsTheFrozenErrorBesideTheTrackingError) {
   EXPECT_NE(t.frozen_mse, t.mse.back());
 }
 
+TEST(PatternGaussNewton, ReturnsToThePlantedNetwork) {
+  const Problem p = planted({2, 4, 2});
+  const Training t = PatternGaussNewton{.noise = 1e-2, .iterations = 100}.train(p.start, p.x, p.y);
+  EXPECT_LT(t.frozen_mse, 1e-8);
+}
+
+TEST(PatternGaussNewton, AllocatesNothingInItsLoop) {
+  const Problem p = planted({2, 7, 1});
+  const auto count = [&](int n) {
+    const long before = allocations();
+    (void)PatternGaussNewton{.iterations = n}.train(p.start, p.x, p.y);
+    return allocations() - before;
+  };
+  EXPECT_EQ(count(2), count(20));
+}
+
 TEST(LevenbergMarquardt, ReturnsToThePlantedNetwork) {
   const Problem p = planted({2, 4, 2});
   const Training t = LevenbergMarquardt{.iterations = 200}.train(p.start, Patterns(p.x, p.y));
@@ -116,7 +132,7 @@ TEST(LevenbergMarquardt, NeverRaisesTheError) {
 
 TEST(VariableProjection, ReturnsToThePlantedNetwork) {
   const Problem p = planted({2, 4, 2});
-  const Training t = VariableProjection{.iterations = 100}.train(p.start, Patterns(p.x, p.y));
+  const Training t = VariableProjection{.resolution = 0.0, .iterations = 100}.train(p.start, Patterns(p.x, p.y));
   EXPECT_LT(t.frozen_mse, 1e-24);
 }
 

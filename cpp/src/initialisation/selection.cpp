@@ -33,8 +33,43 @@ Eigen::MatrixXd candidates(const Wavelet& wavelet, const Shapes& library, const 
   return values;
 }
 
-/// Takes the direction of unit length q out of every column.
-void remove(Eigen::Ref<Eigen::MatrixXd> columns, const Eigen::VectorXd& q) { columns -= q * (q.transpose() * columns); }
+/// What is left of y, and of every candidate's squared length, outside the span of the directions taken so far. The
+/// candidates themselves stay as they are: the residual is orthogonal to the span, so its products with them are right.
+class Remainder {
+ public:
+  Remainder(const Eigen::MatrixXd& values, const RowMatrixRef& y, Eigen::Index directions)
+      : values_(values), residual_(y), energy_(values.colwise().squaredNorm()), left_(energy_), span_(y.rows(), directions) {}
+
+  void take_out(Eigen::VectorXd direction) {
+    for (int twice = 0; twice < 2; ++twice) {  // once leaves rounding errors of the size of the overlap
+      direction -= span_.leftCols(taken_) * (span_.leftCols(taken_).transpose() * direction);
+    }
+    if (!(direction.norm() > 0.0)) {
+      return;
+    }
+    span_.col(taken_) = direction.normalized();
+    const auto q = span_.col(taken_++);
+    left_ -= (q.transpose() * values_).array().square().matrix();
+    residual_ -= q * (q.transpose() * residual_);
+  }
+
+  /// The candidate that explains most of what is left; -1 if none is independent.
+  Eigen::Index best() const {
+    const Eigen::ArrayXd explained = (residual_.transpose() * values_).colwise().squaredNorm().transpose();
+    const Eigen::ArrayXd left = left_.transpose();
+    const auto independent = left > 1e-10 * energy_.transpose().array() + 1e-300;
+    Eigen::Index at = -1;
+    const double score = independent.select(explained / left.max(1e-300), -1.0).maxCoeff(&at);
+    return score < 0.0 ? -1 : at;
+  }
+
+ private:
+  const Eigen::MatrixXd& values_;
+  Eigen::MatrixXd residual_;
+  Eigen::RowVectorXd energy_, left_;
+  Eigen::MatrixXd span_;
+  Eigen::Index taken_ = 0;
+};
 
 }  // namespace
 
@@ -62,35 +97,20 @@ Shapes wavelet_library(const RowMatrixRef& x, int levels, double zeta) {
 
 std::vector<int> select_wavelets(const Wavelet& wavelet, const Shapes& library, const RowMatrixRef& x,
                                  const RowMatrixRef& y, int wavelets) {
-  Eigen::MatrixXd values = candidates(wavelet, library, x);
-  const Eigen::VectorXd energy = values.colwise().squaredNorm().transpose();
-  Eigen::MatrixXd residual = y;
-  const auto take_out = [&](const Eigen::VectorXd& direction) {
-    const Eigen::VectorXd q = direction.normalized();
-    remove(values, q);
-    remove(residual, q);
-  };
-  Eigen::MatrixXd linear(x.rows(), 1 + x.cols());
-  linear << Eigen::VectorXd::Ones(x.rows()), x;
-  for (Eigen::Index i = 0; i < linear.cols(); ++i) {
-    const Eigen::VectorXd direction = linear.col(i);
-    take_out(direction);
-    remove(linear, direction.normalized());
+  const Eigen::MatrixXd values = candidates(wavelet, library, x);
+  Remainder remainder(values, y, 1 + x.cols() + wavelets);
+  remainder.take_out(Eigen::VectorXd::Ones(x.rows()));
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    remainder.take_out(x.col(i));
   }
   std::vector<int> chosen;
   for (int n = 0; n < wavelets; ++n) {
-    const Eigen::ArrayXd left = values.colwise().squaredNorm().transpose();
-    const Eigen::ArrayXd explained = (residual.transpose() * values).colwise().squaredNorm().transpose();
-    const auto independent = left > 1e-10 * energy.array() + 1e-300;
-    Eigen::Index best = 0;
-    const double score = independent.select(explained / left.max(1e-300), -1.0).maxCoeff(&best);
-    if (score < 0.0) {
+    const Eigen::Index best = remainder.best();
+    if (best < 0) {
       break;
     }
     chosen.push_back(static_cast<int>(best));
-    const Eigen::VectorXd direction = values.col(best);
-    take_out(direction);
-    values.col(best).setZero();
+    remainder.take_out(values.col(best));
   }
   return chosen;
 }

@@ -2,6 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace rwn {
 namespace {
@@ -78,6 +81,32 @@ class Projection {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors_;
 };
 
+/// Dilations between which a wavelet means something on these patterns, along every input.
+struct DilationRange {
+  Eigen::VectorXd narrow, wide;
+
+  DilationRange(const Patterns& patterns, double resolution) : narrow(patterns.inputs()), wide(patterns.inputs()) {
+    const PatternsView view = patterns.view();
+    const double along = std::pow(patterns.count(), 1.0 / patterns.inputs());  // if they filled a grid
+    for (int i = 0; i < patterns.inputs(); ++i) {
+      const Eigen::Map<const Eigen::VectorXd> x(view.x + i * view.padded, patterns.count());
+      const double range = x.maxCoeff() - x.minCoeff();
+      narrow[i] = resolution * range / along;
+      wide[i] = resolution > 0.0 ? widest * range : std::numeric_limits<double>::infinity();
+    }
+  }
+
+  void hold(Eigen::VectorXd& parameters, const ConventionalShape& shape) const {
+    for (int at = 0; at < shape.wavelets * shape.inputs; ++at) {
+      double& d = parameters[shape.d() + at];
+      const int i = at % shape.inputs;
+      d = std::copysign(std::clamp(std::abs(d), narrow[i], std::max(narrow[i], wide[i])), d);
+    }
+  }
+
+  static constexpr double widest = 4.0;  // wider wavelets are straight lines over the range, one like the other
+};
+
 }  // namespace
 
 Training VariableProjection::train(ConventionalNetwork network, const Patterns& patterns) const {
@@ -88,6 +117,10 @@ Training VariableProjection::train(ConventionalNetwork network, const Patterns& 
   const double per_error = 1.0 / (patterns.count() * patterns.outputs());
   Eigen::MatrixXd squared(shapes, shapes);
   Eigen::VectorXd gradient(shapes);
+  const DilationRange range(patterns, resolution);
+  if (iterations > 0) {
+    range.hold(network.parameters(), shape);
+  }
   ConventionalNetwork trial = network;
   double squares = projection.solve(network);
   double damping = mu;
@@ -100,6 +133,7 @@ Training VariableProjection::train(ConventionalNetwork network, const Patterns& 
           (squared + (damping * scale).asDiagonal().toDenseMatrix()).ldlt().solve(gradient);
       trial.parameters() = network.parameters();
       trial.parameters().tail(shapes) += step;
+      range.hold(trial.parameters(), shape);
       tried = step.allFinite() ? projection.solve(trial) : squares;
       if (tried < squares) {
         break;

@@ -54,6 +54,21 @@ def pattern_descent(
     return network, history
 
 
+def pattern_gauss_newton(
+    network: ConventionalNetwork, x: Array, y: Array, *, prior: Array, noise: float, forgetting: float
+) -> ConventionalNetwork:
+    """One pass of recursive least squares on the linearised network, covariance form; prior: deviations."""
+    covariance = np.diag(prior**2)
+    for p in range(len(x)):
+        for k in range(y.shape[1]):
+            row = network.jacobian(x[p : p + 1])[0, k]
+            error = y[p, k] - network.output(x[p : p + 1])[0, k]
+            gain = covariance @ row / (forgetting * noise**2 + row @ covariance @ row)
+            covariance = (covariance - np.outer(gain, row @ covariance)) / forgetting
+            network = network.with_parameters(network.parameters + gain * error)
+    return network
+
+
 def levenberg_marquardt(
     network: ConventionalNetwork, x: Array, y: Array, *, mu: float, beta: float, iterations: int
 ) -> Run:

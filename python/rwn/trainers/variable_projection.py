@@ -20,6 +20,9 @@ class VariableProjection:
 
     mu: first damping, relative to the diagonal of J^T J.
     beta: factor of the damping, above 1.
+    resolution: dilations stay above this many mean distances of the patterns and below 4 ranges of the input;
+        a narrower wavelet fits one pattern and says nothing between them, a wider one is a straight line.
+        0 lets them go.
     iterations: most Jacobians.
     target: MSE at which to stop.
     stall: relative change of the MSE over 100 iterations below which to stop; -1 never stops.
@@ -28,6 +31,7 @@ class VariableProjection:
     name: ClassVar[str] = "variable-projection"
     mu: float = 1e-3
     beta: float = 4.0
+    resolution: float = 1.0
     iterations: int = 100
     target: float = 0.0
     stall: float = 1e-12

@@ -9,7 +9,7 @@ namespace rwn {
 Shapes wavelet_library(const RowMatrixRef& x, int levels, double zeta);
 
 /// Orthogonal least squares over a library: after the regressors 1 and x, the wavelet that takes most of what is left of y
-/// is chosen, and the others are made orthogonal to it (modified Gram-Schmidt; Oussar & Dreyfus 2000).
+/// is chosen, and y and the others are taken orthogonal to it (Gram-Schmidt; Oussar & Dreyfus 2000).
 /// \return the chosen rows of the library, in the order of choice; fewer if nothing independent is left
 std::vector<int> select_wavelets(const Wavelet& wavelet, const Shapes& library, const RowMatrixRef& x,
                                  const RowMatrixRef& y, int wavelets);
