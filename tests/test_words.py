@@ -50,7 +50,8 @@ def test_a_loss_is_not_called_a_gain() -> None:
 
 
 @pytest.mark.parametrize(
-    ("share", "text"), [(0.0, "0 %"), (0.034, "3.4 %"), (0.87, "87 %"), (0.996, "99.6 %"), (0.99999, "> 99.9 %")]
+    ("share", "text"),
+    [(0.0, "0 %"), (0.034, "3.4 %"), (0.87, "87 %"), (0.996, "99.6 %"), (0.99999, "> 99.9 %")],
 )
 def test_percentages(share: float, text: str) -> None:
     assert words.percent(share) == text
