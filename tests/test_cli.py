@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import hashlib
 import subprocess
 import sys
 import time
@@ -89,6 +90,9 @@ def test_diagnose_writes_the_three_files(run: Run, monkeypatch: pytest.MonkeyPat
     assert sorted(f.name for f in folder.iterdir()) == ["corrected.toml", "diagnosis.json", "report.html"]
     assert read_model(folder / "corrected.toml") == read_model("model.toml")
     assert Diagnosis.from_json((folder / "diagnosis.json").read_bytes()).verdict == "missing-physics"
+    report = (folder / "report.html").read_text(encoding="utf-8")
+    assert "--heldout b.csv" in report
+    assert hashlib.sha256((tmp_path / "a.csv").read_bytes()).hexdigest()[:12] in report
     assert out.startswith("The model lacks Coulomb friction")
     assert "coulomb_torque = 20.8 ± 0.5 mN m" in out
 

@@ -47,3 +47,16 @@ def test_a_loss_is_not_called_a_gain() -> None:
     found = made_up.found()
     worse = replace(found, heldout=(replace(found.heldout[0], gain=-0.2),))
     assert "increases" in words.verdict_sentence(worse)
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0.0, "0 %"), (0.034, "3.4 %"), (0.87, "87 %"), (0.996, "99.6 %"), (0.99999, "> 99.9 %")],
+)
+def test_percentages(share: float, text: str) -> None:
+    assert words.percent(share) == text
+
+
+@pytest.mark.parametrize(("probability", "text"), [(1.0, "> 99 %"), (0.97, "97 %"), (1e-9, "< 1 %")])
+def test_no_probability_is_certainty(probability: float, text: str) -> None:
+    assert words.likelihood(probability) == text

@@ -5,7 +5,9 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import os
+import shlex
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -50,6 +52,7 @@ def diagnose(
     from rwn.check import read_recordings
     from rwn.model import read_model
     from rwn.output import output_folder
+    from rwn.provenance import source
 
     with output_folder(out, overwrite=overwrite) as aside:
         nominal = read_model(model)
@@ -57,6 +60,12 @@ def diagnose(
         fitted, judged = files[: len(recordings)], files[len(recordings) :]
         with _progress() as progress:
             found = _rwn().diagnose(fitted, nominal, heldout=judged, seed=seed, jobs=jobs, progress=progress)
+        used = [
+            source(model, "model"),
+            *(source(r, "fit") for r in fitted),
+            *(source(r, "heldout") for r in judged),
+        ]
+        found = replace(found, sources=tuple(used), command=shlex.join(["rwn", *sys.argv[1:]]))
         _write_results(found, aside)
     _print_verdict(found, out)
 

@@ -177,12 +177,14 @@ class Diagnosis:
     command: str = ""
     seed: int = 0
     version: str = ""
-    elapsed: float = 0.0  # [s]; left out of the JSON, which depends on input and seed alone
+    elapsed: float = 0.0  # [s]; like command, left out of the JSON
     corrected: Any = None  # the corrected rwn.Model; written to corrected.toml, left out of the JSON
 
     def to_json(self) -> bytes:
-        """`diagnosis.json`: every field but `corrected` and `elapsed`; NaN in a curve becomes null."""
-        plain = msgspec.to_builtins(_without(self, ("corrected", "elapsed")), enc_hook=_encode_array)
+        """`diagnosis.json`: what depends on input and seed alone. NaN in a curve becomes null."""
+        plain = msgspec.to_builtins(
+            _without(self, ("command", "corrected", "elapsed")), enc_hook=_encode_array
+        )
         return msgspec.json.format(msgspec.json.encode(plain), indent=1) + b"\n"
 
     @classmethod

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from rwn.diagnosis import Diagnosis, Estimate, FoundEffect
+from rwn.diagnosis import Diagnosis, Estimate, FoundEffect, HeldoutRow
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
@@ -93,7 +93,16 @@ def _rounded_together(value: float, half: float) -> tuple[str, str, str]:
 def percent(share: float) -> str:
     """A share as a percentage with no more digits than it deserves."""
     value = 100 * share
+    if 99 <= abs(value) < 100:
+        return f"{value:.1f} %" if abs(value) < 99.95 else ("−" if value < 0 else "") + "> 99.9 %"
     return f"{value:.0f} %" if abs(value) >= 10 or value == 0 else f"{value:.1f} %"
+
+
+def likelihood(probability: float) -> str:
+    """A probability as a percentage that never claims certainty."""
+    return (
+        "> 99 %" if probability > 0.99 else "< 1 %" if probability < 0.01 else percent(round(probability, 2))
+    )
 
 
 def plain_name(effect: str) -> str:
@@ -127,7 +136,7 @@ def _missing(found: Diagnosis) -> str:
         return f"The model lacks {names}; these recordings cannot tell which.{_gain(found)}"
     parts = [_with_parameters(effect) for effect in found.effects]
     probability = min((effect.probability for effect in found.effects), default=0.0)
-    return f"The model lacks {listing(parts)} (probability {percent(probability)}).{_gain(found)}"
+    return f"The model lacks {listing(parts)} (probability {likelihood(probability)}).{_gain(found)}"
 
 
 def _with_parameters(effect: FoundEffect) -> str:
@@ -157,12 +166,20 @@ def _mistake(found: Diagnosis) -> str:
     return f"The recordings contradict themselves before any physics is missing: {names}."
 
 
+def headline(found: Diagnosis) -> HeldoutRow | None:
+    """The held-out row that says most in one figure: all of the first recording, speed before position."""
+    rows = [row for row in found.heldout if row.region == "all"]
+    order = ("speed", "position", "current")
+    rows = [row for row in rows if row.recording == rows[0].recording]
+    return min(
+        rows, key=lambda row: order.index(row.signal) if row.signal in order else len(order), default=None
+    )
+
+
 def _gain(found: Diagnosis) -> str:
-    rows = [row for row in found.heldout if row.region == "all" and row.gain is not None]
-    if not rows:
+    row = headline(found)
+    if row is None or row.gain is None:
         return ""
-    row = rows[0]
-    assert row.gain is not None
     does = "reduces" if row.gain >= 0 else "increases"
     where = f"the {row.signal} error on {row.recording}, not used for fitting"
     return f" Adding it {does} {where}, by {percent(abs(row.gain))}."

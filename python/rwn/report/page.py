@@ -70,11 +70,14 @@ def _facts(found: Diagnosis) -> str:
     if found.effects:
         likely = min(effect.probability for effect in found.effects)
         facts.append(
-            (words.percent(likely), "probability of " + ("this name" if len(found.effects) == 1 else "these"))
+            (
+                words.likelihood(likely),
+                "probability of " + ("this name" if len(found.effects) == 1 else "these"),
+            )
         )
     elif found.adequate_probability is not None:
-        facts.append((words.percent(found.adequate_probability), "probability that nothing is missing"))
-    row = next((row for row in found.heldout if row.region == "all"), None)
+        facts.append((words.likelihood(found.adequate_probability), "probability that nothing is missing"))
+    row = words.headline(found)
     if row is not None:
         last = row.refitted if row.corrected is None else row.corrected
         scale, unit = words.prefix_for(max(row.nominal, last), row.unit)

@@ -22,7 +22,7 @@ COLOURS = {
     "corrected": "#0b7285",
     "before": "#c8384a",
     "after": "#0b7285",
-    "reference": "#868e96",
+    "reference": "#e8590c",
     "noise-floor": "#adb5bd",
 }
 _DASHES = {"reference": "dash", "noise-floor": "dot", "nominal": "dash"}
@@ -64,6 +64,7 @@ def _scale(unit: str, values: list[Array]) -> tuple[float, str]:
 
 
 def _axis(label: str, unit: str) -> dict[str, Any]:
+    label = label[:1].upper() + label[1:]
     return {
         "title": {"text": f"{label} [{unit}]" if unit else label, "standoff": 8},
         "gridcolor": "#e9ecef",

@@ -23,11 +23,11 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], *, numbers_from: i
     return f'<div class="scroll"><table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
-def bar(share: float, colour: str) -> str:
-    """A share as a bar with its figure."""
+def bar(share: float, colour: str, text: str = "") -> str:
+    """A share as a bar with its figure, or `text` in its place."""
     width = 100 * min(max(share, 0.0), 1.0)
     fill = f'<span style="width:{width:.1f}%;background:{colour}"></span>'
-    return f'<span class="bar">{fill}</span> {words.percent(share)}'
+    return f'<span class="bar">{fill}</span> {escape(text or words.percent(share))}'
 
 
 def effect_table(effects: Sequence[FoundEffect]) -> str:
@@ -41,7 +41,13 @@ def effect_table(effects: Sequence[FoundEffect]) -> str:
         name = f"<b>{escape(words.plain_name(effect.name))}</b><div class=note>{escape(effect.meaning)}</div>"
         formula = f"<code>{escape(effect.formula)}</code>" if effect.formula else ""
         rows.append(
-            [name, escape(effect.equation), formula, values or "–", bar(effect.probability, "#0b7285")]
+            [
+                name,
+                escape(effect.equation),
+                formula,
+                values or "–",
+                bar(effect.probability, "#0b7285", words.likelihood(effect.probability)),
+            ]
         )
     return table(("Effect", "Equation", "Law", "Parameters (95 %)", "Probability"), rows, numbers_from=9)
 
@@ -55,7 +61,7 @@ def alternative_table(found: Diagnosis) -> str:
                 if other.effects
                 else "nothing missing"
             ),
-            bar(other.probability, "#868e96"),
+            bar(other.probability, "#868e96", words.likelihood(other.probability)),
             escape(other.separated_by) or "–",
         ]
         for other in found.alternatives
@@ -109,7 +115,8 @@ def _heldout_row(row: HeldoutRow) -> list[str]:
         shown[2] = f"<b>{shown[2]}</b>"
     gain = "–" if row.gain is None else words.percent(row.gain).replace("-", "−")
     if row.gain_interval is not None:
-        low, high = (f"{100 * bound:.0f}".replace("-", "−") for bound in row.gain_interval)
+        digits = 1 if row.gain is not None and abs(row.gain) > 0.97 else 0
+        low, high = (f"{100 * bound:.{digits}f}".replace("-", "−") for bound in row.gain_interval)
         gain += f" <span class=note>[{low}, {high}]</span>"
     return [escape(row.recording), escape(row.region), escape(row.signal), str(row.samples), *shown, gain]
 
