@@ -59,7 +59,8 @@ py::list effect_table() {
 
 py::tuple run(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
               const std::vector<int>& active, const std::vector<int>& by, double angle_per_position,
-              double input_before, const Array& angle) {
+              double input_before, const Array& angle, int restart_every, const Array& restart_speed,
+              const Array& restart_position) {
   const auto n = time.size();
   const auto p = static_cast<py::ssize_t>(by.size());
   std::vector<Array> out;
@@ -73,7 +74,10 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
                             by,
                             angle_per_position,
                             input_before,
-                            view(angle)};
+                            view(angle),
+                            restart_every,
+                            view(restart_speed),
+                            view(restart_position)};
   const SimulationOutput output{view(out[0]), view(out[1]), view(out[2]), view(out[3]), view(out[4]), view(out[5])};
   SimulationStatus status;
   {
@@ -93,7 +97,8 @@ void bind_simulate(py::module_& m) {
     return std::string(advice(status == "ok" ? SimulationStatus::ok : SimulationStatus::diverged));
   });
   m.def("simulate", &run, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(), "active"_a,
-        "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
+        "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0), "restart_every"_a = 0,
+        "restart_speed"_a = Array(0), "restart_position"_a = Array(0),
         "Returns status, current, speed, position (n) and their derivatives (n, p).");
 }
 

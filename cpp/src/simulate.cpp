@@ -53,6 +53,9 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
   require(n >= 2, "simulate: at least two samples are needed");
   require(task.input.size() == n, "simulate: time and input differ in length");
   require(task.angle.empty() || task.angle.size() == n, "simulate: time and angle differ in length");
+  require(task.restart_every == 0 ||
+              (task.restart_every > 0 && task.restart_speed.size() == n && task.restart_position.size() == n),
+          "simulate: windows need the recorded motion at every sample");
   require(task.parameters.size() == static_cast<std::size_t>(parameter_count()),
           "simulate: wrong number of parameters");
   require(task.active.size() <= max_active_effects, "simulate: too many effects at once");
@@ -109,6 +112,9 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         task.angle_per_position,
                         task.input_before,
                         task.angle.empty() ? nullptr : task.angle.data(),
+                        task.restart_every,
+                        task.restart_speed.data(),
+                        task.restart_position.data(),
                         pointer(output.current),
                         pointer(output.speed),
                         pointer(output.position),

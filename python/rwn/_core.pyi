@@ -169,6 +169,10 @@ def impulse_sums(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2,
     """
     Sums over r of |C A^r e1| and |C A^r e2|.
     """
+def inverse_dynamics(parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex, time: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], acceleration: numpy.typing.NDArray[numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Driving torque (n) that the model needs for a motion.
+    """
 def isa() -> str:
     """
     Instruction set in use.
@@ -188,6 +192,8 @@ def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input
 def parameter_count() -> int:
     ...
 def pattern_descent(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, rate: typing.SupportsFloat | typing.SupportsIndex, momentum: typing.SupportsFloat | typing.SupportsIndex, shape_momentum: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
+    ...
+def pattern_gauss_newton(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, noise: typing.SupportsFloat | typing.SupportsIndex, weight_prior: typing.SupportsFloat | typing.SupportsIndex, shape_prior: typing.SupportsFloat | typing.SupportsIndex, forgetting: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
 def plant_gain(a11: typing.SupportsFloat | typing.SupportsIndex, a12: typing.SupportsFloat | typing.SupportsIndex, a21: typing.SupportsFloat | typing.SupportsIndex, a22: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float]:
     """
@@ -223,7 +229,7 @@ def train_structured(network: StructuredNetwork, input: typing.Annotated[numpy.t
     ...
 def trainer_names() -> list[str]:
     ...
-def variable_projection(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, mu: typing.SupportsFloat | typing.SupportsIndex, beta: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
+def variable_projection(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, mu: typing.SupportsFloat | typing.SupportsIndex, beta: typing.SupportsFloat | typing.SupportsIndex, resolution: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
 def wavelet_library(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], levels: typing.SupportsInt | typing.SupportsIndex, zeta: typing.SupportsFloat | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
     ...

@@ -64,7 +64,8 @@ def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, 
                 meaning=effect.meaning,
             )
         )
-    return tuple(rows)
+    alone = {h.fitted.added[0]: h.fitted.cost for h in found.hypotheses if len(h.fitted.added) == 1}
+    return tuple(sorted(rows, key=lambda row: alone.get(row.name, np.inf)))
 
 
 def nominal_fit(found: Explanation, chosen: Hypothesis, model: Model) -> NominalFit:

@@ -27,9 +27,9 @@ from rwn.search import Fitted, Search
 Array = NDArray[np.float64]
 Progress = Callable[[str, float], None]
 
-AT_THE_FLOOR = 1.4  # coloured energy of a residual that may still be measurement noise
 REMOVED = 0.85  # share of the removable squared error that a name has to remove
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
+WORTH = 0.2  # share of what is left that another effect has to remove
 MOST_EFFECTS = 3
 
 
@@ -91,19 +91,22 @@ def explain(setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[
     wanted = [n for n in names or table() if _applies(n, setup)]
     progress("trying every effect", 0.1)
     fits = search.explain(nominal, wanted)
+    if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
+        offset = next(f for f in search.explain(nominal, ["constant-load"]))
+        fits = _distinct([*fits, *search.explain(offset, wanted)])
     search, nominal, fits = _reweighted(search, nominal, fits)
     before = evidence.statistics(search.problem, nominal)
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
     layer = fits[:3]
     for size in range(2, MOST_EFFECTS + 1):
-        if at_the_floor(left) or not layer:
+        if left.at_the_floor or not layer:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
         more = [f for base in layer for f in search.explain(base, wanted, keep=1)]
         more = _distinct(more)
         gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
-        if gained < 0.02 * left.variance:
+        if gained < WORTH * left.variance:
             break
         fits += more
         best = min(fits, key=lambda f: f.cost)
@@ -138,15 +141,12 @@ def _applies(name: str, setup: Setup) -> bool:
 
 def _prior(setup: Setup) -> dict[str, float]:
     """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis."""
-    return {"constant-load": 0.5 if setup.problem.kind == "axis" else -3.0}
+    return {"constant-load": np.log(len(table())) + 1.0 if setup.problem.kind == "axis" else -3.0}
 
 
 def _with_noise(search: Search, fitted: Fitted) -> Search:
     problem = search.problem
     levels = noise_levels(problem.targets, problem.residuals(fitted.vector, fitted.candidate.active))
-    if len(problem.targets[0].time) < 100 < sum(t.time.size for t in problem.targets):  # windows: pool them
-        joined = evidence.join(replace(problem, noise={}), problem.residuals(fitted.vector, fitted.candidate.active))
-        levels = noise_levels(problem.targets[:1], [joined])
     return replace(search, problem=replace(problem, noise=levels))
 
 
@@ -170,11 +170,6 @@ def _distinct(fits: list[Fitted]) -> list[Fitted]:
     return list(seen.values())
 
 
-def at_the_floor(left: Statistics) -> bool:
-    """Whether a residual may be measurement noise and nothing else."""
-    return left.coloured < AT_THE_FLOOR or left.variance < 1.05
-
-
 def _choose(found: Explanation) -> Hypothesis:
     """The most probable explanation; the nominal model where the gain is not material."""
     first = found.hypotheses[0]
@@ -188,7 +183,7 @@ def verdict_of(found: Explanation, chosen: Hypothesis) -> Verdict:
     nominal = next(h for h in found.hypotheses if not h.fitted.added)
     count = max(found.left.count, 1)
     before, after = nominal.fitted.minimum.chi2 / count, chosen.fitted.minimum.chi2 / count
-    left_over = not at_the_floor(found.left)
+    left_over = not found.left.at_the_floor
     if not chosen.fitted.added:
         return "unexplained" if left_over and after > 1.0 + 2.0 * MATERIAL else "adequate"
     removed = 1.0 - max(after - 1.0, 0.0) / max(before - 1.0, 1e-12)
@@ -283,7 +278,7 @@ def _lead(h: Hypothesis, chosen: Hypothesis) -> str:
 
 def _warnings(found: Explanation, chosen: Hypothesis, verdict: Verdict) -> tuple[str, ...]:
     texts = []
-    if verdict == "missing-physics" and not at_the_floor(found.left):
+    if verdict == "missing-physics" and not found.left.at_the_floor:
         texts.append(
             f"something smaller is left over: the residual of the corrected model is coloured "
             f"({found.left.effective:.0f} independent samples of {found.left.count})"

@@ -13,6 +13,9 @@ from rwn.search import Fitted
 
 Array = NDArray[np.float64]
 
+AT_THE_FLOOR = 1.4  # coloured energy of a residual that may still be measurement noise
+MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it is worth
+
 
 @dataclass(frozen=True, kw_only=True)
 class Statistics:
@@ -22,6 +25,11 @@ class Statistics:
     variance: float  # mean squared weighted error; 1: the noise alone
     correlation_time: float  # integrated autocorrelation time, in samples; 1: white
     coloured: float  # energy of block means against that of white noise; 1: white
+
+    @property
+    def at_the_floor(self) -> bool:
+        """Whether the residual may be measurement noise and nothing else."""
+        return self.coloured < AT_THE_FLOOR or self.variance < 1.05
 
     @property
     def effective(self) -> float:
@@ -94,7 +102,8 @@ def weigh(
     BIC with the effective number of samples of the best explanation's residual (coloured residuals carry less), a
     uniform prior over how many effects are missing, shared over the `rivals` names. `prior`: log prior odds per name.
     """
-    scale = 2.0 * max(left.variance, 1.0) * left.correlation_time
+    effective = left.effective if left.at_the_floor else min(left.effective, MISSPECIFIED)
+    scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
     least = min(f.cost for f in fits)
     base = min(seen(f) for f in fits)
     scores = []
@@ -103,7 +112,7 @@ def weigh(
         names = sum((prior or {}).get(name, 0.0) for name in f.added)
         scores.append(
             -(f.cost - least) / scale
-            - 0.5 * unknowns * np.log(max(left.effective, 2.0))
+            - 0.5 * unknowns * np.log(max(effective, 2.0))
             - len(f.added) * np.log(rivals)
             + names
         )
@@ -118,5 +127,4 @@ def weigh(
 
 def seen(fitted: Fitted) -> int:
     """Unknowns that the recordings respond to at all."""
-    curvature = np.diag(fitted.minimum.data_information) * np.maximum(np.abs(fitted.minimum.values), 1e-300) ** 2
-    return int(np.sum(curvature > 1e-6)) if curvature.size else 0
+    return int(np.sum(np.diag(fitted.minimum.data_information) > 0.0))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rwn.diagnosis import HeldoutRow
 from rwn.evidence import correlation_time
+from rwn.inverse_dynamics import force_error
 from rwn.output_error import OutputError, Target
 from rwn.prepare import motion, noise_levels
 
@@ -47,7 +48,27 @@ def heldout_rows(
                     continue
                 parts = [run[signal][chosen] for run in runs]
                 rows.append(_row(target, region, signal, units, parts, floor[signal], corrected is not None, seed))
+        if problem.kind == "axis":
+            rows += _force_row(problem, target, [c for c in (nominal, refitted, corrected) if c is not None], seed)
     return tuple(rows)
+
+
+def _force_row(problem: OutputError, target: Target, contenders: list[Contender], seed: int) -> list[HeldoutRow]:
+    """Error of the inverse dynamics relative to the driving force, in percent of its norm."""
+    parts = [force_error(problem, target, c.vector, list(c.active)) for c in contenders]
+    errors, force = [e for e, _ in parts], parts[0][1]
+    if not force.size:
+        return []
+    percent = [100.0 * float(np.linalg.norm(e) / np.linalg.norm(force)) for e in errors]
+    found = len(percent) == 3
+    return [
+        HeldoutRow(
+            recording=target.name, region="all", signal="driving force", unit="%", samples=force.size,
+            nominal=percent[0], refitted=percent[1], corrected=percent[2] if found else None, noise_floor=None,
+            gain=1.0 - percent[2] / percent[1] if found else None,
+            gain_interval=gain_interval(errors[1], errors[2], seed=seed) if found else None,
+        )
+    ]  # fmt: skip
 
 
 def _errors(problem: OutputError, target: Target, contender: Contender) -> dict[str, Array]:

@@ -103,7 +103,7 @@ def windows(problem: OutputError, motor: Array, residuals: Sequence[dict[str, Ar
     counts = np.concatenate([[0.0], np.cumsum(weight)])
     i, j = np.triu_indices(bins + 1, 2)
     n, whole = counts[j] - counts[i], counts[-1]
-    gain = np.where((n > 0) & (n < whole), (sums[j] - sums[i]) ** 2 / np.maximum(n * (1.0 - n / whole), 1e-9), 0.0)
+    gain = np.where((n > 0) & (n < whole), (sums[j] - sums[i]) ** 2 / np.maximum(n * (1.0 - n / max(whole, 1.0)), 1e-9), 0.0)
     found: list[tuple[float, float]] = []
     for k in np.argsort(gain)[::-1]:
         if all(abs(i[k] - p) + abs(j[k] - q) > bins / 6 for p, q in found):

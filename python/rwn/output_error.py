@@ -34,6 +34,9 @@ class Target:
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     input_before: float = 0.0
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
+    restart_every: int = 0  # samples of a window after which the motion restarts from the recorded one; 0: free run
+    restart_speed: Array = field(default_factory=lambda: _NONE)
+    restart_position: Array = field(default_factory=lambda: _NONE)
 
     def signal(self, name: str) -> Array:
         """A recorded signal by name; empty where it was not recorded."""
@@ -82,7 +85,8 @@ class OutputError:
         """Free run of one recording; speed as it was measured."""
         status, *arrays = _core.simulate(
             self.kind, target.time, target.input, self.parameters_for(target, vector), list(active), list(by),
-            self.angle_per_position, target.input_before, target.angle,
+            self.angle_per_position, target.input_before, target.angle, target.restart_every,
+            target.restart_speed, target.restart_position,
         )  # fmt: skip
         signals = dict(zip(SIGNALS, arrays[:3], strict=True))
         slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
@@ -108,6 +112,7 @@ class OutputError:
                 self.kind, target.time, target.input, self.parameters_for(target, vector), list(active), list(by),
                 target.current, target.speed, target.position, weights, target.speed_is_difference,
                 self.angle_per_position, target.input_before, target.angle,
+                target.restart_every, target.restart_speed, target.restart_position,
             )  # fmt: skip
             finite = finite and status == "ok"
             chi2, count, gradient, curvature = chi2 + c, count + n, gradient + g, curvature + h

@@ -49,7 +49,7 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     outputs = [_with_motion(t, whole.simulate(t, vector, []).signals) for t in targets]
     problem = whole
     if model.kind == "axis" and model.recording.initial == "estimate":
-        problem = replace(whole, targets=tuple(w for t in targets for w in windows(t)))
+        problem = replace(whole, targets=tuple(windowed(t) if t.position.size else t for t in targets))
     return Setup(nominal=nominal, whole=whole, problem=problem, scales=scales(model.kind, vector, targets, outputs))
 
 
@@ -101,30 +101,14 @@ def lattice(signal: Array) -> float:
     return step if np.percentile(off, 90) < 0.1 else 0.0
 
 
-def windows(whole: Target, length: int = WINDOW) -> list[Target]:
-    """Windows of `length` samples, each starting from the smoothed recorded state (multiple shooting)."""
-    speed = motion(whole)[0]
-    places = range(0, whole.time.size - length, length)
-    return [_cut(whole, a, a + length + 1, float(speed[a])) for a in places]
-
-
-def _cut(whole: Target, a: int, b: int, speed: float) -> Target:
-    part = slice(a, b)
-
-    def cut(signal: Array) -> Array:
-        return np.ascontiguousarray(signal[part]) if signal.size else signal
-
-    start = float(whole.position[a]) if whole.position.size else 0.0
+def windowed(whole: Target, length: int = WINDOW) -> Target:
+    """The same recording in windows of `length` samples, each starting from the smoothed recorded motion."""
     return replace(
         whole,
-        time=cut(whole.time) - whole.time[a],
-        input=cut(whole.input),
-        current=cut(whole.current),
-        speed=cut(whole.speed),
-        position=cut(whole.position),
-        angle=cut(whole.angle),
-        start=(0.0, speed, start),
-        input_before=float(whole.input[max(a - 1, 0)]),
+        restart_every=length,
+        restart_speed=np.ascontiguousarray(motion(whole)[0]),
+        restart_position=np.ascontiguousarray(whole.position),
+        start=(0.0, float(motion(whole)[0][0]), float(whole.position[0])),
     )
 
 

@@ -33,6 +33,8 @@ struct SimulationTask {
   double input_before = 0.0;           // input before the first row (matters with an input delay)
   std::span<const double> angle;       // (n) recorded position that angle-dependent effects follow instead of the
                                        // simulated one, which drifts; empty: free run
+  int restart_every = 0;               // samples of a window, after which the motion restarts from the recorded one
+  std::span<const double> restart_speed, restart_position;  // (n) recorded motion; not read where restart_every is 0
 };
 
 /// Signals at the rows' times, before the new input acts; derivatives are (n, p) row-major. Empty spans are not

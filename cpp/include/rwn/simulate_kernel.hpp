@@ -20,6 +20,9 @@ struct SimulationSlice {
   double angle_per_position;
   double input_before;
   const double* angle;  // recorded position, or null
+  int restart_every;    // 0: never
+  const double* restart_speed;
+  const double* restart_position;
   double *current, *speed, *position, *d_current, *d_speed, *d_position;
   int columns;  // row length of the derivative arrays
 };
@@ -51,6 +54,11 @@ class Simulation {
       if (!std::isfinite(value_of(state.x[Integrator<S, kind>::w])) || !std::isfinite(value_of(state.position)))
         return k;
       write(k, state);
+      if (slice_.restart_every > 0 && k > 0 && k % slice_.restart_every == 0) {
+        state.x[w] = S(slice_.restart_speed[k]);
+        state.position = S(slice_.restart_position[k]);
+        integrator.settle(state);
+      }
       if (slice_.angle != nullptr) integrator.follow(slice_.angle[k] - value_of(state.position));
       if (k + 1 < slice_.samples) advance(integrator, state, k);
     }

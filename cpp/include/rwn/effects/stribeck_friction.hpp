@@ -39,7 +39,8 @@ struct StribeckFriction {
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
     using std::exp;
     const S ratio = x.speed / p[2];
-    t.friction += p[0] + (p[1] - p[0]) * exp(-(ratio * ratio));
+    t.friction += p[0];
+    if (value_of(p[1]) > value_of(p[0])) t.friction += (p[1] - p[0]) * exp(-(ratio * ratio));
   }
   template <class S>
   static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double acceleration) {
