@@ -6,6 +6,19 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
+class Plant:
+    """
+    The blind trials' motor, one sample at a time.
+    """
+    def __init__(self, parameters: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex], sample_time: typing.SupportsFloat | typing.SupportsIndex, voltage_scale: typing.SupportsFloat | typing.SupportsIndex, substeps: typing.SupportsInt | typing.SupportsIndex, fineness: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def sample(self) -> typing.Annotated[list[float], "FixedSize(6)"]:
+        ...
+    def step(self, voltage: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def substeps(self) -> int:
+        ...
 class Wavelet:
     def __init__(self, name: str, omega0: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
@@ -52,14 +65,110 @@ class Training:
     @property
     def status(self) -> str:
         ...
+class RecurrentNetwork:
+    def __init__(self, theta: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], inputs: typing.SupportsInt | typing.SupportsIndex, wavelet: Wavelet) -> None:
+        ...
+    def sensitivities(self, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"]) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
+        ...
+    def simulate(self, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
+    @property
+    def theta(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
+class StructuredNetwork:
+    def __init__(self, theta: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], wavelet: Wavelet) -> None:
+        ...
+    def sensitivities(self, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
+        ...
+    def simulate(self, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
+    @property
+    def plant(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 2]"]:
+        ...
+    @property
+    def theta(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
+class FixedRates:
+    def __init__(self, values: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None:
+        ...
+class ThesisRates:
+    def __init__(self, *, fraction: typing.SupportsFloat | typing.SupportsIndex, maxima: str, shared: bool, printed: bool) -> None:
+        ...
+class ImpulseResponseRates:
+    def __init__(self, *, fraction: typing.SupportsFloat | typing.SupportsIndex, shared: bool) -> None:
+        ...
+class NormalisedRates:
+    def __init__(self, *, fraction: typing.SupportsFloat | typing.SupportsIndex, regularisation: typing.SupportsFloat | typing.SupportsIndex, scales: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None:
+        ...
+class RateReport:
+    @property
+    def condition(self) -> float:
+        ...
+    @property
+    def defective(self) -> int:
+        ...
+    @property
+    def recurrence(self) -> float:
+        ...
+    @property
+    def recurrent(self) -> int:
+        ...
+    @property
+    def samples(self) -> int:
+        ...
+    @property
+    def smallest_dilation(self) -> float:
+        ...
+    @property
+    def spectral_radius(self) -> float:
+        ...
+    @property
+    def unstable(self) -> int:
+        ...
+class OnlineHistory:
+    @property
+    def advice(self) -> str:
+        ...
+    @property
+    def bounds(self) -> list[float]:
+        ...
+    @property
+    def frozen_after(self) -> list[int]:
+        ...
+    @property
+    def mse_frozen(self) -> list[float]:
+        ...
+    @property
+    def mse_learning(self) -> list[float]:
+        ...
+    @property
+    def parameters(self) -> list[list[float]]:
+        ...
+    @property
+    def rates(self) -> list[list[float]]:
+        ...
+    @property
+    def report(self) -> RateReport:
+        ...
+    @property
+    def status(self) -> str:
+        ...
 def dyadic_grid(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex, finest: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
     ...
+def effect_table() -> list:
+    """
+    Every effect with its parameters, as the C++ table states them.
+    """
 def finest_scale(wavelets: typing.SupportsInt | typing.SupportsIndex) -> tuple[int, int]:
     ...
 def gradient_descent(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, rate: typing.SupportsFloat | typing.SupportsIndex, momentum: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
 def heuristic(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
     ...
+def impulse_sums(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 2]"]) -> tuple[float, float]:
+    """
+    Sums over r of |C A^r e1| and |C A^r e2|.
+    """
 def isa() -> str:
     """
     Instruction set in use.
@@ -68,15 +177,53 @@ def least_squares(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 
     ...
 def levenberg_marquardt(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, mu: typing.SupportsFloat | typing.SupportsIndex, beta: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
+def motor_parameter_table() -> list:
+    """
+    The motor's own parameters.
+    """
+def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], current: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"], speed_is_difference: bool = False, angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
+    """
+    Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.
+    """
+def parameter_count() -> int:
+    ...
 def pattern_descent(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, rate: typing.SupportsFloat | typing.SupportsIndex, momentum: typing.SupportsFloat | typing.SupportsIndex, shape_momentum: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
-def pattern_gauss_newton(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, noise: typing.SupportsFloat | typing.SupportsIndex, weight_prior: typing.SupportsFloat | typing.SupportsIndex, shape_prior: typing.SupportsFloat | typing.SupportsIndex, forgetting: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
+def plant_gain(a11: typing.SupportsFloat | typing.SupportsIndex, a12: typing.SupportsFloat | typing.SupportsIndex, a21: typing.SupportsFloat | typing.SupportsIndex, a22: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float]:
+    """
+    rho(A) and cond(M) in closed form.
+    """
+def plant_gain_by_eigen(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 2]"]) -> tuple[float, float]:
+    """
+    rho(A) and cond(M) from Eigen's eigendecomposition.
+    """
+def plant_parameter_names() -> list[str]:
     ...
+def plant_run(parameters: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex], voltage: numpy.typing.NDArray[numpy.float64], sample_time: typing.SupportsFloat | typing.SupportsIndex, substeps: typing.SupportsInt | typing.SupportsIndex, fineness: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Rows of (current, speed, position, sensed current, sensed speed, temperature rise), one per voltage.
+    """
+def rate_rules() -> list[tuple[str, str]]:
+    """
+    Name and guarantee of every learning-rate rule.
+    """
 def select_wavelets(wavelet: Wavelet, m: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], d: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
+    ...
+def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
+    """
+    Returns status, current, speed, position (n) and their derivatives (n, p).
+    """
+def simulation_advice(arg0: str) -> str:
+    ...
+def train_recurrent(network: RecurrentNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], *, rates: FixedRates | ThesisRates | ImpulseResponseRates | NormalisedRates, learn: typing.Annotated[collections.abc.Sequence[bool], "FixedSize(6)"], cycles: typing.SupportsInt | typing.SupportsIndex, frozen_every: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], OnlineHistory]:
+    ...
+def train_side_by_side(theta: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelet: Wavelet, rates: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, cycles: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]]:
+    ...
+def train_structured(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, rates: FixedRates | ThesisRates | ImpulseResponseRates | NormalisedRates, learn: typing.Annotated[collections.abc.Sequence[bool], "FixedSize(9)"], cycles: typing.SupportsInt | typing.SupportsIndex, frozen_every: typing.SupportsInt | typing.SupportsIndex, follow_state: bool) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], OnlineHistory]:
     ...
 def trainer_names() -> list[str]:
     ...
-def variable_projection(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, mu: typing.SupportsFloat | typing.SupportsIndex, beta: typing.SupportsFloat | typing.SupportsIndex, resolution: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
+def variable_projection(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, mu: typing.SupportsFloat | typing.SupportsIndex, beta: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
 def wavelet_library(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], levels: typing.SupportsInt | typing.SupportsIndex, zeta: typing.SupportsFloat | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
     ...

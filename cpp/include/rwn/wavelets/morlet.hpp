@@ -33,8 +33,7 @@ struct Morlet {
     using std::cos;
     using std::exp;
     using std::sin;
-    return exp(-0.5 * z * z) *
-           ((z * z - 1.0 - omega0 * omega0) * cos(omega0 * z) + 2.0 * omega0 * z * sin(omega0 * z));
+    return exp(-0.5 * z * z) * ((z * z - 1.0 - omega0 * omega0) * cos(omega0 * z) + 2.0 * omega0 * z * sin(omega0 * z));
   }
 };
 
