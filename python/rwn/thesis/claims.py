@@ -1,12 +1,12 @@
-"""Two findings that the thesis rests on, as claims over 20 seeds: dyadic beats heuristic; the Gaussian
-derivative is best.
+"""Claims over 20 seeds: dyadic beats heuristic; the Gaussian derivative is the best wavelet.
 
 The thesis draws them from single runs of Tables 1-2, 5-6 and of Tables 4, 8. Chosen here: both functions,
-7, 15 and 31 wavelets, mu 0.02 and 0.08, momentum 0.6, after 100, 1000 and (initialisation only) 10 000
-iterations of gradient descent; patterns and starts as in Tables 1 and 5. The wavelets start from the
-dyadic grid. A pair is won if the MSE is lower from the same seed; a run that diverged loses. The share of
-pairs is given by function and by number of iterations, since the claims hold in one place and not in
-another. "Best" is judged among three wavelets, with Morlet once at omega0 5 and once at 1.75.
+7, 15 and 31 wavelets, mu 0.02 and 0.08, momentum 0.6, after 100 and 1000 iterations of gradient descent
+(2.20 as printed); after 10 000 iterations the claim rows of Tables 1, 2, 5 and 6 speak. Patterns and
+starts as in Tables 1 and 5; the wavelets start from the dyadic grid. A pair is won if the MSE is lower
+from the same seed; a run that diverged loses. The share of pairs is given by function and by number of
+iterations, since the claims hold in one place and not in another. "Best" is judged among three wavelets,
+with Morlet once at omega0 5 and once at 1.75.
 """
 
 from __future__ import annotations
@@ -27,19 +27,18 @@ SIZES, RATES = (7, 15, 31), (0.02, 0.08)
 def run(settings: Settings) -> Outcome:
     """Counts the pairs that are won."""
     seeds = settings.pick(SEEDS, 2)
-    short, long, longest = settings.pick(100, 5), settings.pick(1000, 10), settings.pick(10_000, 20)
+    counts = (settings.pick(100, 5), settings.pick(1000, 10))
     rows: list[Row] = []
-    steps = [(name, n) for n in (short, long, longest) for name in TASKS]
+    steps = [(name, n) for n in counts for name in TASKS]
     for done, (name, iterations) in enumerate(steps):
         grid_wins = np.concatenate(list(_grid_wins(TASKS[name], iterations, seeds)))
         case = f"dyadic beats heuristic, {name}, {iterations} iterations"
         rows.append(claim_row("Tables 1, 2, 5, 6", case, float(grid_wins.mean()), grid_wins.size))
-        if iterations < longest:
-            mses = np.concatenate(list(_by_wavelet(TASKS[name], iterations, seeds)), axis=1)
-            for left_out, omega0 in ((3, "5"), (2, "1.75")):
-                best = np.argmin(np.delete(mses, left_out, axis=0), axis=0) == 0
-                case = f"gaussian derivative is best, Morlet omega0 {omega0}, {name}, {iterations} iterations"
-                rows.append(claim_row("Tables 4, 8", case, float(best.mean()), best.size, wanted=0.5))
+        mses = np.concatenate(list(_by_wavelet(TASKS[name], iterations, seeds)), axis=1)
+        for left_out, omega0 in ((3, "5"), (2, "1.75")):
+            best = np.argmin(np.delete(mses, left_out, axis=0), axis=0) == 0
+            case = f"gaussian derivative is best, Morlet omega0 {omega0}, {name}, {iterations} iterations"
+            rows.append(claim_row("Tables 4, 8", case, float(best.mean()), best.size, wanted=0.5))
         settings.progress((done + 1) / len(steps))
     return Outcome(rows=rows)
 

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rwn.thesis.experiment import Experiment, Figure, Outcome, Row, Settings, curve
+from rwn.thesis.experiment import Experiment, Figure, Outcome, Panel, Row, Settings, curve
 from rwn.thesis.functions import gaussian
 from rwn.thesis.offline import WAVELET_CASES, lines
 from rwn.thesis.online import Online, Sweep, history_figure, learn, rows_of, wanted_row
@@ -88,18 +88,23 @@ def _table_9(fine: Sweep, coarse: Sweep, settings: Settings) -> tuple[dict[str, 
 
 
 def _figures(fine: Sweep, first: Online, plain: dict[str, Online], better: Online) -> list[Figure]:
-    x = fine.x_test[:, 0]
-    shown = [curve(fine.y_test[:, 0], x, label="wanted", style="k--")]
-    for label, online in {
-        "descent, frozen": first,
-        "recursive Gauss-Newton, frozen": better,
-    }.items():
-        network = online.trainings[online.median].network
-        shown.append(curve(network.output(fine.x_test)[:, 0], x, label=label))
+    x, wanted = fine.x_test[:, 0], fine.y_test[:, 0]
+    outputs = {
+        label: online.trainings[online.median].network.output(fine.x_test)[:, 0]
+        for label, online in {"descent": first, "recursive Gauss-Newton": better}.items()
+    }
+    shown = [curve(wanted, x, label="wanted", style="k--")]
+    shown += [curve(y, x, label=f"{label}, frozen") for label, y in outputs.items()]
+    errors = [curve(np.abs(y - wanted), x, label=f"{label}, frozen") for label, y in outputs.items()]
+    error_panel = Panel(xlabel="x", ylabel="absolute error", curves=errors, log_y=True)
     return [
-        Figure(number=28, title="Gaussian function (2.27)", panels=[lines(curve(fine.y_test[:, 0], x))]),
+        Figure(number=28, title="Gaussian function (2.27)", panels=[lines(curve(wanted, x))]),
         history_figure(30, "MSE for approximation of the Gaussian function, online", {"descent": first}),
-        Figure(number=32, title="Output of the network after online training", panels=[lines(*shown)]),
+        Figure(
+            number=32,
+            title="Output of the network after online training",
+            panels=[lines(*shown), error_panel],
+        ),
         history_figure(33, "MSE with different wavelets, online, one input", plain),
     ]
 
