@@ -108,6 +108,13 @@ def test_a_finished_experiment_is_not_run_again(tmp_path: Path) -> None:
     assert tally(first) == {"reproduced": 1}
 
 
+def test_the_results_do_not_depend_on_the_number_of_jobs(tmp_path: Path) -> None:
+    chosen = [e for e in EXPERIMENTS if e.name in ("siso-size", "siso-rate", "siso-wavelets")]
+    alone = run(chosen, tmp_path / "alone", reduced=True)
+    together = run(chosen, tmp_path / "together", reduced=True, jobs=3)
+    assert [r.rows for r in alone] == [r.rows for r in together]
+
+
 @pytest.mark.parametrize("damage", ["", "{", "{}", json.dumps({"name": "one"})])
 def test_a_damaged_result_is_made_again(tmp_path: Path, damage: str) -> None:
     calls: list[int] = []

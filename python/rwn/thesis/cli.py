@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rwn.thesis.experiment import Experiment
 
 app = typer.Typer(help="Repeats the tables and figures of Zahidi's thesis.", no_args_is_help=True)
 
@@ -38,6 +44,7 @@ def run(
     reduced: Annotated[
         bool, typer.Option("--reduced", help="Small counts: a quick look, not a proof.")
     ] = False,
+    jobs: Annotated[int, typer.Option(min=1, help="Experiments at a time.")] = os.cpu_count() or 1,
     page: Annotated[Path | None, typer.Option(help="The page to write; default OUT/thesis.md.")] = None,
 ) -> None:
     """Runs experiments, prints the comparison and writes the page with its pictures."""
@@ -49,10 +56,10 @@ def run(
         experiments = select(table=table, figure=figure)
     except ValueError as error:
         raise typer.BadParameter(str(error)) from None
-    _run(experiments, out, reduced=reduced, page=page or out / "thesis.md")
+    _run(experiments, out, reduced=reduced, jobs=jobs, page=page or out / "thesis.md")
 
 
-def _run(experiments: list, out: Path, *, reduced: bool, page: Path) -> None:  # type: ignore[type-arg]
+def _run(experiments: Sequence[Experiment], out: Path, *, reduced: bool, jobs: int, page: Path) -> None:
     from rich.console import Console
     from rich.progress import Progress
 
@@ -69,6 +76,7 @@ def _run(experiments: list, out: Path, *, reduced: bool, page: Path) -> None:  #
             experiments,
             out,
             reduced=reduced,
+            jobs=jobs,
             progress=lambda e, share: bars.update(tasks[e.name], completed=share),
         )
     console.print(rich_table(results))

@@ -9,15 +9,18 @@ from __future__ import annotations
 
 from rwn.thesis.experiment import Experiment, Outcome, Settings
 from rwn.thesis.offline import MISO, compare_trainers, history_figure
-from rwn.trainers import GradientDescent, LevenbergMarquardt
+from rwn.trainers import GradientDescent, LevenbergMarquardt, Trainer
 
-LM = LevenbergMarquardt(mu=0.5, beta=8.0, iterations=100)
-GD = GradientDescent(rate=0.1, momentum=0.6, iterations=100)
+TRAINERS: dict[str, Trainer] = {
+    "LM": LevenbergMarquardt(mu=0.5, beta=8.0, iterations=100),
+    "gradient descent": GradientDescent(rate=0.1, momentum=0.6, iterations=100),
+}
+THESIS = {"LM": 2.628e-7, "gradient descent": 0.361}
 
 
 def run(settings: Settings) -> Outcome:
     """Trains with both."""
-    rows, runs = compare_trainers(MISO, "Table 7", LM, GD, (2.628e-7, 0.361), 31, settings)
+    rows, runs = compare_trainers(MISO, "Table 7", TRAINERS, THESIS, 31, settings)
     return Outcome(
         rows=rows, figures=[history_figure(26, "MSE for LM and gradient descent, two inputs", runs)]
     )

@@ -53,6 +53,18 @@ class Runs:
         """The training whose MSE is the (lower) median."""
         return self.trainings[int(np.argsort(self.mses)[(len(self.mses) - 1) // 2])]
 
+    def row(self, where: str, case: str, thesis: float, *, group: str, iterations: int) -> Row:
+        """The row of these runs."""
+        return median_row(
+            where,
+            case,
+            thesis,
+            self.mses,
+            count=f"{iterations} iterations, {len(self.mses)} seeds",
+            group=group,
+            reason=f"{where}, {case}: {self.reason(thesis)}.",
+        )
+
     def reason(self, thesis: float) -> str:
         """When the median run passed the thesis's value."""
         below = np.flatnonzero(self.median.mse <= thesis)
@@ -84,12 +96,12 @@ def history_figure(number: int, title: str, runs: dict[str, Runs]) -> Figure:
     return Figure(number=number, title=title, panels=[panel])
 
 
-def output_figure(number: int, title: str, task: Task, runs: dict[str, Runs]) -> Figure:
+def output_panel(task: Task, runs: dict[str, Runs]) -> Panel:
     """Wanted output and output of the median run of each setting; for one input."""
     x = task.x_test[:, 0]
     curves = [curve(task.y_test[:, 0], x, label="wanted", style="k--")]
     curves += [curve(r.median.network.output(task.x_test)[:, 0], x, label=label) for label, r in runs.items()]
-    return Figure(number=number, title=title, panels=[Panel(xlabel="x", ylabel="f(x)", curves=curves)])
+    return lines(*curves)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,6 +116,16 @@ class Case:
     dyadic: float
 
 
+# Readings of (2.20): the rate as printed, and times (1 - momentum), as in MATLAB's descent with momentum.
+PRINTED, MATLAB = "", ", mu (1 - gamma)"
+
+
+def descent(reading: str, *, rate: float, momentum: float, iterations: int) -> GradientDescent:
+    """Gradient descent in one of the readings of (2.20)."""
+    effective = rate * (1 - momentum) if reading == MATLAB else rate
+    return GradientDescent(rate=effective, momentum=momentum, iterations=iterations, stall=-1)
+
+
 def compare_initialisers(
     task: Task,
     where: str,
@@ -111,36 +133,31 @@ def compare_initialisers(
     figures: dict[int, str],
     settings: Settings,
     *,
+    readings: Sequence[str] = (PRINTED,),
     iterations: int = 10_000,
 ) -> Outcome:
-    """Tables 1, 2, 5, 6: each case with both initialisations, and the claim that dyadic beats heuristic, seed
-    by seed."""
+    """Tables 1, 2, 5, 6: each case with both initialisations, and the claim that dyadic beats heuristic."""
     seeds, count = settings.pick(SEEDS, 3), settings.pick(iterations, 60)
     rows: list[Row] = []
     panels: dict[str, dict[str, Runs]] = {"heuristic": {}, "dyadic-grid": {}}
-    won = 0
-    for done, case in enumerate(cases):
-        trainer = GradientDescent(rate=case.rate, momentum=case.momentum, iterations=count, stall=-1)
-        for way, thesis in ((Heuristic, case.heuristic), (DyadicGrid, case.dyadic)):
-            runs = train(task, way(linear=task.linear), trainer, wavelets=case.wavelets, seeds=seeds)
-            panels[way.name][case.label] = runs
-            rows.append(
-                median_row(
-                    where,
-                    f"{way.name}, {case.label}",
-                    thesis,
-                    runs.mses,
-                    count=f"{count} iterations, {seeds} seeds",
-                    group=way.name,
-                    reason=f"{where}, {way.name}, {case.label}: {runs.reason(thesis)}.",
+    for reading in readings:
+        won = 0
+        for case in cases:
+            trainer = descent(reading, rate=case.rate, momentum=case.momentum, iterations=count)
+            label = case.label + reading
+            for way, thesis in ((Heuristic, case.heuristic), (DyadicGrid, case.dyadic)):
+                runs = train(task, way(linear=task.linear), trainer, wavelets=case.wavelets, seeds=seeds)
+                panels[way.name][label] = runs
+                rows.append(
+                    runs.row(
+                        where, f"{way.name}, {label}", thesis, group=way.name + reading, iterations=count
+                    )
                 )
-            )
-        both = (panels[way][case.label].mses for way in ("dyadic-grid", "heuristic"))
-        won += sum(d < h for d, h in zip(*both, strict=True))
-        settings.progress((done + 1) / len(cases))
-    rows.append(
-        claim_row(where, "dyadic beats heuristic, same seed", won / (len(cases) * seeds), seeds * len(cases))
-    )
+            both = (panels[way][label].mses for way in ("dyadic-grid", "heuristic"))
+            won += sum(d < h for d, h in zip(*both, strict=True))
+            settings.progress(len(rows) / ((2 * len(cases) + 1) * len(readings)))
+        pairs = len(cases) * seeds
+        rows.append(claim_row(where, f"dyadic beats heuristic, same seed{reading}", won / pairs, pairs))
     return Outcome(
         rows=rows,
         figures=[
@@ -177,17 +194,8 @@ def compare_wavelets(
     for (label, wavelet), value in zip(WAVELET_CASES.items(), (*thesis, thesis[2]), strict=True):
         way = DyadicGrid(linear=task.linear)
         runs[label] = train(task, way, trainer, wavelets=wavelets, seeds=seeds, wavelet=wavelet)
-        rows.append(
-            median_row(
-                where,
-                label,
-                value,
-                runs[label].mses,
-                count=f"{count} iterations, {seeds} seeds",
-                group="" if "1.75" in label else where,
-                reason=f"{where}, {label}: {runs[label].reason(value)}.",
-            )
-        )
+        group = "" if "1.75" in label else where
+        rows.append(runs[label].row(where, label, value, group=group, iterations=count))
         settings.progress(len(runs) / len(WAVELET_CASES))
     best = np.argmin([r.mses for r in runs.values()], axis=0)
     rows.append(
@@ -199,31 +207,19 @@ def compare_wavelets(
 def compare_trainers(
     task: Task,
     where: str,
-    lm: Trainer,
-    gd: Trainer,
-    thesis: tuple[float, float],
+    trainers: dict[str, Trainer],
+    thesis: dict[str, float],
     wavelets: int,
     settings: Settings,
 ) -> tuple[list[Row], dict[str, Runs]]:
-    """Tables 3 and 7: 100 iterations of Levenberg-Marquardt and of gradient descent from the dyadic grid."""
+    """Tables 3 and 7: 100 iterations with each trainer from the dyadic grid; thesis: MSE by trainer."""
     seeds = settings.pick(SEEDS, 3)
     runs: dict[str, Runs] = {}
     rows = []
-    for (label, trainer), value in zip({"LM": lm, "gradient descent": gd}.items(), thesis, strict=True):
-        way = DyadicGrid(linear=task.linear)
-        runs[label] = train(task, way, trainer, wavelets=wavelets, seeds=seeds)
-        rows.append(
-            median_row(
-                where,
-                label,
-                value,
-                runs[label].mses,
-                count=f"100 iterations, {seeds} seeds",
-                group=where,
-                reason=f"{where}, {label}: {runs[label].reason(value)}.",
-            )
-        )
-        settings.progress(len(runs) / 2)
+    for label, trainer in trainers.items():
+        runs[label] = train(task, DyadicGrid(linear=task.linear), trainer, wavelets=wavelets, seeds=seeds)
+        rows.append(runs[label].row(where, label, thesis[label], group=where, iterations=100))
+        settings.progress(len(runs) / len(trainers))
     return rows, runs
 
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from rwn.thesis import (
+    better_offline,
+    claims,
     miso_rate,
     miso_size,
     miso_trainers,
     miso_wavelets,
+    online_miso,
+    online_siso,
     siso_rate,
     siso_size,
     siso_trainers,
@@ -25,6 +29,10 @@ EXPERIMENTS: tuple[Experiment, ...] = tuple(
         miso_rate,
         miso_trainers,
         miso_wavelets,
+        online_siso,
+        online_miso,
+        better_offline,
+        claims,
     )
 )
 

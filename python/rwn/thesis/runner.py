@@ -6,6 +6,7 @@ import hashlib
 import sys
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,23 +35,27 @@ def run(
     out: Path,
     *,
     reduced: bool = False,
+    jobs: int = 1,
     progress: Callable[[Experiment, float], None] = lambda *_: None,
 ) -> list[Finished]:
     """Results of the experiments, in order; those finished in `out` with the same code are read, not run.
 
+    jobs: experiments at a time, in threads (the core releases the interpreter); results do not depend on it.
     progress(experiment, share done) is called now and then, with 1 at the end.
     """
     out.mkdir(parents=True, exist_ok=True)
-    results = []
-    for experiment in experiments:
+
+    def one(experiment: Experiment) -> Finished:
         path = out / f"{experiment.name}.json"
         done = _read(path, _fingerprint(experiment, reduced=reduced))
         if done is None:
             done = _run_one(experiment, reduced, progress)
             _write(path, done)
         progress(experiment, 1.0)
-        results.append(done)
-    return results
+        return done
+
+    with ThreadPoolExecutor(jobs) as pool:
+        return list(pool.map(one, experiments))
 
 
 def _run_one(

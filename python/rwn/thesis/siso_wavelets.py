@@ -7,8 +7,8 @@ in wavelet networks) are both shown; the order of the three is judged with 5.
 
 from __future__ import annotations
 
-from rwn.thesis.experiment import Experiment, Outcome, Settings
-from rwn.thesis.offline import SISO, compare_wavelets, history_figure, output_figure
+from rwn.thesis.experiment import Experiment, Figure, Outcome, Settings
+from rwn.thesis.offline import SISO, compare_wavelets, history_figure, output_panel
 
 
 def run(settings: Settings) -> Outcome:
@@ -16,7 +16,9 @@ def run(settings: Settings) -> Outcome:
     rows, runs = compare_wavelets(SISO, "Table 4", (0.0158, 0.0301, 0.0430), 0.08, 15, settings)
     figures = [
         history_figure(19, "MSE with different wavelets, one input", runs),
-        output_figure(20, "Output of networks with different wavelets", SISO, runs),
+        Figure(
+            number=20, title="Output of networks with different wavelets", panels=[output_panel(SISO, runs)]
+        ),
     ]
     return Outcome(rows=rows, figures=figures)
 

@@ -21,18 +21,19 @@ class PatternGaussNewton:
         first patterns may move the parameters.
     weight_prior: standard deviation of b, a and w about their start.
     shape_prior: standard deviation of translations and dilations about their start, in dilations.
-    forgetting: factor on old information per pattern, in (0, 1].
+    forgetting: factor on old information per pattern, in (0, 1]; below 1, since it was gathered about other
+        parameters: with 1 the first, wrong linearisations are never forgiven.
     iterations: most passes over the patterns.
     target: MSE at which to stop.
     stall: relative change of the MSE over 100 iterations below which to stop; -1 never stops.
     """
 
     name: ClassVar[str] = "pattern-gauss-newton"
-    noise: float = 1e-3
+    noise: float = 1e-2
     weight_prior: float = 1.0
     shape_prior: float = 0.1
-    forgetting: float = 1.0
-    iterations: int = 10
+    forgetting: float = 0.999
+    iterations: int = 20
     target: float = 0.0
     stall: float = 1e-12
 

@@ -8,11 +8,11 @@ namespace rwn {
 /// formula, so P stays symmetric and positive whatever the rounding. The outputs of a pattern are taken one by one.
 struct PatternGaussNewton {
   static constexpr std::string_view name = "pattern-gauss-newton";
-  double noise = 1e-3;         // standard deviation of the errors, in units of the outputs
+  double noise = 1e-2;         // standard deviation of the errors, in units of the outputs
   double weight_prior = 1.0;   // of b, a and w about their start
   double shape_prior = 0.1;    // of translations and dilations, in units of each dilation
-  double forgetting = 1.0;     // factor on old information per pattern, in (0, 1]
-  int iterations = 10;         // passes over the patterns
+  double forgetting = 0.999;   // factor on old information per pattern, in (0, 1]; it was gathered about other parameters
+  int iterations = 20;         // passes over the patterns
   double target = 0.0;
   double stall = 1e-12;
 
