@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from rwn._core import __version__ as __version__
+from rwn.conventional_network import ConventionalNetwork as ConventionalNetwork
 from rwn.online_training import OnlineTraining as OnlineTraining
 from rwn.online_training import train_recurrent as train_recurrent
 from rwn.online_training import train_structured as train_structured
 from rwn.recurrent_network import RecurrentNetwork as RecurrentNetwork
 from rwn.structured_network import MotorParameters as MotorParameters
 from rwn.structured_network import StructuredNetwork as StructuredNetwork
+from rwn.training import Training as Training
 from rwn.wavelets import Wavelet as Wavelet
