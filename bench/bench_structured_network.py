@@ -212,7 +212,7 @@ def report(held: float, thesis: float, side: float, in_numba: float, in_jax: flo
         f"\nhand count: {flops} operations per sample, {flops / held:.1f} per ns with held rates"
     )
     print(
-        f"throughput bound (two multiply-add ports): {throughput:.1f} ns; {held / throughput:.2f} times that alone, ",
+        f"throughput bound (2 multiply-add ports): {throughput:.1f} ns; {held / throughput:.2f} x alone, ",
         end="",
     )
     print(f"{side / throughput:.2f} side by side")

@@ -108,14 +108,14 @@ struct Torque {
 /// Residual e = y - x1 and Jacobian dx1/dtheta (n, learning parameters) of a network.
 class Problem {
  public:
-  Problem(const StructuredSignals& signals, const std::vector<bool>& learn, bool gauge)
-      : signals_(signals), gauge_(gauge) {
+  Problem(const StructuredMeasurements& data, const std::vector<bool>& learn, bool gauge)
+      : data_(data), signals_(data.signals), gauge_(gauge), outputs_(data.current.size() > 0 ? 2 : 1) {
     for (std::size_t k = 0; k < learn.size(); ++k) {
       if (learn[k]) {
         which_.push_back(static_cast<Eigen::Index>(k));
       }
     }
-    jacobian_.resize(signals.samples(), static_cast<Eigen::Index>(which_.size()));
+    jacobian_.resize(outputs_ * signals_.samples(), static_cast<Eigen::Index>(which_.size()));
   }
 
   const std::vector<Eigen::Index>& which() const { return which_; }
@@ -135,8 +135,8 @@ class Problem {
     if (!(plant_gain(a(0, 0), a(0, 1), a(1, 0), a(1, 1)).spectral_radius < 1.0)) {
       return std::numeric_limits<double>::infinity();
     }
-    Torque torque(net, signals_.speed);
-    slope_ = gauge_ ? torque.project(signals_.speed) : 0.0;
+    Torque torque(net, data_.network_speed);
+    slope_ = gauge_ ? torque.project(data_.network_speed) : 0.0;
     filter(net, torque, a);
     return residual_.squaredNorm();
   }
@@ -148,9 +148,8 @@ class Problem {
     Eigen::RowVectorXd drive1(p), drive2(p), P = Eigen::RowVectorXd::Zero(p), Q = P, next(p);
     Eigen::RowVector<double, 5> first, second;
     Eigen::Vector2d x = signals_.start;
-    residual_.resize(signals_.samples());
-    residual_[0] = signals_.speed[0] - x[0];
-    jacobian_.row(0).setZero();
+    residual_.resize(outputs_ * signals_.samples());
+    keep(0, x, P, Q);
     for (Eigen::Index n = 1; n < signals_.samples(); ++n) {
       const double tau = torque.value[n - 1], u = signals_.input[n - 1];
       first << -v2 * x[0], v3 * x[1] - v1 * x[0] - tau, v2 * x[1], 0.0, 0.0;
@@ -164,13 +163,25 @@ class Problem {
       Q = a(1, 0) * P + a(1, 1) * Q + drive2;
       P = next;
       x = Eigen::Vector2d(a(0, 0) * x[0] + a(0, 1) * x[1] - v2 * tau, a(1, 0) * x[0] + a(1, 1) * x[1] + v4 * u);
-      jacobian_.row(n) = P;
-      residual_[n] = signals_.speed[n] - x[0];
+      keep(n, x, P, Q);
     }
   }
 
+  /// Residual and Jacobian rows of one sample: the speed's, and behind all of those the weighted current's.
+  void keep(Eigen::Index n, const Eigen::Vector2d& x, const Eigen::RowVectorXd& P, const Eigen::RowVectorXd& Q) {
+    jacobian_.row(n) = P;
+    residual_[n] = signals_.speed[n] - x[0];
+    if (outputs_ == 2) {
+      const Eigen::Index second = signals_.samples() + n;
+      jacobian_.row(second) = data_.current_weight * Q;
+      residual_[second] = data_.current_weight * (data_.current[n] - x[1]);
+    }
+  }
+
+  const StructuredMeasurements& data_;
   const StructuredSignals& signals_;
   bool gauge_;
+  Eigen::Index outputs_;
   std::vector<Eigen::Index> which_;
   RowMatrix jacobian_;
   Vector residual_;
@@ -218,7 +229,7 @@ Vector moved(const StructuredNetwork& net, const std::vector<Eigen::Index>& whic
 }
 
 /// The output is linear in w: one ridge least-squares step finds it.
-StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const StructuredSignals& signals, bool gauge,
+StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const StructuredMeasurements& data, bool gauge,
                                              const std::vector<bool>& learn) {
   std::vector<bool> weights(learn.size(), false);
   bool any = false;
@@ -229,7 +240,7 @@ StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const
   if (!any) {
     return net;
   }
-  Problem problem(signals, weights, gauge);
+  Problem problem(data, weights, gauge);
   if (!std::isfinite(problem.evaluate(net))) {
     return net;
   }
@@ -240,16 +251,21 @@ StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const
 }  // namespace
 
 StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const StructuredNetwork& network,
-                                                                       const StructuredSignals& signals,
+                                                                       const StructuredMeasurements& data,
                                                                        const std::vector<bool>& learn) const {
+  const StructuredSignals& signals = data.signals;
   check(signals);
+  if (data.network_speed.size() != signals.samples() ||
+      (data.current.size() > 0 && data.current.size() != signals.samples())) {
+    throw std::invalid_argument("network_speed and current: expected one value per sample");
+  }
   if (learn.size() != static_cast<std::size_t>(network.theta().size()) || std::count(learn.begin(), learn.end(), true) == 0) {
     throw std::invalid_argument("learn: expected one flag per parameter, at least one true");
   }
-  Result out{weights_first ? with_least_squares_weights(network, signals, gauge, learn) : network, 0.0,
+  Result out{weights_first ? with_least_squares_weights(network, data, gauge, learn) : network, 0.0,
              FitStatus::iteration_limit, {}, {}, 0.0};
   const double n = static_cast<double>(signals.samples());
-  Problem here(signals, learn, gauge), there(signals, learn, gauge);
+  Problem here(data, learn, gauge), there(data, learn, gauge);
   double squares = here.evaluate(out.network);
   if (!std::isfinite(squares)) {
     throw std::invalid_argument("network: its plant has an eigenvalue on or outside the unit circle; start from a stable one");

@@ -1,4 +1,4 @@
-"""Twin of the recursive Gauss-Newton trainer: the extended Kalman filter with its full covariance, one cycle."""
+"""Twin of the recursive Gauss-Newton trainer: the extended Kalman filter with full covariance."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rwn.structured_network import StructuredNetwork
 def train(
     network: StructuredNetwork, u: Array, y: Array, *, spread: Array, noise: float, forgetting: float
 ) -> tuple[StructuredNetwork, Array]:
-    """Network and deviations after one cycle: K = C phi / (lambda r + phi C phi), C = (C - K phi C)/lambda."""
+    """Network and deviations: K = C phi / (lambda r + phi C phi), C = (C - K phi C)/lambda."""
     run, covariance = StructuredRun(network, np.zeros(2)), np.diag(spread**2)
     for n in range(1, len(y)):
         error = y[n] - run.advance(u[n - 1], y[n - 1])

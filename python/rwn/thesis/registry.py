@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from rwn.thesis import (
+    black_box,
+    convergence_map,
+    electrical,
+    frictionless,
+    measured_friction,
     miso_rate,
     miso_size,
     miso_trainers,
     miso_wavelets,
+    simultaneous,
     siso_rate,
     siso_size,
     siso_trainers,
     siso_wavelets,
+    structured_friction,
+    three_parameters,
+    viscous,
 )
 from rwn.thesis.experiment import Experiment
 
@@ -25,6 +34,15 @@ EXPERIMENTS: tuple[Experiment, ...] = tuple(
         miso_rate,
         miso_trainers,
         miso_wavelets,
+        black_box,
+        measured_friction,
+        structured_friction,
+        frictionless,
+        viscous,
+        three_parameters,
+        simultaneous,
+        convergence_map,
+        electrical,
     )
 )
 

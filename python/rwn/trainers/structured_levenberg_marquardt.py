@@ -75,9 +75,15 @@ class StructuredLevenbergMarquardt:
         *,
         learn: Iterable[str],
         start: ArrayLike = (0.0, 0.0),
+        network_speed: ArrayLike | None = None,
+        current: ArrayLike | None = None,
+        current_weight: float = 1.0,
     ) -> StructuredFit:
         """Fits the groups `learn` (of v1..v5, w, m, d, c) to voltage (n,) [V] and speed (n,) [rad/s].
 
+        network_speed: (n,) speed that feeds the network; None is the measured one, whose noise biases.
+        current: (n,) measured current [A], fitted too; `current_weight` is the deviation of the speed's noise
+            over that of the current's.
         Raises ValueError for arrays that do not fit, an unknown group, or an unstable start.
         """
         u, y = as_signals(voltage, speed)
@@ -87,6 +93,9 @@ class StructuredLevenbergMarquardt:
             u,
             y,
             as_start(start),
+            network_speed=y if network_speed is None else as_float_array("network_speed", network_speed, 1),
+            current=np.empty(0) if current is None else as_float_array("current", current, 1),
+            current_weight=current_weight,
             learn=np.repeat(as_mask(learn, network.groups), sizes).tolist(),
             iterations=self.iterations,
             damping=self.damping,

@@ -13,6 +13,15 @@ std::string_view advice(FitStatus status);
 /// Speed (n) of the plant A, [0; v4], [-v2; 0] for the input (n) and a given friction torque (n).
 Vector simulate_plant(const StructuredNetwork& network, const StructuredSignals& signals, const VectorRef& torque);
 
+/// What the batch fit is given. The network may be fed with another speed than the measured one (a smoothed or a simulated
+/// one), so that noise on its input does not bias the parameters; a measured current, where there is one, is fitted too.
+struct StructuredMeasurements {
+  StructuredSignals signals;
+  VectorRef network_speed;      // (n)
+  VectorRef current;            // (n), or empty
+  double current_weight = 1.0;  // standard deviation of the speed's noise over that of the current's
+};
+
 /// Batch Levenberg-Marquardt over the structured network. With `gauge` the network is made orthogonal to the linear physics:
 /// tau_perp = tau - slope * speed, slope = <tau, speed>/<speed, speed> along the recording, so that v1 carries the whole
 /// viscous slope and is determined; without it v1 and the network share the slope, and v1 - B acts as an observer gain.
@@ -32,7 +41,7 @@ struct StructuredLevenbergMarquardt {
     double condition;          // of the column-scaled Jacobian at the end
   };
   /// `learn`: which parameters move (5 + 4 N_w).
-  Result fit(const StructuredNetwork& network, const StructuredSignals& signals, const std::vector<bool>& learn) const;
+  Result fit(const StructuredNetwork& network, const StructuredMeasurements& data, const std::vector<bool>& learn) const;
 };
 
 }  // namespace rwn
