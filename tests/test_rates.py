@@ -6,7 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import rwn
-from recurrent_networks import MOTOR, SAMPLE_TIME, drive, structured
+from motor_networks import MOTOR, SAMPLE_TIME, drive, structured
 from rwn import _core
 from rwn.rates import GUARANTEES, RATES, Fixed, ImpulseResponse, Normalised, Thesis
 from rwn.reference import rates as twin

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rwn
-from recurrent_networks import recurrent, relative_error
+from motor_networks import recurrent, relative_error
 from rwn import _core
 from rwn.rates import Fixed, ImpulseResponse, Normalised, Thesis
 from rwn.reference import recurrent_network as twin

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rwn
-from recurrent_networks import MOTOR, SAMPLE_TIME, drive, relative_error, structured
+from motor_networks import MOTOR, SAMPLE_TIME, drive, relative_error, structured
 from rwn import _core
 from rwn.rates import Fixed
 from rwn.reference import structured_network as twin

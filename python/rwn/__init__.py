@@ -22,4 +22,5 @@ from rwn.online_training import train_structured as train_structured
 from rwn.recurrent_network import RecurrentNetwork as RecurrentNetwork
 from rwn.structured_network import MotorParameters as MotorParameters
 from rwn.structured_network import StructuredNetwork as StructuredNetwork
+from rwn.training import Training as Training
 from rwn.wavelets import Wavelet as Wavelet

@@ -55,6 +55,10 @@ class StructuredRun:
     def correct(self, rates: Array, error: float, *, follow_state: bool) -> None:
         """theta += mu e P with one rate per group (4.19, 4.29); with `follow_state` x += R dtheta."""
         change = np.repeat(rates, [1] * 5 + [len(self.w)] * 4) * error * self.R[0]
+        self.shift(change, follow_state=follow_state)
+
+    def shift(self, change: Array, *, follow_state: bool = True) -> None:
+        """theta += change; with `follow_state` x += R change."""
         self.v += change[:5]
         for parameter, step in zip((self.w, self.m, self.d, self.c), change[5:].reshape(4, -1), strict=True):
             parameter += step

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from rwn.thesis import (
-    better_offline,
-    claims,
+    black_box,
+    convergence_map,
+    electrical,
+    frictionless,
+    measured_friction,
     miso_rate,
     miso_size,
     miso_trainers,
     miso_wavelets,
-    online_miso,
-    online_siso,
+    simultaneous,
     siso_rate,
     siso_size,
     siso_trainers,
     siso_wavelets,
+    structured_friction,
+    three_parameters,
+    viscous,
 )
 from rwn.thesis.experiment import Experiment
 
@@ -29,10 +34,15 @@ EXPERIMENTS: tuple[Experiment, ...] = tuple(
         miso_rate,
         miso_trainers,
         miso_wavelets,
-        online_siso,
-        online_miso,
-        better_offline,
-        claims,
+        black_box,
+        measured_friction,
+        structured_friction,
+        frictionless,
+        viscous,
+        three_parameters,
+        simultaneous,
+        convergence_map,
+        electrical,
     )
 )
 

@@ -1,0 +1,160 @@
+"""What the experiments on the linear parameters share (Tables 17-19): one case, trained by several rules."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import rwn
+from rwn.arrays import Array
+from rwn.rates import ImpulseResponse, RateRule, Thesis
+from rwn.thesis.drive import MOTOR, chirp, error_percent, linear_network
+from rwn.thesis.experiment import Curve, Figure, Panel, Row, curve
+from rwn.trainers import RecursiveGaussNewton, StructuredLevenbergMarquardt
+
+GROUPS = {"viscous_friction": "v1", "inertia": "v2", "torque_constant": "v3"}
+SYMBOLS = {"viscous_friction": "B", "inertia": "J", "torque_constant": "Kt"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """A start: the wrong values by motor parameter, the thesis's final errors [%], the true B."""
+
+    label: str
+    start: dict[str, float]
+    thesis: dict[str, float | None]
+    viscous: float = MOTOR.viscous_friction
+
+    @property
+    def learn(self) -> tuple[str, ...]:
+        """Groups that learn."""
+        return tuple(GROUPS[name] for name in self.start)
+
+    def network(self) -> rwn.StructuredNetwork:
+        """The wrong network."""
+        return linear_network(**{"viscous_friction": self.viscous, **self.start})
+
+    def recording(self) -> tuple[Array, Array]:
+        """Voltage (1 V chirp, 0-4 Hz, 1 s) and speed of the true motor."""
+        u = chirp(1.0, 0.0, 4.0)
+        return u, linear_network(viscous_friction=self.viscous).simulate(u, 0 * u)
+
+    def errors(self, network: rwn.StructuredNetwork) -> dict[str, float]:
+        """Error of every parameter that learns [%]."""
+        return {name: error_percent(network, name) for name in self.start}
+
+
+def thesis_rule(fraction: float) -> Thesis:
+    """As the thesis has it: running maxima, every group at the whole fraction of its own bound."""
+    return Thesis(fraction=fraction, shared=False, printed=False)
+
+
+def as_printed(
+    where: str, case: Case, rule: RateRule, cycles: int, *, reason: str
+) -> tuple[list[Row], rwn.OnlineTraining[rwn.StructuredNetwork]]:
+    """Rows of one case trained with the thesis's rule."""
+    u, y = case.recording()
+    run = rwn.train_structured(case.network(), u, y, learn=case.learn, rates=rule, cycles=cycles)
+    failed = run.status in ("diverged", "unstable")
+    rows = [
+        Row(
+            where=where,
+            case=f"{case.label}, {SYMBOLS[name]}",
+            thesis=case.thesis.get(name),
+            ours=None if failed else error,
+            count=f"{cycles} cycles; {run.status}",
+            judge="percentage-point" if case.thesis.get(name) is not None else "none",
+            unit="%",
+            reason=reason if not run.report.warnings else "; ".join((reason, *run.report.warnings)),
+        )
+        for name, error in case.errors(run.network).items()
+    ]
+    return rows, run
+
+
+def better(where: str, case: Case, *, cycles: int, wanted: float) -> list[Row]:
+    """Rows of the recursive Gauss-Newton trainer after `cycles`, and of batch Levenberg-Marquardt."""
+    u, y = case.recording()
+    recursive = RecursiveGaussNewton(cycles=cycles).train(case.network(), u, y, learn=case.learn)
+    batch = StructuredLevenbergMarquardt(gauge=False, iterations=100).fit(
+        case.network(), u, y, learn=case.learn
+    )
+    found = {
+        f"recursive Gauss-Newton, {cycles} cycles": recursive.network,
+        f"Levenberg-Marquardt, {len(batch.mse) - 1} iterations": batch.network,
+    }
+    return [
+        Row(
+            where=where,
+            case=f"{case.label}, {how.split(',')[0]}",
+            ours=max(abs(e) for e in case.errors(network).values()),
+            count=how.split(", ")[1],
+            judge="wanted",
+            wanted=wanted,
+            unit="%",
+        )
+        for how, network in found.items()
+    ]
+
+
+def cycles_to_one_percent(case: Case, rule: RateRule, cycles: int) -> int | None:
+    """Cycles after which every parameter stays within 1 %; None if it does not."""
+    u, y = case.recording()
+    run = rwn.train_structured(case.network(), u, y, learn=case.learn, rates=rule, cycles=cycles)
+    true = linear_network(viscous_friction=case.viscous).v
+    index = [int(group[1]) - 1 for group in case.learn]
+    if len(run.linear) < cycles:
+        return None
+    outside = np.flatnonzero((np.abs(run.linear[:, index] / true[index] - 1) >= 0.01).any(axis=1))
+    last = int(outside[-1]) + 1 if len(outside) else 0
+    return last + 1 if last < cycles else None
+
+
+def figures(
+    numbers: tuple[int, int, int],
+    runs: dict[str, tuple[Case, rwn.OnlineTraining[rwn.StructuredNetwork]]],
+    what: str,
+) -> list[Figure]:
+    """MSE, rates and parameters by cycle."""
+    mse = [curve(run.mse_learning, label=label) for label, (_, run) in runs.items()]
+    rate_panels, value_panels = [], []
+    for label, (case, run) in runs.items():
+        index = {name: int(GROUPS[name][1]) - 1 for name in case.start}
+        rates = [curve(run.rates[:, k], label=f"mu {SYMBOLS[name]}") for name, k in index.items()]
+        rate_panels.append(Panel(xlabel="cycle", ylabel="rate", title=label, curves=rates, log_y=True))
+        true = linear_network(viscous_friction=case.viscous).v
+        values: list[Curve] = []
+        for name, k in index.items():
+            ratio = true[k] / run.linear[:, k] if k == 1 else run.linear[:, k] / true[k]
+            values.append(curve(100 * (ratio - 1), label=SYMBOLS[name]))
+        value_panels.append(Panel(xlabel="cycle", ylabel="error [%]", title=label, curves=values))
+    panel = Panel(xlabel="cycle", ylabel="MSE while learning [rad2/s2]", curves=mse, log_y=True)
+    return [
+        Figure(number=numbers[0], title=f"MSE, {what}", panels=[panel]),
+        Figure(number=numbers[1], title=f"Learning rates, {what}", panels=rate_panels),
+        Figure(number=numbers[2], title=f"Convergence, {what}", panels=value_panels),
+    ]
+
+
+RULES: dict[str, RateRule] = {
+    "thesis, running maxima, 0.5": thesis_rule(0.5),
+    "thesis, running maxima, 0.01": thesis_rule(0.01),
+    "thesis, pre-pass, 0.01": Thesis(fraction=0.01, maxima="pre-pass", shared=False),
+    "impulse-response": ImpulseResponse(),
+}
+
+
+def compare_rules(where: str, cases: list[Case], cycles: int) -> list[Row]:
+    """Cycles to 1 % of every rule, side by side; no number where it did not get there."""
+    return [
+        Row(
+            where=where,
+            case=f"{case.label}: cycles to 1 %, {name}",
+            ours=cycles_to_one_percent(case, rule, cycles),
+            count=f"of {cycles}",
+            judge="none",
+        )
+        for case in cases
+        for name, rule in RULES.items()
+    ]
