@@ -14,6 +14,18 @@ install-test:
 	@./tools/setup.sh test
 	@$(PY) -m pip install -q --disable-pip-version-check --group test --group dev '.[thesis]'
 
+# The main job on the embedded recording, whose missing effect is known.
+demo: install
+	@.venv/bin/rwn demo --out demo-out --overwrite
+
+# The same on a real machine: EMPS, started from a linear model. The data are not part of rwn.
+RWN_SHARED ?= ../shared
+EMPS := $(RWN_SHARED)/data/nonlinear_benchmarks/EMPS
+demo-real: install
+	@[ -f $(EMPS)/DATA_EMPS.mat ] || { echo "demo-real: $(EMPS)/DATA_EMPS.mat is not here; set RWN_SHARED" >&2; exit 2; }
+	@.venv/bin/rwn diagnose $(EMPS)/DATA_EMPS.mat --heldout $(EMPS)/DATA_EMPS_PULSES.mat \
+	  --model python/rwn/demo/emps.toml --out demo-out/emps --overwrite
+
 test: test-cpp test-python lint
 
 test-cpp: install-test

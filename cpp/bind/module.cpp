@@ -3,8 +3,17 @@
 #include "rwn/isa.hpp"
 
 namespace rwn::bind {
+void bind_normal_equations(py::module_& m);
+void bind_simulate(py::module_& m);
 void bind_plant(py::module_& m);
 void bind_wavelets(py::module_& m);
+void bind_conventional_network(py::module_& m);
+void bind_initialisation(py::module_& m);
+void bind_trainers(py::module_& m);
+void bind_recurrent_network(py::module_& m);
+void bind_structured_network(py::module_& m);
+void bind_rates(py::module_& m);
+void bind_online_training(py::module_& m);
 }  // namespace rwn::bind
 
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
@@ -12,6 +21,15 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.doc() = "C++ core of rwn; use the classes of the rwn package, which check their input and explain themselves.";
   m.attr("__version__") = RWN_VERSION;
   m.def("isa", [] { return std::string(rwn::to_string(rwn::isa())); }, "Instruction set in use.");
+  bind_normal_equations(m);
+  bind_simulate(m);
   bind_plant(m);
   bind_wavelets(m);
+  bind_conventional_network(m);
+  bind_initialisation(m);
+  bind_trainers(m);
+  bind_recurrent_network(m);
+  bind_structured_network(m);
+  bind_rates(m);
+  bind_online_training(m);
 }

@@ -1,0 +1,60 @@
+#include "bind.hpp"
+#include "rwn/normal_equations.hpp"
+
+namespace rwn::bind {
+namespace {
+
+std::span<const double> view(const Array& a) { return {a.data(), static_cast<std::size_t>(a.size())}; }
+
+Array matrix(const std::vector<double>& values, py::ssize_t rows) {
+  Array a({rows, rows});
+  std::copy(values.begin(), values.end(), a.mutable_data());
+  return a;
+}
+
+py::tuple run(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
+              const std::vector<int>& active, const std::vector<int>& by, const Array& current, const Array& speed,
+              const Array& position, const std::array<double, 3>& weights, bool speed_is_difference,
+              double angle_per_position, double input_before, const Array& angle) {
+  const SimulationTask task{kind == "dc" ? Kind::dc : Kind::axis,
+                            view(time),
+                            view(input),
+                            view(parameters),
+                            active,
+                            by,
+                            angle_per_position,
+                            input_before,
+                            view(angle)};
+  const Measurements measured{
+      view(current),
+      view(speed),
+      view(position),
+      weights[0],
+      weights[1],
+      weights[2],
+      speed_is_difference ? SpeedMeasurement::central_difference : SpeedMeasurement::instantaneous};
+  for (const auto& signal : {measured.current, measured.speed, measured.position}) {
+    if (!signal.empty() && signal.size() != task.time.size()) {
+      throw std::invalid_argument("normal_equations: a measured signal differs in length from time");
+    }
+  }
+  NormalEquations sum;
+  {
+    py::gil_scoped_release release;
+    sum = normal_equations(task, measured);
+  }
+  const auto p = static_cast<py::ssize_t>(by.size());
+  return py::make_tuple(std::string(to_string(sum.status)), sum.chi2, sum.count, Array(p, sum.gradient.data()),
+                        matrix(sum.curvature, p));
+}
+
+}  // namespace
+
+void bind_normal_equations(py::module_& m) {
+  m.def("normal_equations", &run, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(),
+        "active"_a, "by"_a, "current"_a.noconvert(), "speed"_a.noconvert(), "position"_a.noconvert(), "weights"_a,
+        "speed_is_difference"_a = false, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
+        "Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.");
+}
+
+}  // namespace rwn::bind

@@ -1,0 +1,46 @@
+// What an effect is. Each lives in effects/<effect>.hpp as a struct with static members:
+//
+//   info                              name, site, equation, meaning, source
+//   parameters                        std::array<Parameter, n>
+//   apply(p, motor, motion, terms)    its share of the motor equations
+// and, where it needs them,
+//   varies                            false: terms change only with direction and at `breaks` (default true)
+//   rate(p, motor, motion)            fastest rate of change it brings [1/s]: sets the step
+//   actuate(p, input)                 maps the commanded input to what acts
+//   delay(p)                          input delay [s]
+//   breaks(p)                         instants at which its terms jump [s]
+//   memories, finish(p, motor, h, before, after, memory)     states that follow the motion, updated after each step
+//   hiddens, hidden_count via terms.hidden_rate              states with their own differential equation
+//   sense(p, reading, memory)         maps the true signals to what is recorded
+// p points to the effect's parameters. All functions are templates on the scalar, which carries the derivatives.
+#pragma once
+
+#include <string_view>
+
+#include "rwn/drive.hpp"
+#include "rwn/dual.hpp"
+
+namespace rwn {
+
+enum class Site { torque, voltage, flux, actuator, sensor, load };
+
+constexpr std::string_view to_string(Site site) {
+  constexpr std::string_view names[] = {"torque", "voltage", "flux", "actuator", "sensor", "load"};
+  return names[static_cast<int>(site)];
+}
+
+/// The equation that an effect of this site belongs to, as diagnosis reports it.
+constexpr std::string_view equation_of(Site site) {
+  constexpr std::string_view names[] = {"mechanical", "electrical", "electrical", "actuator", "sensor", "mechanical"};
+  return names[static_cast<int>(site)];
+}
+
+struct EffectInfo {
+  std::string_view name;
+  Site site;
+  std::string_view equation;
+  std::string_view meaning;
+  std::string_view source;
+};
+
+}  // namespace rwn

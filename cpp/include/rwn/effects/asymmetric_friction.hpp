@@ -1,0 +1,38 @@
+#pragma once
+
+#include "rwn/effect.hpp"
+
+namespace rwn {
+
+struct AsymmetricFriction {
+  static constexpr EffectInfo info{"asymmetric-friction", Site::torque, "T = -T_c+ (w > 0), +T_c- (w < 0)",
+                                   "dry friction of a different level in each direction",
+                                   "B. Armstrong-Helouvry 1991; Janot, Gautier, Brunot 2019 (EMPS)"};
+  static constexpr std::array parameters{Parameter{.name = "coulomb_torque_plus",
+                                                   .unit = "N m",
+                                                   .meaning = "level for w > 0",
+                                                   .lower = 0.0,
+                                                   .upper = 1.0,
+                                                   .start = 0.06,
+                                                   .scale = Scale::torque,
+                                                   .strength = true,
+                                                   .replaces = coulomb_friction},
+                                         Parameter{.name = "coulomb_torque_minus",
+                                                   .unit = "N m",
+                                                   .meaning = "level for w < 0",
+                                                   .lower = 0.0,
+                                                   .upper = 1.0,
+                                                   .start = 0.04,
+                                                   .scale = Scale::torque,
+                                                   .strength = true,
+                                                   .replaces = coulomb_friction}};
+  static constexpr bool varies = false;
+  static constexpr bool dry = true;
+
+  template <class S>
+  static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
+    t.friction += x.direction > 0.0 ? p[0] : p[1];
+  }
+};
+
+}  // namespace rwn

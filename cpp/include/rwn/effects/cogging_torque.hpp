@@ -1,0 +1,46 @@
+#pragma once
+
+#include "rwn/effect.hpp"
+
+namespace rwn {
+
+struct CoggingTorque {
+  static constexpr EffectInfo info{"cogging-torque", Site::torque, "T = -A sin(N theta + p)",
+                                   "torque of the magnets on the slots, or a position-periodic force",
+                                   "Gieras, Permanent Magnet Motor Technology, ch. 6"};
+  static constexpr std::array parameters{Parameter{.name = "amplitude",
+                                                   .unit = "N m",
+                                                   .meaning = "peak torque",
+                                                   .lower = 0.0,
+                                                   .upper = 1.0,
+                                                   .start = 0.03,
+                                                   .scale = Scale::torque,
+                                                   .strength = true},
+                                         Parameter{.name = "periods_per_rev",
+                                                   .unit = "1",
+                                                   .meaning = "periods per revolution (per metre on a linear axis)",
+                                                   .lower = 0.5,
+                                                   .upper = 1000.0,
+                                                   .start = 12.0,
+                                                   .order = true},
+                                         Parameter{.name = "phase",
+                                                   .unit = "rad",
+                                                   .meaning = "at position 0",
+                                                   .lower = -6.4,
+                                                   .upper = 6.4,
+                                                   .start = 0.0,
+                                                   .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
+                                                   .cyclic = true}};
+
+  template <class S>
+  static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
+    using std::sin;
+    t.torque -= p[0] * sin(p[1] * x.angle + p[2]);
+  }
+  template <class S>
+  static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double) {
+    return value_of(p[1]) * std::abs(value_of(x.speed)) * x.angle_per_position;
+  }
+};
+
+}  // namespace rwn

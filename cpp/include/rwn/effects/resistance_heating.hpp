@@ -1,0 +1,49 @@
+#pragma once
+
+#include "rwn/effect.hpp"
+
+namespace rwn {
+
+struct ResistanceHeating {
+  static constexpr EffectInfo info{
+      "resistance-heating", Site::voltage, "R(T) = R (1 + alpha dT), C_th d(dT)/dt = R(T) i^2 - dT/R_th",
+      "winding resistance that rises as the winding warms up; ambient at the start", "IEC 60034-1; alpha of copper"};
+  static constexpr std::array parameters{Parameter{.name = "thermal_resistance",
+                                                   .unit = "K/W",
+                                                   .meaning = "winding to ambient",
+                                                   .lower = 1e-2,
+                                                   .upper = 1e3,
+                                                   .start = 5.0,
+                                                   .scan = {2.0, 20.0},
+                                                   .strength = true},
+                                         Parameter{.name = "heat_capacity",
+                                                   .unit = "J/K",
+                                                   .meaning = "of the winding",
+                                                   .lower = 1e-3,
+                                                   .upper = 1e4,
+                                                   .start = 2.0,
+                                                   .scan = {0.2, 2.0, 20.0}},
+                                         Parameter{.name = "temperature_coefficient",
+                                                   .unit = "1/K",
+                                                   .meaning = "of the resistance",
+                                                   .lower = 0.0,
+                                                   .upper = 0.02,
+                                                   .start = 0.00393,
+                                                   .fixed = true}};
+  static constexpr int memories = 1;  // winding temperature above ambient [K]
+
+  template <class S>
+  static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
+    t.resistance += p[2] * x.memory[0];
+  }
+  template <class S>
+  static void finish(const S* p, const Motor<S>& m, const S& h, const Motion<S>& before, const Motion<S>& after,
+                     S* memory) {
+    using std::exp;
+    const S current = 0.5 * (before.current + after.current);
+    const S settled = p[0] * m[resistance] * (1.0 + p[2] * memory[0]) * current * current;
+    memory[0] = settled + (memory[0] - settled) * exp(-(h / (p[0] * p[1])));
+  }
+};
+
+}  // namespace rwn

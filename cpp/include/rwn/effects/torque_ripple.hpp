@@ -1,0 +1,45 @@
+#pragma once
+
+#include "rwn/effect.hpp"
+
+namespace rwn {
+
+struct TorqueRipple {
+  static constexpr EffectInfo info{"torque-ripple", Site::flux, "Kt, Ke times 1 + a cos(N theta + p)",
+                                   "torque constant that varies with angle (commutation, few segments)",
+                                   "Jahns, Soong 1996"};
+  static constexpr std::array parameters{Parameter{.name = "amplitude",
+                                                   .unit = "1",
+                                                   .meaning = "relative variation",
+                                                   .lower = 0.0,
+                                                   .upper = 0.9,
+                                                   .start = 0.05,
+                                                   .strength = true},
+                                         Parameter{.name = "harmonic",
+                                                   .unit = "1",
+                                                   .meaning = "periods per revolution",
+                                                   .lower = 0.5,
+                                                   .upper = 1000.0,
+                                                   .start = 12.0,
+                                                   .order = true},
+                                         Parameter{.name = "phase",
+                                                   .unit = "rad",
+                                                   .meaning = "at position 0",
+                                                   .lower = -6.4,
+                                                   .upper = 6.4,
+                                                   .start = 0.0,
+                                                   .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
+                                                   .cyclic = true}};
+
+  template <class S>
+  static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
+    using std::cos;
+    t.flux *= 1.0 + p[0] * cos(p[1] * x.angle + p[2]);
+  }
+  template <class S>
+  static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double) {
+    return value_of(p[1]) * std::abs(value_of(x.speed)) * x.angle_per_position;
+  }
+};
+
+}  // namespace rwn

@@ -1,0 +1,36 @@
+// Normal equations of the free-run output error, J'J and J'r, without handing the Jacobian around.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rwn/simulate.hpp"
+
+namespace rwn {
+
+/// How a recorded speed was obtained: by a tachometer, or offline as the central difference of the position.
+enum class SpeedMeasurement { instantaneous, central_difference };
+
+/// Recorded signals of one recording; empty spans are signals that were not recorded. NaN samples do not count.
+struct Measurements {
+  std::span<const double> current, speed, position;                        // (n)
+  double current_weight = 1.0, speed_weight = 1.0, position_weight = 1.0;  // 1 / standard deviation
+  SpeedMeasurement speed_measurement = SpeedMeasurement::instantaneous;
+};
+
+struct NormalEquations {
+  SimulationStatus status = SimulationStatus::ok;
+  double chi2 = 0.0;              // sum of squared weighted errors
+  long count = 0;                 // of samples that counted
+  std::vector<double> gradient;   // (p) J'r with r = weighted (measured - simulated)
+  std::vector<double> curvature;  // (p, p) J'J
+};
+
+/// Replaces `speed` by the central difference of `position` over `time` (one-sided at the ends); rows are `width` wide.
+void central_difference(std::span<const double> time, std::span<const double> position, std::span<double> speed,
+                        std::size_t width);
+
+/// Simulates `task` (its derivatives by `task.by`) and accumulates the normal equations against `measured`.
+NormalEquations normal_equations(const SimulationTask& task, const Measurements& measured);
+
+}  // namespace rwn

@@ -1,0 +1,49 @@
+// Free-run simulation of a drive from its input signal alone, with exact derivatives by any chosen parameters.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rwn/drive.hpp"
+#include "rwn/effects.hpp"
+
+namespace rwn {
+
+enum class SimulationStatus { ok, diverged };
+
+std::string_view to_string(SimulationStatus status);
+std::string_view advice(SimulationStatus status);
+
+/// Parameters of motor and effects in one list: the motor's, then each effect's in the order of the table.
+int parameter_count();
+/// Index of the first parameter of effect `effect` in that list.
+int first_parameter(int effect);
+
+/// What to simulate; spans must outlive the call.
+struct SimulationTask {
+  Kind kind = Kind::dc;
+  std::span<const double> time;        // (n) [s], increasing
+  std::span<const double> input;       // (n) voltage [V] or torque [N m], held from its row to the next
+  std::span<const double> parameters;  // (parameter_count()) SI
+  std::span<const int> active;         // effects switched on, by index in the table
+  std::span<const int> by;             // (p) parameters to differentiate by
+  double angle_per_position = 1.0;     // 2 pi for a linear axis
+  double input_before = 0.0;           // input before the first row (matters with an input delay)
+  std::span<const double> angle;       // (n) recorded position that angle-dependent effects follow instead of the
+                                       // simulated one, which drifts; empty: free run
+};
+
+/// Signals at the rows' times, before the new input acts; derivatives are (n, p) row-major. Empty spans are not
+/// written.
+struct SimulationOutput {
+  std::span<double> current, speed, position;        // (n)
+  std::span<double> d_current, d_speed, d_position;  // (n, p)
+};
+
+/// Throws std::invalid_argument for lengths or indices that do not fit. A run that leaves the finite numbers stops
+/// with `diverged`; its signals from there on are held at the last finite value.
+SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& output);
+
+}  // namespace rwn

@@ -1,0 +1,185 @@
+// The sample loop around the integrator, for one scalar type. Included by cpp/kernels/simulate.cpp only.
+#pragma once
+
+#include "rwn/integrator.hpp"
+
+namespace rwn {
+
+/// As SimulationTask, in plain pointers (files of cpp/kernels use no std containers); derivatives by columns
+/// [column, column + N) of `by`.
+struct SimulationSlice {
+  const double* time;
+  const double* input;
+  int samples;
+  const double* parameters;
+  const int* active;
+  int active_count;
+  const int* first_parameter;  // per effect of the table
+  const int* column_of;        // per parameter: its column, or -1
+  int column;
+  double angle_per_position;
+  double input_before;
+  const double* angle;  // recorded position, or null
+  double *current, *speed, *position, *d_current, *d_speed, *d_position;
+  int columns;  // row length of the derivative arrays
+};
+
+template <class S, int N, Kind kind>
+class Simulation {
+ public:
+  explicit Simulation(const SimulationSlice& slice) : slice_(slice) {
+    for (int k = 0; k < motor_parameter_count; ++k) motor_[static_cast<std::size_t>(k)] = parameter(k);
+    int memory = 0, slot = 0;
+    for (int a = 0; a < slice_.active_count; ++a) {
+      const int effect = slice_.active[a];
+      const auto& call = all_effect_functions<S>[static_cast<std::size_t>(effect)];
+      effects_[static_cast<std::size_t>(a)] = {call, parameters_.data() + slot, memory};
+      const int end = slice_.first_parameter[effect + 1];
+      for (int k = slice_.first_parameter[effect]; k < end; ++k)
+        parameters_[static_cast<std::size_t>(slot++)] = parameter(k);
+      memory += call.memories;
+    }
+  }
+
+  /// Number of samples that stayed finite.
+  int run() {
+    Integrator<S, kind> integrator(motor_, effects_.data(), slice_.active_count, slice_.angle_per_position);
+    auto state = initial();
+    integrator.settle(state);
+    prepare(state);
+    for (int k = 0; k < slice_.samples; ++k) {
+      if (!std::isfinite(value_of(state.x[Integrator<S, kind>::w])) || !std::isfinite(value_of(state.position)))
+        return k;
+      write(k, state);
+      if (slice_.angle != nullptr) integrator.follow(slice_.angle[k] - value_of(state.position));
+      if (k + 1 < slice_.samples) advance(integrator, state, k);
+    }
+    return slice_.samples;
+  }
+
+ private:
+  using State = typename Integrator<S, kind>::State;
+  static constexpr std::size_t w = Integrator<S, kind>::w;
+
+  S parameter(int index) const {
+    const int column = slice_.column_of[index];
+    return S::variable(slice_.parameters[index], column < 0 ? -1 : column - slice_.column);
+  }
+
+  State initial() const {
+    State s;
+    if constexpr (kind == Kind::dc) s.x[0] = motor_[initial_current];
+    s.x[w] = motor_[initial_speed];
+    s.position = motor_[initial_position];
+    return s;
+  }
+
+  /// What of the actuators and sensors has to be done at every sample.
+  void prepare(State& s) {
+    using std::sqrt;
+    for (int a = 0; a < slice_.active_count; ++a) {
+      const auto& e = effects_[static_cast<std::size_t>(a)];
+      if (e.call.delay != nullptr) delay_ += e.call.delay(e.p);
+      delayed_ = delayed_ || e.call.delay != nullptr;
+      if (e.call.breaks != nullptr) {
+        for (const S& instant : e.call.breaks(e.p)) breaks_[static_cast<std::size_t>(break_count_++)] = instant;
+      }
+      actuates_ = actuates_ || e.call.actuate != nullptr;
+      senses_ = senses_ || e.call.sense != nullptr;
+      Reading<S> first = reading(s);
+      if (e.call.begin != nullptr) e.call.begin(e.p, first, s.memory.data() + e.memory);
+      for (int k = 0; k < e.call.hiddens; ++k) s.hidden[1] = s.x[w];  // load at motor speed, no twist
+    }
+  }
+
+  S acting(double command) const {
+    S input(command);
+    if (!actuates_) return input;
+    for (int a = 0; a < slice_.active_count; ++a) {
+      const auto& e = effects_[static_cast<std::size_t>(a)];
+      if (e.call.actuate != nullptr) input = e.call.actuate(e.p, input);
+    }
+    return input;
+  }
+
+  double command_before(int index) const { return index < 0 ? slice_.input_before : slice_.input[index]; }
+
+  void advance(Integrator<S, kind>& integrator, State& s, int k) {
+    const double begin = slice_.time[k];
+    const double end = slice_.time[k + 1];
+    if (!delayed_ && break_count_ == 0) {
+      integrator.advance(s, S(end - begin), acting(slice_.input[k]), begin - slice_.time[0]);
+      return;
+    }
+    advance_pieces(integrator, s, k, begin, end);
+  }
+
+  /// Splits the interval at instants that depend on parameters: late commands and the breaks of effects.
+  void advance_pieces(Integrator<S, kind>& integrator, State& s, int k, double begin, double end) {
+    S at(begin);
+    int row = k;
+    if (delayed_) {
+      while (row >= 0 && slice_.time[row] + value_of(delay_) > begin) --row;
+    }
+    while (value_of(at) < end) {
+      S next(end);
+      bool command = false;
+      if (delayed_ && row + 1 <= k && slice_.time[row + 1] + value_of(delay_) < end) {
+        next = slice_.time[row + 1] + delay_;
+        command = true;
+      }
+      for (int b = 0; b < break_count_; ++b) {
+        const S instant = breaks_[static_cast<std::size_t>(b)] + slice_.time[0];
+        if (value_of(instant) > value_of(at) && value_of(instant) < value_of(next)) {
+          next = instant;
+          command = false;
+        }
+      }
+      integrator.advance(s, next - at, acting(command_before(delayed_ ? row : k)), value_of(at) - slice_.time[0]);
+      at = next;
+      if (command) ++row;
+    }
+  }
+
+  Reading<S> reading(const State& s) const {
+    Reading<S> y;
+    if constexpr (kind == Kind::dc) y.current = s.x[0];
+    y.speed = s.x[w];
+    y.position = s.position;
+    return y;
+  }
+
+  void write(int k, const State& s) {
+    Reading<S> y = reading(s);
+    if (senses_) {
+      for (int a = 0; a < slice_.active_count; ++a) {
+        const auto& e = effects_[static_cast<std::size_t>(a)];
+        if (e.call.sense != nullptr) e.call.sense(e.p, y, s.memory.data() + e.memory);
+      }
+    }
+    store(k, y.current, slice_.current, slice_.d_current);
+    store(k, y.speed, slice_.speed, slice_.d_speed);
+    store(k, y.position, slice_.position, slice_.d_position);
+  }
+
+  void store(int k, const S& y, double* values, double* slopes) const {
+    if (values != nullptr) values[k] = value_of(y);
+    if constexpr (N > 0) {
+      if (slopes == nullptr) return;
+      const int count = std::min(N, slice_.columns - slice_.column);
+      double* row = slopes + static_cast<std::ptrdiff_t>(k) * slice_.columns + slice_.column;
+      for (int j = 0; j < count; ++j) row[j] = y.d[static_cast<std::size_t>(j)];
+    }
+  }
+
+  const SimulationSlice& slice_;
+  Motor<S> motor_{};
+  std::array<S, 32> parameters_{};
+  std::array<ActiveEffect<S>, max_active_effects> effects_{};
+  S delay_{0.0};
+  std::array<S, 8> breaks_{};
+  int break_count_ = 0;
+  bool delayed_ = false, actuates_ = false, senses_ = false;
+};
+
+}  // namespace rwn

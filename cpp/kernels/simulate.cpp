@@ -1,0 +1,35 @@
+// One simulation kernel per instruction set; rwn/simulate.hpp chooses.
+#include "rwn/simulate_kernel.hpp"
+
+namespace rwn::RWN_ISA {
+
+struct Tag {};
+
+namespace {
+
+template <int N>
+int run(Kind kind, const SimulationSlice& slice) {
+  using S = Dual<N, Tag>;
+  if (kind == Kind::dc) return Simulation<S, N, Kind::dc>(slice).run();
+  return Simulation<S, N, Kind::axis>(slice).run();
+}
+
+}  // namespace
+
+/// Derivatives by `width` (0, 4, 8, 12 or 16) columns; returns the number of samples that stayed finite.
+int simulate_slice(Kind kind, int width, const SimulationSlice& slice) {
+  switch (width) {
+    case 0:
+      return run<0>(kind, slice);
+    case 4:
+      return run<4>(kind, slice);
+    case 8:
+      return run<8>(kind, slice);
+    case 12:
+      return run<12>(kind, slice);
+    default:
+      return run<16>(kind, slice);
+  }
+}
+
+}  // namespace rwn::RWN_ISA

@@ -1,0 +1,134 @@
+#include "rwn/simulate.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "rwn/isa.hpp"
+#include "rwn/simulate_kernel.hpp"
+
+namespace rwn {
+
+namespace baseline {
+int simulate_slice(Kind kind, int width, const SimulationSlice& slice);
+}
+#ifdef RWN_X86
+namespace avx2 {
+int simulate_slice(Kind kind, int width, const SimulationSlice& slice);
+}
+namespace avx512 {
+int simulate_slice(Kind kind, int width, const SimulationSlice& slice);
+}
+#endif
+
+namespace {
+
+template <std::size_t... I>
+std::array<int, effect_count + 1> make_offsets(std::index_sequence<I...>) {
+  std::array<int, effect_count + 1> first{};
+  first[0] = motor_parameter_count;
+  ((first[I + 1] = first[I] + static_cast<int>(std::tuple_element_t<I, Effects>::parameters.size())), ...);
+  return first;
+}
+
+const std::array<int, effect_count + 1>& offsets() {
+  static const auto first = make_offsets(std::make_index_sequence<effect_count>{});
+  return first;
+}
+
+int simulate_slice(Kind kind, int width, const SimulationSlice& slice) {
+#ifdef RWN_X86
+  if (isa() == Isa::avx512) return avx512::simulate_slice(kind, width, slice);
+  if (isa() == Isa::avx2) return avx2::simulate_slice(kind, width, slice);
+#endif
+  return baseline::simulate_slice(kind, width, slice);
+}
+
+void require(bool condition, const char* message) {
+  if (!condition) throw std::invalid_argument(message);
+}
+
+void check(const SimulationTask& task, const SimulationOutput& output) {
+  const std::size_t n = task.time.size();
+  require(n >= 2, "simulate: at least two samples are needed");
+  require(task.input.size() == n, "simulate: time and input differ in length");
+  require(task.angle.empty() || task.angle.size() == n, "simulate: time and angle differ in length");
+  require(task.parameters.size() == static_cast<std::size_t>(parameter_count()),
+          "simulate: wrong number of parameters");
+  require(task.active.size() <= max_active_effects, "simulate: too many effects at once");
+  for (int effect : task.active) require(effect >= 0 && effect < effect_count, "simulate: no such effect");
+  for (int index : task.by) require(index >= 0 && index < parameter_count(), "simulate: no such parameter");
+  for (const auto& signal : {output.current, output.speed, output.position}) {
+    require(signal.empty() || signal.size() == n, "simulate: an output differs in length from time");
+  }
+  for (const auto& slope : {output.d_current, output.d_speed, output.d_position}) {
+    require(slope.empty() || slope.size() == n * task.by.size(), "simulate: derivatives must be (samples, parameters)");
+  }
+}
+
+/// Least width of the kernels that holds what is left; wide ones cost less per column.
+int width_for(int columns) { return columns <= 0 ? 0 : columns <= 4 ? 4 : columns <= 8 ? 8 : columns <= 12 ? 12 : 16; }
+
+double* pointer(std::span<double> s) { return s.empty() ? nullptr : s.data(); }
+
+void hold_last(std::span<double> signal, int finite) {
+  if (signal.empty()) return;
+  const auto kept = signal.begin() + finite;
+  std::fill(kept, signal.end(), finite > 0 ? *(kept - 1) : 0.0);
+}
+
+}  // namespace
+
+std::string_view to_string(SimulationStatus status) { return status == SimulationStatus::ok ? "ok" : "diverged"; }
+
+std::string_view advice(SimulationStatus status) {
+  return status == SimulationStatus::ok ? "The simulation ran to the end."
+                                        : "The simulation left the finite numbers: look for a negative inertia or "
+                                          "inductance, or an unstable model.";
+}
+
+int parameter_count() { return offsets()[effect_count]; }
+
+int first_parameter(int effect) { return offsets()[static_cast<std::size_t>(effect)]; }
+
+SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& output) {
+  check(task, output);
+  const int columns = static_cast<int>(task.by.size());
+  std::vector<int> column_of(static_cast<std::size_t>(parameter_count()), -1);
+  for (int j = 0; j < columns; ++j) column_of[static_cast<std::size_t>(task.by[static_cast<std::size_t>(j)])] = j;
+
+  SimulationSlice slice{task.time.data(),
+                        task.input.data(),
+                        static_cast<int>(task.time.size()),
+                        task.parameters.data(),
+                        task.active.data(),
+                        static_cast<int>(task.active.size()),
+                        offsets().data(),
+                        column_of.data(),
+                        0,
+                        task.angle_per_position,
+                        task.input_before,
+                        task.angle.empty() ? nullptr : task.angle.data(),
+                        pointer(output.current),
+                        pointer(output.speed),
+                        pointer(output.position),
+                        pointer(output.d_current),
+                        pointer(output.d_speed),
+                        pointer(output.d_position),
+                        columns};
+  int finite = slice.samples;
+  do {
+    const int width = width_for(columns - slice.column);
+    finite = std::min(finite, simulate_slice(task.kind, width, slice));
+    slice.column += std::max(width, 1);
+  } while (slice.column < columns);
+
+  if (finite == slice.samples) return SimulationStatus::ok;
+  for (const auto& signal : {output.current, output.speed, output.position}) hold_last(signal, finite);
+  for (const auto& slope : {output.d_current, output.d_speed, output.d_position}) {
+    if (!slope.empty()) std::fill(slope.begin() + finite * columns, slope.end(), 0.0);
+  }
+  return SimulationStatus::diverged;
+}
+
+}  // namespace rwn

@@ -1,0 +1,102 @@
+"""The corrected model and the numbers that go with it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.diagnosis import Estimate, FittedParameter, FoundEffect, NominalFit
+from rwn.effects import motor_index, table
+from rwn.evidence import Hypothesis
+from rwn.model import Model
+from rwn.search import Fitted
+
+if TYPE_CHECKING:
+    from rwn.diagnose import Explanation
+
+Array = NDArray[np.float64]
+
+
+def deviations(fitted: Fitted, variance: float, correlation_time: float) -> Array:
+    """Standard deviations (p) of the unknowns: white-noise covariance widened by the residual's variance and colour."""
+    information = fitted.minimum.data_information / (max(variance, 1.0) * correlation_time)
+    information = information + (fitted.minimum.information - fitted.minimum.data_information)
+    scale = np.sqrt(np.maximum(np.diag(information), 1e-300))
+    covariance = np.linalg.pinv(information / np.outer(scale, scale), rcond=1e-13, hermitian=True)
+    result: Array = np.sqrt(np.maximum(np.diag(covariance), 0.0)) / scale
+    return result
+
+
+def estimates(fitted: Fitted, variance: float, correlation_time: float) -> dict[str, Estimate]:
+    """Value and 95 % interval of every unknown, cut at its bounds."""
+    spread = deviations(fitted, variance, correlation_time)
+    found = {}
+    for u, value, std in zip(fitted.candidate.unknowns, fitted.minimum.values, spread, strict=True):
+        if u.logarithmic and value > 0.0:
+            factor = float(np.exp(min(1.96 * std / value, 50.0)))
+            interval = (max(value / factor, u.lower), min(value * factor, u.upper))
+        else:
+            interval = (max(value - 1.96 * std, u.lower), min(value + 1.96 * std, u.upper))
+        found[u.name] = Estimate(value=float(value), unit=u.unit, interval=(float(interval[0]), float(interval[1])))
+    return found
+
+
+def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, ...]:
+    """The named effects with parameters, intervals and probability, the one that explains most first."""
+    numbers = estimates(chosen.fitted, found.left.variance, found.left.correlation_time)
+    rows = []
+    for name in chosen.fitted.added:
+        effect = table()[name]
+        parameters = {p.name: numbers[f"{name}.{p.name}"] for p in effect.parameters if f"{name}.{p.name}" in numbers}
+        for p in effect.parameters:
+            if p.fixed:
+                parameters[p.name] = Estimate(value=p.start, unit=p.unit)
+        rows.append(
+            FoundEffect(
+                name=name,
+                equation=effect.mismatch,
+                probability=sum(h.probability for h in found.hypotheses if name in h.fitted.added),
+                parameters=parameters,
+                formula=effect.equation,
+                meaning=effect.meaning,
+            )
+        )
+    return tuple(rows)
+
+
+def nominal_fit(found: Explanation, chosen: Hypothesis, model: Model) -> NominalFit:
+    """Nominal parameters: as given, refitted alone, and together with the found effects."""
+    left, before = found.left, found.before
+    alone = estimates(found.nominal, before.variance, before.correlation_time)
+    together = estimates(chosen.fitted, left.variance, left.correlation_time) if chosen.fitted.added else {}
+    rows = {}
+    for name, value in model.parameters.items():
+        unit = model.unit(name)
+        rows[name] = FittedParameter(
+            nominal=value,
+            uncertainty=model.uncertainty.get(name, 0.0),
+            refitted=replace(alone[name], unit=unit) if name in alone else Estimate(value=value, unit=unit),
+            corrected=replace(together[name], unit=unit) if name in together else None,
+        )
+    status = found.nominal.minimum.status
+    return NominalFit(parameters=rows, status=status.name.lower().replace("_", "-"), advice=status.value)
+
+
+def corrected_model(fitted: Fitted, model: Model) -> Model:
+    """`model` with the fitted parameters and effects: what corrected.toml holds."""
+    vector = fitted.vector
+    active = fitted.candidate.effects
+    replaced = {p.replaces for name in active for p in table()[name].parameters}
+    parameters = {
+        name: float(vector[motor_index(name)]) if name in model.uncertainty else value
+        for name, value in model.parameters.items()
+        if name not in replaced
+    }
+    effects = {
+        name: {p.name: float(vector[table()[name].at(p.name)]) for p in table()[name].parameters} for name in active
+    }
+    uncertainty = {name: value for name, value in model.uncertainty.items() if name in parameters}
+    return replace(model, parameters=parameters, effects=effects, uncertainty=uncertainty)

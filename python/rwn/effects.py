@@ -1,0 +1,99 @@
+"""The table of effects and the layout of the parameter vector, both read from the C++ core."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn import _core
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameter:
+    """One parameter: bounds, first guess and scan are in units of `scale` (see cpp/include/rwn/parameter.hpp)."""
+
+    name: str
+    unit: str
+    meaning: str
+    lower: float
+    upper: float
+    start: float
+    scale: str
+    scan: tuple[float, ...]
+    inverse: bool
+    strength: bool
+    fixed: bool
+    cyclic: bool
+    order: bool
+    window: bool
+    lattice: bool
+    replaces: str | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effect:
+    """One physics that a nominal model may lack."""
+
+    name: str
+    site: str
+    mismatch: str  # the equation that it belongs to: mechanical, electrical, actuator, sensor
+    equation: str
+    meaning: str
+    source: str
+    parameters: tuple[Parameter, ...]
+    index: int  # in the C++ table
+    first: int  # position of its first parameter in the parameter vector
+
+    def at(self, parameter: str) -> int:
+        """Position of one of its parameters in the parameter vector."""
+        return self.first + [p.name for p in self.parameters].index(parameter)
+
+
+def _parameter(row: Mapping[str, Any]) -> Parameter:
+    return Parameter(**{**row, "scan": tuple(row["scan"])})
+
+
+@cache
+def motor_parameters() -> Mapping[str, Parameter]:
+    """The motor's own parameters by name, in the order of the parameter vector."""
+    return {row["name"]: _parameter(row) for row in _core.motor_parameter_table()}
+
+
+@cache
+def table() -> Mapping[str, Effect]:
+    """Every effect by name, in the order of the C++ table."""
+    effects: dict[str, Effect] = {}
+    first = len(motor_parameters())
+    for index, row in enumerate(_core.effect_table()):
+        parameters = tuple(_parameter(p) for p in row["parameters"])
+        effects[row["name"]] = Effect(**{**row, "parameters": parameters}, index=index, first=first)
+        first += len(parameters)
+    return effects
+
+
+def motor_index(name: str) -> int:
+    """Position of a motor parameter in the parameter vector."""
+    return list(motor_parameters()).index(name)
+
+
+def parameter_vector(
+    motor: Mapping[str, float], effects: Mapping[str, Mapping[str, float]]
+) -> NDArray[np.float64]:
+    """All parameters of motor and effects in one vector, as the core takes them; what is not given is zero.
+
+    Parameters of effects that are `fixed` by nature and not given take their stated value.
+    """
+    vector = np.zeros(_core.parameter_count())
+    for name, value in motor.items():
+        vector[motor_index(name)] = value
+    for name, values in effects.items():
+        effect = table()[name]
+        for k, parameter in enumerate(effect.parameters):
+            default = parameter.start if parameter.fixed else 0.0
+            vector[effect.first + k] = values.get(parameter.name, default)
+    return vector

@@ -1,0 +1,36 @@
+"""Bad input, said in one line: what is wrong, where, what was expected, how to fix it."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class InputError(ValueError):
+    """Input that cannot be used. `str()` is one line: `where: what; expected ...; fix: ...`."""
+
+    def __init__(self, what: str, *, where: object = "", expected: str = "", fix: str = "") -> None:
+        self.what, self.where, self.expected, self.fix = what, str(where), expected, fix
+        head = f"{self.where}: {what}" if self.where else what
+        parts = [head, f"expected {expected}" if expected else "", f"fix: {fix}" if fix else ""]
+        super().__init__(" ".join("; ".join(part for part in parts if part).split()))
+
+
+def closest(name: str, names: Iterable[str]) -> str | None:
+    """The one of `names` that `name` was probably meant to be, or None."""
+    plain = {candidate.lower().replace("-", "_"): candidate for candidate in names}
+    key = name.lower().replace("-", "_").replace(" ", "_")
+    found = difflib.get_close_matches(key, plain, n=1, cutoff=0.7)
+    return plain[found[0]] if found else None
+
+
+def unknown(kind: str, name: str, names: Iterable[str], *, where: object) -> InputError:
+    """The error for a `name` that is none of `names`, with the one that was probably meant."""
+    known = list(names)
+    meant = closest(name, known)
+    return InputError(
+        f"unknown {kind} '{name}'",
+        where=where,
+        expected="one of " + ", ".join(known) if known else f"no {kind} here",
+        fix=f"did you mean '{meant}'?" if meant else f"remove or rename '{name}'",
+    )

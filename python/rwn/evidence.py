@@ -1,0 +1,122 @@
+"""How strongly recordings speak for one explanation against another when their residuals are coloured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.output_error import OutputError
+from rwn.search import Fitted
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Statistics:
+    """What is left of a fit."""
+
+    count: int  # samples
+    variance: float  # mean squared weighted error; 1: the noise alone
+    correlation_time: float  # integrated autocorrelation time, in samples; 1: white
+    coloured: float  # energy of block means against that of white noise; 1: white
+
+    @property
+    def effective(self) -> float:
+        """Effective number of independent samples."""
+        return self.count / self.correlation_time
+
+
+def correlation_time(x: Array) -> float:
+    """Integrated autocorrelation time 1 + 2 sum rho_k in samples (Sokal's window of 5 times itself), at least 1."""
+    x = x[np.isfinite(x)] - np.nanmean(x)
+    n = x.size
+    if n < 8 or not np.any(x):
+        return 1.0
+    spectrum = np.abs(np.fft.rfft(x, 2 * n)) ** 2
+    rho = np.fft.irfft(spectrum)[:n]
+    sums = 2.0 * np.cumsum(rho / rho[0]) - 1.0
+    inside = np.nonzero(np.arange(n) >= 5.0 * sums)[0]
+    return float(max(1.0, sums[inside[0] if inside.size else n - 1]))
+
+
+def coloured_share(x: Array, blocks: Sequence[int] = (8, 32, 128)) -> float:
+    """Largest of m var(mean of m samples) / var(x) over block lengths m: 1 for white noise."""
+    x = x[np.isfinite(x)]
+    variance = float(np.mean(x**2))
+    found = [1.0]
+    for m in blocks:
+        k = x.size // m
+        if k >= 8 and variance > 0.0:
+            found.append(m * float(np.mean(x[: k * m].reshape(k, m).mean(axis=1) ** 2)) / variance)
+    return max(found)
+
+
+def statistics(problem: OutputError, fitted: Fitted) -> Statistics:
+    """Residual statistics of a fit, over all recordings and signals."""
+    joined = join(problem, problem.residuals(fitted.vector, fitted.candidate.active))
+    energies = {s: float(np.nansum(r**2)) for s, r in joined.items()}
+    whole = sum(energies.values()) or 1.0
+    count = sum(int(np.isfinite(r).sum()) for r in joined.values())
+    return Statistics(
+        count=count,
+        variance=whole / max(count, 1),
+        correlation_time=sum(energies[s] * correlation_time(r) for s, r in joined.items()) / whole,
+        coloured=max(coloured_share(r) for r in joined.values()),
+    )
+
+
+def join(problem: OutputError, residuals: Sequence[Mapping[str, Array]]) -> dict[str, Array]:
+    """Weighted residuals of each signal, recordings end to end."""
+    signals = {s for r in residuals for s in r}
+    return {
+        s: np.concatenate([r[s] for r in residuals if s in r]) / problem.noise.get(s, 1.0) for s in sorted(signals)
+    }
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hypothesis:
+    """An explanation with its probability among those that were tried."""
+
+    fitted: Fitted
+    score: float  # log of evidence, up to a constant
+    probability: float
+    misfit: float  # log-likelihood lost against the best, complexity aside
+
+
+def weigh(
+    fits: Sequence[Fitted], left: Statistics, *, rivals: int, prior: Mapping[str, float] | None = None
+) -> list[Hypothesis]:
+    """Probabilities of the fits, best first.
+
+    BIC with the effective number of samples of the best explanation's residual (coloured residuals carry less), a
+    uniform prior over how many effects are missing, shared over the `rivals` names. `prior`: log prior odds per name.
+    """
+    scale = 2.0 * max(left.variance, 1.0) * left.correlation_time
+    least = min(f.cost for f in fits)
+    base = min(seen(f) for f in fits)
+    scores = []
+    for f in fits:
+        unknowns = seen(f) - base
+        names = sum((prior or {}).get(name, 0.0) for name in f.added)
+        scores.append(
+            -(f.cost - least) / scale
+            - 0.5 * unknowns * np.log(max(left.effective, 2.0))
+            - len(f.added) * np.log(rivals)
+            + names
+        )
+    weights = np.exp(np.array(scores) - max(scores))
+    weights /= weights.sum()
+    rows = [
+        Hypothesis(fitted=f, score=float(s), probability=float(p), misfit=float((f.cost - least) / scale))
+        for f, s, p in zip(fits, scores, weights, strict=True)
+    ]
+    return sorted(rows, key=lambda h: -h.score)
+
+
+def seen(fitted: Fitted) -> int:
+    """Unknowns that the recordings respond to at all."""
+    curvature = np.diag(fitted.minimum.data_information) * np.maximum(np.abs(fitted.minimum.values), 1e-300) ** 2
+    return int(np.sum(curvature > 1e-6)) if curvature.size else 0

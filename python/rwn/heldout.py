@@ -1,0 +1,103 @@
+"""The proof: free-run error on recordings that were not used for fitting."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.diagnosis import HeldoutRow
+from rwn.evidence import correlation_time
+from rwn.output_error import OutputError, Target
+from rwn.prepare import motion, noise_levels
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contender:
+    """A parameter vector with the effects that are switched on."""
+
+    vector: Array
+    active: tuple[int, ...]
+
+
+def heldout_rows(
+    problem: OutputError,
+    targets: Sequence[Target],
+    nominal: Contender,
+    refitted: Contender,
+    corrected: Contender | None,
+    *,
+    units: dict[str, str],
+    seed: int,
+) -> tuple[HeldoutRow, ...]:
+    """Rms free-run error of each recorded signal, whole and at low speed, with a block-bootstrap interval on the gain."""
+    rows = []
+    for target in targets:
+        runs = [_errors(problem, target, c) for c in (nominal, refitted, corrected) if c is not None]
+        slow = _slow(target)
+        best = runs[-1]
+        floor = noise_levels([target], [best])
+        for signal in target.recorded:
+            for region, chosen in (("all", np.ones(slow.size, dtype=bool)), ("low speed", slow)):
+                if chosen.sum() < 20:
+                    continue
+                parts = [run[signal][chosen] for run in runs]
+                rows.append(_row(target, region, signal, units, parts, floor[signal], corrected is not None, seed))
+    return tuple(rows)
+
+
+def _errors(problem: OutputError, target: Target, contender: Contender) -> dict[str, Array]:
+    alone = replace(problem, targets=(replace(target, angle=np.empty(0)),))
+    return alone.residuals(contender.vector, contender.active)[0]
+
+
+def _slow(target: Target) -> NDArray[np.bool_]:
+    speed = np.abs(motion(target)[0])
+    result: NDArray[np.bool_] = speed < 0.1 * np.percentile(speed, 99.5)
+    return result
+
+
+def _row(
+    target: Target, region: str, signal: str, units: dict[str, str], parts: list[Array], floor: float, found: bool, seed: int
+) -> HeldoutRow:
+    rms = [float(np.sqrt(np.nanmean(p**2))) for p in parts]
+    gain = 1.0 - rms[2] / rms[1] if found else None
+    return HeldoutRow(
+        recording=target.name,
+        region=region,
+        signal=signal,
+        unit=units[signal],
+        samples=parts[0].size,
+        nominal=rms[0],
+        refitted=rms[1],
+        corrected=rms[2] if found else None,
+        noise_floor=floor,
+        gain=gain,
+        gain_interval=gain_interval(parts[1], parts[2], seed=seed) if found else None,
+    )
+
+
+def gain_interval(before: Array, after: Array, *, seed: int, draws: int = 400) -> tuple[float, float]:
+    """95 % interval of 1 - rms(after)/rms(before) by circular block bootstrap.
+
+    Blocks of twice the correlation time of the longer-lived squared error (after Politis, White 2004).
+    """
+    n = before.size
+    length = int(np.clip(2.0 * max(correlation_time(before), correlation_time(after)), 1, max(1, n // 4)))
+    rng = np.random.default_rng(seed)
+    sums = np.stack([_block_sums(before**2, length), _block_sums(after**2, length)])
+    picks = rng.integers(0, n, size=(draws, max(1, n // length)))
+    totals = sums[:, picks].sum(axis=2)
+    gains = 1.0 - np.sqrt(totals[1] / np.maximum(totals[0], 1e-300))
+    low, high = np.percentile(gains, [2.5, 97.5])
+    return float(low), float(high)
+
+
+def _block_sums(x: Array, length: int) -> Array:
+    """Sum over the circular block that begins at each sample."""
+    sums = np.concatenate([[0.0], np.cumsum(np.concatenate([x, x[:length]]))])
+    return sums[length : length + x.size] - sums[: x.size]

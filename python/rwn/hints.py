@@ -1,0 +1,114 @@
+"""First guesses read off a residual: spatial frequencies from a spectrum over the angle, windows from a change in time.
+
+A speed residual r answers an unknown torque T as the linear drive does, J dr/dt + (B + Kt Ke / R) r = T. Regressors are
+passed through that filter, so the residual is never differentiated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from rwn.effects import motor_index
+from rwn.output_error import OutputError, Target
+
+Array = NDArray[np.float64]
+
+
+def drive_filter(problem: OutputError, motor: Array, step: float) -> tuple[float, float]:
+    """(a, b) of r[k] = a r[k-1] + b T[k-1], the drive's answer to a torque held over a step."""
+    inertia, damping = motor[motor_index("inertia")], motor[motor_index("viscous_friction")]
+    if problem.kind == "dc":
+        coupling = motor[motor_index("torque_constant")] * motor[motor_index("back_emf_constant")]
+        damping += coupling / motor[motor_index("resistance")]
+    rate = max(damping / inertia, 1e-9)
+    a = float(np.exp(-rate * step))
+    return a, (1.0 - a) / (rate * inertia)
+
+
+def angle_spectrum(
+    problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]], orders: Array, *, with_current: bool = False
+) -> Array:
+    """Share of the speed residual's energy that a torque cos(N theta), sin(N theta) explains, per order N.
+
+    `with_current`: the torque is proportional to the driving current as well (a ripple of Kt).
+    """
+    explained, energy = np.zeros(orders.size), 1e-300
+    grams = np.zeros((orders.size, 2, 2))
+    loads = np.zeros((orders.size, 2))
+    for target, residual in zip(problem.targets, residuals, strict=True):
+        if "speed" not in residual or not target.angle.size:
+            continue
+        angle = problem.angle_per_position * target.angle
+        r = residual["speed"]
+        drive = _drive(problem, target) if with_current else np.ones(r.size)
+        a, b = drive_filter(problem, motor, float(np.median(np.diff(target.time))))
+        for k, order in enumerate(orders):
+            pair = np.stack([np.cos(order * angle), np.sin(order * angle)]) * drive
+            answer = lfilter([0.0, b], [1.0, -a], pair, axis=1)
+            answer -= answer.mean(axis=1, keepdims=True)
+            grams[k] += answer @ answer.T
+            loads[k] += answer @ (r - r.mean())
+        energy += float(np.sum((r - r.mean()) ** 2))
+    for k in range(orders.size):
+        ridge = 1e-9 * np.trace(grams[k]) + 1e-300
+        explained[k] = loads[k] @ np.linalg.solve(grams[k] + ridge * np.eye(2), loads[k])
+    return explained / energy
+
+
+def _drive(problem: OutputError, target: Target) -> Array:
+    if problem.kind != "dc" or not target.current.size:
+        return target.input
+    return target.current
+
+
+def orders_of(spectrum: Array, orders: Array, count: int = 3) -> list[float]:
+    """The orders that explain most, neighbours left out."""
+    found: list[float] = []
+    for k in np.argsort(spectrum)[::-1]:
+        if all(abs(orders[k] - o) > 1.5 * (orders[1] - orders[0]) for o in found):
+            found.append(float(orders[k]))
+        if len(found) == count:
+            break
+    return found
+
+
+def order_grid(problem: OutputError) -> Array:
+    """Orders worth looking at: whole numbers per revolution; as fine as the travel allows on a linear axis."""
+    if problem.angle_per_position == 1.0:
+        return np.arange(1.0, 121.0)
+    travel = max(float(np.ptp(t.angle)) for t in problem.targets if t.angle.size)
+    return np.arange(2.0, 900.0) * (0.5 / max(travel, 1e-9))
+
+
+def windows(problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]], count: int = 2) -> list[tuple[float, float]]:
+    """(t_start, t_end) of the time windows in which a constant extra torque explains most of the residual."""
+    length = max(float(t.time[-1] - t.time[0]) for t in problem.targets)
+    bins = 60
+    total, weight = np.zeros(bins), np.zeros(bins)
+    for target, residual in zip(problem.targets, residuals, strict=True):
+        if "speed" not in residual:
+            continue
+        r = residual["speed"]
+        a, b = drive_filter(problem, motor, float(np.median(np.diff(target.time))))
+        torque = (r[1:] - a * r[:-1]) / b
+        place = np.minimum((bins * (target.time[:-1] - target.time[0]) / length).astype(int), bins - 1)
+        total += np.bincount(place, torque, bins)
+        weight += np.bincount(place, minlength=bins)
+    mean = total.sum() / max(weight.sum(), 1.0)
+    sums = np.concatenate([[0.0], np.cumsum(total - mean * weight)])
+    counts = np.concatenate([[0.0], np.cumsum(weight)])
+    i, j = np.triu_indices(bins + 1, 2)
+    n, whole = counts[j] - counts[i], counts[-1]
+    gain = np.where((n > 0) & (n < whole), (sums[j] - sums[i]) ** 2 / np.maximum(n * (1.0 - n / whole), 1e-9), 0.0)
+    found: list[tuple[float, float]] = []
+    for k in np.argsort(gain)[::-1]:
+        if all(abs(i[k] - p) + abs(j[k] - q) > bins / 6 for p, q in found):
+            found.append((float(i[k]), float(j[k])))
+        if len(found) == count:
+            break
+    # a little off the grid, so that the instants carry derivatives
+    return [(length * (p + 0.013) / bins, length * (q - 0.017) / bins) for p, q in found]

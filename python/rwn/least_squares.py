@@ -1,0 +1,210 @@
+"""Levenberg-Marquardt on small normal equations, with priors and bounds; knows nothing of drives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class FitStatus(Enum):
+    """How a fit ended; the value says what to do."""
+
+    CONVERGED = "The fit converged."
+    ITERATION_LIMIT = "The iteration limit was reached: allow more iterations, or start closer."
+    STALLED = "No step improves the fit further: a parameter may be at a bound, or the problem is not smooth."
+    DIVERGED = "The simulation diverged at the starting values: check signs and units of the model."
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unknown:
+    """A parameter to be found, as a coordinate of the search."""
+
+    name: str
+    unit: str
+    index: int  # in the parameter vector
+    lower: float
+    upper: float
+    logarithmic: bool = False  # searched as its logarithm
+    prior: float | None = None
+    prior_std: float = np.inf  # relative where logarithmic or `prior` is not 0
+    tied_to: str = ""  # another logarithmic unknown that has about the same value
+    tie_std: float = np.inf  # relative standard deviation of their ratio
+
+    def coordinate(self, value: float) -> float:
+        """Search coordinate of a value."""
+        return float(np.log(value)) if self.logarithmic else value
+
+    def value(self, coordinate: float) -> float:
+        """Value at a search coordinate."""
+        return float(np.exp(coordinate)) if self.logarithmic else coordinate
+
+
+@dataclass(frozen=True, kw_only=True)
+class Normal:
+    """Sum of squares and its normal equations by parameter *values*."""
+
+    chi2: float
+    gradient: Array  # (p) J'r
+    curvature: Array  # (p, p) J'J
+    finite: bool = True
+
+
+Evaluate = Callable[[Array], Normal]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Minimum:
+    """Where a fit ended."""
+
+    values: Array  # (p)
+    chi2: float  # sum of squared weighted errors, priors aside
+    cost: float  # chi2 and priors
+    information: Array  # (p, p) J'J and priors by value: the inverse covariance for white residuals of variance 1
+    data_information: Array  # (p, p) the same without priors
+    status: FitStatus
+    iterations: int
+
+
+class _Search:
+    """The problem in search coordinates."""
+
+    def __init__(self, evaluate: Evaluate, unknowns: tuple[Unknown, ...]) -> None:
+        self.evaluate, self.unknowns = evaluate, unknowns
+        self.logarithmic = np.array([u.logarithmic for u in unknowns], dtype=bool)
+        self.lower = np.array([u.coordinate(u.lower) for u in unknowns])
+        self.upper = np.array([u.coordinate(u.upper) for u in unknowns])
+        self.prior = np.array([u.coordinate(u.prior) if u.prior is not None else 0.0 for u in unknowns])
+        self.weight = np.array([_prior_weight(u) for u in unknowns])
+        self.tie = _ties(unknowns)
+
+    def values(self, z: Array) -> Array:
+        return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, z, 0.0)), z)
+
+    def at(self, z: Array) -> tuple[float, Array, Array, Normal]:
+        """Cost, -gradient/2 and curvature in search coordinates."""
+        values = self.values(z)
+        normal = self.evaluate(values)
+        if not normal.finite or not np.isfinite(normal.chi2):
+            return np.inf, np.zeros_like(z), np.eye(z.size), normal
+        slope = np.where(self.logarithmic, values, 1.0)
+        off = z - self.prior
+        cost = normal.chi2 + float(np.sum(self.weight * off**2) + z @ self.tie @ z)
+        gradient = normal.gradient * slope - self.weight * off - self.tie @ z
+        curvature = normal.curvature * np.outer(slope, slope) + np.diag(self.weight) + self.tie
+        return cost, gradient, curvature, normal
+
+    def information(self, z: Array, normal: Normal) -> Array:
+        slope = np.where(self.logarithmic, self.values(z), 1.0)
+        return normal.curvature + (np.diag(self.weight) + self.tie) / np.outer(slope, slope)
+
+
+def _ties(unknowns: tuple[Unknown, ...]) -> Array:
+    """Curvature of the priors on ratios."""
+    names = [u.name for u in unknowns]
+    tie = np.zeros((len(names), len(names)))
+    for i, u in enumerate(unknowns):
+        if u.tied_to in names and u.logarithmic:
+            j = names.index(u.tied_to)
+            tie[np.ix_([i, j], [i, j])] += np.array([[1.0, -1.0], [-1.0, 1.0]]) / u.tie_std**2
+    return tie
+
+
+def _prior_weight(u: Unknown) -> float:
+    if u.prior is None or not np.isfinite(u.prior_std):
+        return 0.0
+    scale = u.prior_std if u.logarithmic or u.prior == 0.0 else u.prior_std * abs(u.prior)
+    return 1.0 / max(scale, 1e-12) ** 2
+
+
+def minimise(
+    evaluate: Evaluate,
+    start: Array,
+    unknowns: tuple[Unknown, ...],
+    *,
+    max_iterations: int = 60,
+    tolerance: float = 1e-2,
+    damping: float = 1e-3,
+) -> Minimum:
+    """Levenberg-Marquardt (Nielsen's damping) from `start` (p values) within the unknowns' bounds.
+
+    Ends when a step promises less than `tolerance` of cost, in units of the residual's variance.
+    """
+    search = _Search(evaluate, unknowns)
+    z = np.array([u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in zip(unknowns, start, strict=True)])
+    z = np.clip(z, search.lower, search.upper)
+    cost, gradient, curvature, normal = search.at(z)
+    if not np.isfinite(cost):
+        return _minimum(search, z, normal, cost, FitStatus.DIVERGED, 0)
+    growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
+    for count in range(1, max_iterations + 1):
+        step = _step(search, z, gradient, curvature, damping)
+        promised = float(2.0 * step @ gradient - step @ curvature @ step)
+        if promised <= 0.0 and step.any():  # the ends of ranges stood in the way: shorten towards the gradient
+            damping, growth, misses = damping * 10.0, 2.0, misses + 1
+            if misses <= 8:
+                continue
+        unit = max(1.0, cost / max(1, _size(normal)))
+        if promised < tolerance * unit:
+            status = FitStatus.CONVERGED
+            break
+        trial = search.at(z + step)
+        gain = (cost - trial[0]) / promised if np.isfinite(trial[0]) else -1.0
+        if gain > 1e-4:
+            z = z + step
+            cost, gradient, curvature, normal = trial
+            damping *= max(1.0 / 5.0, 1.0 - (2.0 * gain - 1.0) ** 3)
+            growth, misses = 2.0, 0
+        else:
+            damping, growth, misses = damping * growth, growth * 2.0, misses + 1
+            if misses > 8:
+                status = FitStatus.STALLED
+                break
+    return _minimum(search, z, normal, cost, status, count)
+
+
+def _size(normal: Normal) -> int:
+    return int(getattr(normal, "count", 0)) or 1
+
+
+def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
+    """Damped Gauss-Newton step; parameters that would leave their range go to its end, the others answer to that."""
+    free = ~(((z <= search.lower) & (gradient < 0)) | ((z >= search.upper) & (gradient > 0)))
+    step = np.zeros_like(z)
+    low = np.maximum(search.lower - z, -_reach(search))
+    high = np.minimum(search.upper - z, _reach(search))
+    while free.any():
+        held = ~free
+        load = gradient[free] - curvature[np.ix_(free, held)] @ step[held]
+        part = curvature[np.ix_(free, free)]
+        scale = np.sqrt(np.maximum(np.diag(part), 1e-30))
+        scaled = part / np.outer(scale, scale) + (damping + 1e-13) * np.eye(scale.size)
+        step[free] = np.linalg.solve(scaled, load / scale) / scale
+        out = free & ((step < low) | (step > high))
+        if not out.any():
+            break
+        step[out] = np.clip(step, low, high)[out]
+        free &= ~out
+    return step
+
+
+def _reach(search: _Search) -> Array:
+    """No parameter moves by more than a factor of 3, or a third of its range, at once."""
+    return np.where(search.logarithmic, 1.1, np.maximum((search.upper - search.lower) / 3.0, 1e-300))
+
+
+def _minimum(search: _Search, z: Array, normal: Normal, cost: float, status: FitStatus, count: int) -> Minimum:
+    return Minimum(
+        values=search.values(z),
+        chi2=normal.chi2,
+        cost=cost,
+        information=search.information(z, normal),
+        data_information=normal.curvature,
+        status=status,
+        iterations=count,
+    )

@@ -1,0 +1,63 @@
+"""The TOML text of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+
+from rwn.layout import Layout
+from rwn.model import Model
+
+
+def format_model(model: Model) -> str:
+    """The TOML text of a model, in SI, with units as comments."""
+    lines = ["[motor]", f'kind = "{model.kind}"']
+    lines += ["linear = true"] if model.linear else []
+    lines += [f"order = {model.order}"] if model.kind == "lti" else []
+    lines += _coefficient_lines(model) if model.kind == "lti" else _parameter_lines(model)
+    lines += _table("uncertainty", model.uncertainty)
+    for name, values in model.effects.items():
+        lines += _table(f"effects.{name}", values, always=True)
+    for name, values in model.load.items():
+        lines += _table(f"load.{name}", values)
+    return "\n".join(lines + _layout_lines(model.recording)) + "\n"
+
+
+def _parameter_lines(model: Model) -> list[str]:
+    width = max(len(f"{name} = {value!r}") for name, value in model.parameters.items())
+    return [
+        f"{f'{name} = {value!r}':<{width}}  # {model.unit(name)}" for name, value in model.parameters.items()
+    ]
+
+
+def _coefficient_lines(model: Model) -> list[str]:
+    if not model.parameters:
+        return []
+    b = [model.parameters[f"b{k}"] for k in reversed(range(model.order)) if f"b{k}" in model.parameters]
+    a = [1.0, *(model.parameters[f"a{k}"] for k in reversed(range(model.order)))]
+    return [f"numerator = {b!r}", f"denominator = {a!r}"]
+
+
+def _table(name: str, values: Mapping[str, float], *, always: bool = False) -> list[str]:
+    if not values and not always:
+        return []
+    return ["", f"[{name}]", *(f"{key} = {float(value)!r}" for key, value in values.items())]
+
+
+def _layout_lines(layout: Layout) -> list[str]:
+    if layout == Layout():
+        return []
+    lines = ["", "[recording]", f'initial = "{layout.initial}"']
+    lines += [] if layout.sample_time is None else [f"sample_time = {layout.sample_time!r}  # s"]
+    for name, column in layout.columns.items():
+        items = [f"source = {_quoted(column.source)}"]
+        items += [] if column.unit is None else [f"unit = {_quoted(column.unit)}"]
+        scale = f'"{column.scale!r} {column.scale_unit}"' if column.scale_unit else repr(column.scale)
+        items += [] if column.scale == 1.0 and not column.scale_unit else [f"scale = {scale}"]
+        lines.append(f"columns.{name} = {{ {', '.join(items)} }}")
+    return lines
+
+
+def _quoted(text: str) -> str:
+    return msgspec.json.encode(text).decode()

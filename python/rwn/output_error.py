@@ -1,0 +1,125 @@
+"""Recordings made ready for fitting: the free-run output error of a drive and its normal equations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn import _core
+from rwn.least_squares import Normal
+
+Array = NDArray[np.float64]
+SIGNALS = ("current", "speed", "position")
+_NONE: Array = np.empty(0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Target:
+    """One recording as the core takes it; signals that were not recorded are empty.
+
+    Arrays are (n,), C-contiguous float64, SI. `start` holds the initial current, speed and position where they are
+    known; an unknown that fits them has its own place in the parameter vector.
+    """
+
+    name: str
+    time: Array
+    input: Array
+    current: Array = field(default_factory=lambda: _NONE)
+    speed: Array = field(default_factory=lambda: _NONE)
+    position: Array = field(default_factory=lambda: _NONE)
+    speed_is_difference: bool = False  # speed was computed as the central difference of the position
+    start: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    input_before: float = 0.0
+    angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
+
+    def signal(self, name: str) -> Array:
+        """A recorded signal by name; empty where it was not recorded."""
+        return {"current": self.current, "speed": self.speed, "position": self.position}[name]
+
+    @property
+    def recorded(self) -> tuple[str, ...]:
+        """Names of the signals that were recorded."""
+        return tuple(s for s in SIGNALS if self.signal(s).size)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Output:
+    """Simulated signals of one target, (n,) each; derivatives (n, p) where they were asked for."""
+
+    status: str
+    signals: dict[str, Array]
+    slopes: dict[str, Array]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CountedNormal(Normal):
+    """Normal equations and how many samples stand behind them."""
+
+    count: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutputError:
+    """The error of free-run simulation over several recordings, weighted by the noise of each signal."""
+
+    kind: str
+    targets: tuple[Target, ...]
+    noise: dict[str, float]  # standard deviation per recorded signal
+    angle_per_position: float = 1.0
+    start_indices: tuple[int, int, int] = (0, 0, 0)  # of initial current, speed, position in the parameter vector
+
+    def parameters_for(self, target: Target, vector: Array) -> Array:
+        """The parameter vector with the start of this recording filled in."""
+        own = vector.copy()
+        for index, value in zip(self.start_indices, target.start, strict=True):
+            own[index] += value
+        return own
+
+    def simulate(self, target: Target, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:
+        """Free run of one recording; speed as it was measured."""
+        status, *arrays = _core.simulate(
+            self.kind, target.time, target.input, self.parameters_for(target, vector), list(active), list(by),
+            self.angle_per_position, target.input_before, target.angle,
+        )  # fmt: skip
+        signals = dict(zip(SIGNALS, arrays[:3], strict=True))
+        slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
+        if target.speed_is_difference:
+            signals["speed"] = central_difference(target.time, signals["position"])
+            slopes["speed"] = central_difference(target.time, slopes["position"])
+        return Output(status=status, signals=signals, slopes=slopes)
+
+    def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
+        """Measured minus simulated per recording and signal, unweighted."""
+        found = []
+        for target in self.targets:
+            out = self.simulate(target, vector, active).signals
+            found.append({s: target.signal(s) - out[s] for s in target.recorded})
+        return found
+
+    def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
+        """Normal equations by the parameters `by`, summed over the recordings."""
+        chi2, count, gradient, curvature, finite = 0.0, 0, np.zeros(len(by)), np.zeros((len(by), len(by))), True
+        weights = [1.0 / self.noise.get(s, 1.0) for s in SIGNALS]
+        for target in self.targets:
+            status, c, n, g, h = _core.normal_equations(
+                self.kind, target.time, target.input, self.parameters_for(target, vector), list(active), list(by),
+                target.current, target.speed, target.position, weights, target.speed_is_difference,
+                self.angle_per_position, target.input_before, target.angle,
+            )  # fmt: skip
+            finite = finite and status == "ok"
+            chi2, count, gradient, curvature = chi2 + c, count + n, gradient + g, curvature + h
+        return CountedNormal(chi2=chi2, gradient=gradient, curvature=curvature, finite=finite, count=count)
+
+
+def central_difference(time: Array, position: Array) -> Array:
+    """Central difference over `time` (n,) of `position` (n,) or (n, p), one-sided at the ends."""
+    n = time.size
+    before = np.maximum(np.arange(n) - 1, 0)
+    after = np.minimum(np.arange(n) + 1, n - 1)
+    span = time[after] - time[before]
+    change = position[after] - position[before]
+    result: Array = change / (span if position.ndim == 1 else span[:, None])
+    return result

@@ -1,0 +1,194 @@
+"""From recordings and a model file to what the fits work on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import savgol_filter
+
+from rwn.candidate import Nominal, candidate
+from rwn.effects import motor_index, motor_parameters
+from rwn.model import Model
+from rwn.output_error import OutputError, Target
+from rwn.recording import Recording
+from rwn.scales import scales
+
+Array = NDArray[np.float64]
+WINDOW = 50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setup:
+    """A model and recordings, made ready."""
+
+    nominal: Nominal
+    whole: OutputError  # free run over each recording
+    problem: OutputError  # what is fitted: the same, or windows of it
+    scales: Mapping[str, float]
+
+
+def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
+    """Targets, weights and scales; the noise levels are first guesses from the recordings alone."""
+    targets = tuple(target(r, model) for r in recordings)
+    nominal = nominal_of(model)
+    whole = OutputError(
+        kind=model.kind,
+        targets=targets,
+        noise=noise_levels(targets, [{s: t.signal(s) for s in t.recorded} for t in targets]),
+        angle_per_position=2.0 * np.pi if model.linear else 1.0,
+        start_indices=(
+            motor_index("initial_current"),
+            motor_index("initial_speed"),
+            motor_index("initial_position"),
+        ),
+    )
+    vector = candidate(nominal, (), {}).vector
+    outputs = [_with_motion(t, whole.simulate(t, vector, []).signals) for t in targets]
+    problem = whole
+    if model.kind == "axis" and model.recording.initial == "estimate":
+        problem = replace(whole, targets=tuple(w for t in targets for w in windows(t)))
+    return Setup(nominal=nominal, whole=whole, problem=problem, scales=scales(model.kind, vector, targets, outputs))
+
+
+def nominal_of(model: Model) -> Nominal:
+    """The model's values as the fit takes them."""
+    known = motor_parameters()
+    motor = {name: value for name, value in model.parameters.items() if name in known}
+    for load in model.load.values():
+        motor["pendulum_torque"] = load["mass"] * 9.80665 * load["length"]
+        if model.kind == "dc" or not model.linear:
+            motor["inertia"] += load["mass"] * load["length"] ** 2
+    return Nominal(motor=motor, uncertainty=dict(model.uncertainty), effects=dict(model.effects), free={})
+
+
+def target(recording: Recording, model: Model) -> Target:
+    """One recording as the core takes it; samples are at the rows' times, the input is held from its row on."""
+    signals = {name: np.array(values) for name, values in recording.signals.items()}
+    given = signals["voltage"] if model.kind == "dc" else signals.get("force", signals.get("torque"))
+    assert given is not None  # checked when the recording was read
+    time = recording.time - recording.time[0]
+    empty = np.empty(0)
+    speed, position = signals.get("speed", empty), signals.get("position", empty)
+    rest = model.recording.initial == "rest"
+    start_speed = 0.0 if rest else _start_speed(time, speed, position)
+    return Target(
+        name=recording.name,
+        time=np.ascontiguousarray(time),
+        input=np.ascontiguousarray(given),
+        current=signals.get("current", empty) if model.kind == "dc" else empty,
+        speed=speed,
+        position=position,
+        speed_is_difference=lattice(speed) > 0.0,
+        start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
+        input_before=0.0 if rest else float(given[0]),
+        angle=position if position.size else _integral(time, speed),
+    )
+
+
+def lattice(signal: Array) -> float:
+    """The step of the lattice that the values lie on, as encoder counts and their differences do; 0: none."""
+    if signal.size < 20:
+        return 0.0
+    values = np.unique(np.round(signal, 9))
+    if values.size > signal.size / 3 or values.size < 3:
+        return 0.0
+    gaps = np.diff(values)
+    step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 30)]))
+    off = np.abs(values / step - np.round(values / step))
+    return step if np.percentile(off, 90) < 0.1 else 0.0
+
+
+def windows(whole: Target, length: int = WINDOW) -> list[Target]:
+    """Windows of `length` samples, each starting from the smoothed recorded state (multiple shooting)."""
+    speed = motion(whole)[0]
+    places = range(0, whole.time.size - length, length)
+    return [_cut(whole, a, a + length + 1, float(speed[a])) for a in places]
+
+
+def _cut(whole: Target, a: int, b: int, speed: float) -> Target:
+    part = slice(a, b)
+
+    def cut(signal: Array) -> Array:
+        return np.ascontiguousarray(signal[part]) if signal.size else signal
+
+    start = float(whole.position[a]) if whole.position.size else 0.0
+    return replace(
+        whole,
+        time=cut(whole.time) - whole.time[a],
+        input=cut(whole.input),
+        current=cut(whole.current),
+        speed=cut(whole.speed),
+        position=cut(whole.position),
+        angle=cut(whole.angle),
+        start=(0.0, speed, start),
+        input_before=float(whole.input[max(a - 1, 0)]),
+    )
+
+
+def motion(target: Target) -> tuple[Array, Array]:
+    """Smoothed speed and acceleration (n,) of a recording (Savitzky-Golay over about 31 samples, order 3)."""
+    n = target.time.size
+    step = float(np.median(np.diff(target.time)))
+    length = min(31, n - 1 - n % 2)
+    if length < 5:
+        return np.zeros(n), np.zeros(n)
+    if target.position.size and not target.speed.size:
+        speed = savgol_filter(target.position, length, 3, deriv=1, delta=step)
+        return speed, savgol_filter(target.position, length, 3, deriv=2, delta=step)
+    smooth = savgol_filter(target.speed, length, 3)
+    return smooth, savgol_filter(target.speed, length, 3, deriv=1, delta=step)
+
+
+def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Array]]) -> dict[str, float]:
+    """Standard deviation of the measurement noise per signal.
+
+    Encoder counts: of their quantisation. Else what is left of second differences, robustly: a model error is smooth
+    against the sample time, so it falls out, and a few sharp instants do not count (median).
+    """
+    levels = {}
+    for signal in residuals[0]:
+        counted = float(np.median([quantisation(t, signal) for t in targets]))
+        found = [_noise(r[signal]) for r in residuals if r[signal].size > 8]
+        levels[signal] = counted or max(float(np.median(found)) if found else 1.0, 1e-12)
+    return levels
+
+
+def quantisation(target: Target, signal: str) -> float:
+    """Standard deviation of the quantisation of a counted signal; 0 where it is not counted.
+
+    q / sqrt(12) for counts; a central difference of counts has steps of q / 2T, and q / sqrt(24) / T.
+    """
+    step = lattice(target.signal(signal))
+    return step / np.sqrt(6.0 if signal == "speed" else 12.0)
+
+
+def _noise(residual: Array) -> float:
+    change = np.diff(residual[np.isfinite(residual)], 2)
+    spread = 1.4826 * float(np.median(np.abs(change - np.median(change)))) / np.sqrt(6.0)
+    rms = float(np.sqrt(np.nanmean(residual**2)))
+    return min(spread, rms) if spread > 0.0 else rms
+
+
+def _start_speed(time: Array, speed: Array, position: Array) -> float:
+    if speed.size:
+        return float(np.mean(speed[:5]))
+    k = min(20, time.size - 1)
+    return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if position.size else 0.0
+
+
+def _integral(time: Array, speed: Array) -> Array:
+    if not speed.size:
+        return speed
+    steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(time)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _with_motion(target: Target, simulated: Mapping[str, Array]) -> dict[str, Array]:
+    """Simulated signals, with the recorded motion where it is recorded."""
+    own = dict(simulated)
+    if target.position.size and not target.speed.size:
+        own["speed"] = motion(target)[0]
+    return own

@@ -1,0 +1,81 @@
+"""Are the samples of a recording usable at all? Every refusal is one line with the row and the remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.errors import InputError
+
+MIN_SAMPLES = 50
+GAP_WARNED, GAP_REFUSED = 3.0, 20.0  # times the median sample time
+
+Row = Callable[[int], str]
+Array = NDArray[np.float64]
+
+
+def check_samples(time: Array, signals: Mapping[str, Array], *, where: str, row: Row) -> tuple[str, ...]:
+    """Finite values, time that runs forward without gaps, one length, enough samples. Returns warnings.
+
+    A step in time above 20 median steps is refused (the input in between is unknown), above 3 warned of.
+    `row` words the place of sample k. Raises InputError.
+    """
+    for name, values in signals.items():
+        if len(values) != len(time):
+            raise InputError(
+                f"'{name}' has {len(values)} samples, time has {len(time)}",
+                where=where,
+                expected="one value per instant",
+                fix="cut them to the same instants",
+            )
+    if len(time) < MIN_SAMPLES:
+        raise InputError(
+            f"{len(time)} samples are too few",
+            where=where,
+            expected=f"at least {MIN_SAMPLES} samples",
+            fix="record longer or sample faster",
+        )
+    for name, values in {"time": time, **signals}.items():
+        _check_finite(name, values, row)
+    return _check_time(time, row)
+
+
+def _check_finite(name: str, values: Array, row: Row) -> None:
+    bad = np.flatnonzero(~np.isfinite(values))
+    if len(bad):
+        others = f" (and {len(bad) - 1} more)" if len(bad) > 1 else ""
+        raise InputError(
+            f"{name} is {values[bad[0]]}{others}",
+            where=row(int(bad[0])),
+            expected="finite numbers",
+            fix="remove the row, or cut the recording there",
+        )
+
+
+def _check_time(time: Array, row: Row) -> tuple[str, ...]:
+    steps = np.diff(time)
+    back = np.flatnonzero(steps <= 0)
+    if len(back):
+        k = int(back[0])
+        does = "stands still" if steps[k] == 0 else "runs back"
+        raise InputError(
+            f"time {does} at {time[k + 1]:g} s",
+            where=row(k + 1),
+            expected="time that increases",
+            fix="sort the rows, remove doubles, or cut the recording there",
+        )
+    usual = float(np.median(steps))
+    k = int(np.argmax(steps))
+    if steps[k] > GAP_REFUSED * usual:
+        raise InputError(
+            f"a gap of {steps[k]:g} s, {steps[k] / usual:.0f} sample times",
+            where=row(k + 1),
+            expected=f"no gap above {GAP_REFUSED:g} sample times",
+            fix="cut the recording in two there",
+        )
+    gaps = int(np.count_nonzero(steps > GAP_WARNED * usual))
+    if gaps == 0:
+        return ()
+    return (f"{row(k + 1)}: {gaps} gap(s) of up to {steps[k] / usual:.1f} sample times: input taken as held",)

@@ -1,0 +1,165 @@
+"""Fits every effect that might be missing: many starts, few iterations each, the promising ones to the end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn import hints
+from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
+from rwn.effects import Effect, table
+from rwn.least_squares import Minimum
+from rwn.output_error import OutputError
+
+Array = NDArray[np.float64]
+Start = Mapping[str, float]
+Row = tuple[str, Candidate, Minimum]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fitted:
+    """A candidate and where its fit ended."""
+
+    added: tuple[str, ...]  # effects beside those of the nominal model
+    candidate: Candidate
+    minimum: Minimum
+
+    @property
+    def cost(self) -> float:
+        """Weighted squared error and priors."""
+        return self.minimum.cost
+
+    @property
+    def vector(self) -> Array:
+        """The whole parameter vector at the minimum."""
+        return self.candidate.with_values(self.minimum.values)
+
+    def value(self, name: str) -> float:
+        """A fitted unknown by name ("inertia", "coulomb-friction.coulomb_torque")."""
+        names = [u.name for u in self.candidate.unknowns]
+        return float(self.minimum.values[names.index(name)])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Search:
+    """What the candidates of one problem have in common."""
+
+    problem: OutputError
+    nominal: Nominal
+    scales: Mapping[str, float]
+    jobs: int = 2
+
+    def fit_nominal(self) -> Fitted:
+        """The nominal structure alone."""
+        this = candidate(self.nominal, (), self.scales)
+        return Fitted(added=(), candidate=this, minimum=fit(self.problem, this))
+
+    def fit_start(self) -> Candidate:
+        """The nominal structure as given, not fitted."""
+        return candidate(self.nominal, (), self.scales)
+
+    def map(self, function: Callable[[Candidate], Minimum], candidates: Sequence[Candidate]) -> list[Minimum]:
+        """Independent fits side by side; the core releases the interpreter."""
+        if self.jobs <= 1:
+            return [function(c) for c in candidates]
+        with ThreadPoolExecutor(self.jobs) as pool:
+            return list(pool.map(function, candidates))
+
+    def explain(self, base: Fitted, names: Iterable[str], *, keep: int = 2) -> list[Fitted]:
+        """`base` with each of `names` added, fitted from several starts; best first."""
+        racers = [
+            (name, c) for name in names for c in self._starts(base, name) if name not in base.candidate.effects
+        ]
+        rows = self._race(racers, iterations=1)
+        rows = self._race([(n, c) for n, c, _ in _best_of_each(rows, keep)], iterations=4)
+        rows = _promising(_best_of_each(rows, keep), base.cost)
+        finals = _best_of_each(self._race([(n, c) for n, c, _ in rows], iterations=60), 1)
+        found = [Fitted(added=(*base.added, name), candidate=c, minimum=m) for name, c, m in finals]
+        return sorted(found, key=lambda f: f.cost)
+
+    def _race(self, racers: Sequence[tuple[str, Candidate]], *, iterations: int) -> list[Row]:
+        """Some iterations of every racer; each row starts the next leg where this one ended."""
+        ends = self.map(lambda c: fit(self.problem, c, max_iterations=iterations), [c for _, c in racers])
+        return [(name, c.starting_at(m.values), m) for (name, c), m in zip(racers, ends, strict=True)]
+
+    def refit(self, this: Fitted, problem: OutputError) -> Fitted:
+        """The same explanation fitted to another problem (other weights, other recordings)."""
+        start = this.candidate.starting_at(this.minimum.values)
+        return Fitted(added=this.added, candidate=start, minimum=fit(problem, start))
+
+    def _starts(self, base: Fitted, name: str) -> list[Candidate]:
+        effect = table()[name]
+        motor = {u.name: float(v) for u, v in zip(base.candidate.unknowns, base.minimum.values, strict=True)}
+        inner: dict[str, dict[str, float]] = {}
+        for key in list(motor):
+            if "." in key:
+                owner, parameter = key.split(".")
+                inner.setdefault(owner, {})[parameter] = motor.pop(key)
+        effects = (*base.added, name)
+        return [
+            candidate(self.nominal, effects, self.scales, {**inner, name: start}, begin)
+            for start in self._guesses(base, effect)
+            for begin in ((motor, {}) if _bent(base) else (motor,))
+        ]
+
+    def _guesses(self, base: Fitted, effect: Effect) -> list[Start]:
+        """Starting values (SI) of one effect: what its table scans, and hints from the residual of `base`."""
+        axes: list[list[Start]] = []
+        for p in effect.parameters:
+            if p.order:
+                axes.append([{p.name: order} for order in self._orders(base, effect)])
+            elif p.window:
+                continue
+            elif p.scan:
+                axes.append([{p.name: s * first_unit(effect, p, self.nominal, self.scales)} for s in p.scan])
+        if any(p.window for p in effect.parameters):
+            first, last = (p.name for p in effect.parameters if p.window)
+            axes.append([{first: a, last: b} for a, b in self._windows(base)])
+        return [{k: v for part in combination for k, v in part.items()} for combination in product(*axes)]
+
+    def _orders(self, base: Fitted, effect: Effect) -> list[float]:
+        if not any(t.angle.size for t in self.problem.targets):
+            return []
+        grid = hints.order_grid(self.problem)
+        residuals = self.problem.residuals(base.vector, base.candidate.active)
+        spectrum = hints.angle_spectrum(
+            self.problem, base.vector, residuals, grid, with_current=effect.site == "flux"
+        )
+        return hints.orders_of(spectrum, grid)
+
+    def _windows(self, base: Fitted) -> list[tuple[float, float]]:
+        residuals = self.problem.residuals(base.vector, base.candidate.active)
+        return hints.windows(self.problem, base.vector, residuals)
+
+
+def _best_of_each(rows: Sequence[Row], keep: int) -> list[Row]:
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(row[0], []).append(row)
+    return [row for group in groups.values() for row in sorted(group, key=lambda r: r[2].cost)[:keep]]
+
+
+def _promising(rows: Sequence[Row], base_cost: float, least: int = 3, most: int = 8) -> list[Row]:
+    """The rows of effects that have gained at least half of what the best has; at least `least`, at most `most`."""
+    if not rows:
+        return []
+    costs: dict[str, float] = {}
+    for name, _, m in rows:
+        costs[name] = min(costs.get(name, np.inf), m.cost)
+    ranked = sorted(costs, key=lambda name: costs[name])
+    bar = base_cost - 0.5 * max(base_cost - costs[ranked[0]], 0.0)
+    kept = {name for k, name in enumerate(ranked[:most]) if k < least or costs[name] < bar}
+    return [row for row in rows if row[0] in kept]
+
+
+def _bent(base: Fitted) -> bool:
+    """Whether a fit has moved the motor so far that what is missing may have bent it: then its start is worth a try."""
+    return any(
+        u.prior is not None and u.prior > 0.0 and abs(v - u.prior) > 0.5 * u.prior_std * u.prior
+        for u, v in zip(base.candidate.unknowns, base.minimum.values, strict=True)
+    )

@@ -1,0 +1,109 @@
+"""Units at the edges: everything inside is SI (radians included)."""
+
+from __future__ import annotations
+
+import functools
+import re
+from typing import Any
+
+from rwn.errors import InputError, closest
+
+# What people write and pint reads otherwise ("Nm" is its number metre, "Hz" its radian per second).
+_SPELLINGS = (
+    (re.compile(r"\b([kmcuµ]?)N(m|cm|mm)\b"), r"\1N \2"),
+    (re.compile(r"\b(k?g)(m|cm|mm)\b"), r"\1 \2"),
+    (re.compile(r"\bRPM\b|\br/min\b|\b1/min\b|\bmin\^-1\b"), "rpm"),
+    (re.compile(r"\brevs?\b"), "turn"),
+    (re.compile("²"), "^2"),
+    (re.compile(r"[·⋅]"), "*"),
+)
+_COMMON = (
+    *("V", "mV", "A", "mA", "s", "ms", "us", "rad", "deg", "turn", "rad/s", "deg/s", "rpm", "turn/s"),
+    *("m", "mm", "m/s", "mm/s", "N", "kN", "N*m", "mN*m", "ohm", "H", "mH", "kg", "kg*m^2", "g*cm^2"),
+    *("N*m/A", "V*s/rad", "N*m*s/rad", "N*s/m"),
+)
+
+
+@functools.cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def _parse(text: str, *, where: object) -> Any:
+    spelled = text
+    for pattern, replacement in _SPELLINGS:
+        spelled = pattern.sub(replacement, spelled)
+    try:
+        return _registry().parse_units(spelled)
+    except Exception as error:  # pint raises its own, tokenize's and Python's errors for what is no unit
+        meant = closest(text, _COMMON)
+        raise InputError(
+            f"unknown unit '{text}'",
+            where=where,
+            expected="a unit such as V, mA, rad/s, rpm, deg, N m, kg m^2",
+            fix=f"did you mean '{meant}'?" if meant else "write the unit in SI or with an SI prefix",
+        ) from error
+
+
+def _angle_power(unit: Any) -> float:
+    base = _registry().Quantity(1.0, unit).to_base_units().units
+    return float(dict(base._units).get("radian", 0))
+
+
+def factor(unit: str, si_unit: str, *, where: object, strict_angle: bool = True) -> float:
+    """What a number in `unit` is multiplied by to be in `si_unit`.
+
+    Raises InputError when `unit` is unknown, has another dimension, or (strict_angle) leaves open which
+    angle it counts: 1/s and Hz are no speeds of a shaft; rad/s, rpm and turn/s are.
+    """
+    given, wanted = _parse(unit, where=where), _parse(si_unit, where=where)
+    quantity = _registry().Quantity(1.0, given)
+    expected = f"a unit like {si_unit}"
+    if given.dimensionality != wanted.dimensionality:
+        raise InputError(
+            f"unit '{unit}' has the wrong dimension",
+            where=where,
+            expected=expected,
+            fix=f"write the unit of the numbers in brackets, for instance [{si_unit}]",
+        )
+    power, wanted_power = _angle_power(given), _angle_power(wanted)
+    if power != wanted_power and (strict_angle or power != 0 or "hertz" in str(given)):
+        raise InputError(
+            f"unit '{unit}' does not say which angle it counts",
+            where=where,
+            expected=expected,
+            fix="write rad, deg or turn (rad/s, deg/s, rpm, turn/s)",
+        )
+    return float(quantity.to_base_units().magnitude)
+
+
+def split(text: str, *, where: object, example: str = "0.4 N/V") -> tuple[float, str]:
+    """A number and the unit after it ("" without one)."""
+    match = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", text)
+    if match is None:
+        raise InputError(
+            f"'{text}' is not a number with a unit",
+            where=where,
+            expected=f'text like "{example}"',
+            fix="write the number first, then its unit",
+        )
+    return float(match[1]), match[2]
+
+
+def quantity(text: str, si_unit: str, *, where: object) -> float:
+    """A number with a unit, such as "0.4 mH", in SI."""
+    number, unit = split(text, where=where, example=f"0.4 {si_unit}")
+    return number * factor(unit, si_unit, where=where, strict_angle=False) if unit else number
+
+
+def product(unit: str, scale_unit: str) -> str:
+    """The unit of a number in `unit` multiplied by a scale in `scale_unit`."""
+    return f"({unit})*({scale_unit})" if scale_unit else unit
+
+
+def has_dimension(unit: str, si_unit: str, *, where: object) -> bool:
+    """Whether `unit` measures the same kind of quantity as `si_unit`."""
+    given, wanted = _parse(unit, where=where), _parse(si_unit, where=where)
+    return bool(given.dimensionality == wanted.dimensionality)

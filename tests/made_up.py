@@ -1,0 +1,315 @@
+"""Made-up diagnoses, one for each state that a report can be in."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rwn.diagnosis import (
+    Alternative,
+    Diagnosis,
+    Estimate,
+    FittedParameter,
+    FoundEffect,
+    HeldoutRow,
+    Location,
+    Mark,
+    NominalFit,
+    Plot,
+    Region,
+    Source,
+    Trace,
+)
+
+
+def _response(rng: np.random.Generator) -> Plot:
+    t = np.arange(0.0, 20.0, 0.001)
+    true = 180 * np.sin(1.9 * t) * np.exp(-t / 40)
+    nominal = true + 14 * np.sign(np.cos(1.9 * t))
+    corrected = true + 0.4 * np.sin(7 * t)
+    traces = (
+        Trace(name="measured", role="measured", x=t, y=true + rng.normal(0, 0.8, t.size)),
+        Trace(name="nominal as given", role="nominal", x=t, y=nominal),
+        Trace(name="nominal refitted", role="refitted", x=t, y=true + 6 * np.sign(np.cos(1.9 * t))),
+        Trace(name="corrected", role="corrected", x=t, y=corrected),
+    )
+    return Plot(
+        slot="response",
+        title="Speed on heldout_1.csv, free run",
+        x_label="Time",
+        x_unit="s",
+        y_label="Speed",
+        y_unit="rad/s",
+        traces=traces,
+    )
+
+
+def _residuals(rng: np.random.Generator) -> tuple[Plot, Plot]:
+    t = np.arange(0.0, 20.0, 0.004)
+    speed = 180 * np.sin(1.9 * t)
+    before = 0.021 * np.tanh(speed / 3) + rng.normal(0, 0.003, t.size)
+    after = rng.normal(0, 0.003, t.size)
+    axis = {"y_label": "Unexplained torque", "y_unit": "N m"}
+    over_time = Plot(
+        slot="residual-time",
+        title="Unexplained torque over time",
+        x_label="Time",
+        x_unit="s",
+        **axis,
+        traces=(
+            Trace(name="before", role="before", x=t, y=before),
+            Trace(name="after", role="after", x=t, y=after),
+        ),
+    )
+    over_speed = Plot(
+        slot="residual-speed",
+        title="Unexplained torque against speed",
+        x_label="Speed",
+        x_unit="rad/s",
+        **axis,
+        traces=(
+            Trace(name="before", role="before", x=speed, y=before, points=True),
+            Trace(name="after", role="after", x=speed, y=after, points=True),
+        ),
+        marks=(Mark(low=-12.0, high=12.0, label="reversals: 71 %"),),
+    )
+    return over_time, over_speed
+
+
+def _law() -> Plot:
+    w = np.linspace(-180, 180, 721)
+    law = 0.021 * np.sign(w)
+    traces = (
+        Trace(name="learned from the residual", role="reference", x=w, y=0.021 * np.tanh(w / 4)),
+        Trace(name="Coulomb friction", role="corrected", x=w, y=law, low=law - 0.001, high=law + 0.001),
+    )
+    return Plot(
+        slot="torque-speed",
+        title="Torque against speed",
+        x_label="Speed",
+        x_unit="rad/s",
+        y_label="Torque",
+        y_unit="N m",
+        traces=traces,
+    )
+
+
+def _spectrum(rng: np.random.Generator) -> Plot:
+    order = np.linspace(0, 40, 400)
+    floor = 1e-4 * (1 + 0.3 * rng.random(400))
+    peak = floor + 3e-3 * np.exp(-(((order - 14) / 0.12) ** 2))
+    traces = (
+        Trace(name="before", role="before", x=order, y=peak),
+        Trace(name="after", role="after", x=order, y=floor),
+        Trace(name="chance, 95 %", role="noise-floor", x=order, y=np.full(400, 1.6e-4)),
+    )
+    return Plot(
+        slot="spectrum",
+        title="Unexplained torque over the angle",
+        x_label="Periods per revolution",
+        x_unit="",
+        y_label="Amplitude",
+        y_unit="N m",
+        traces=traces,
+        marks=(Mark(low=13.5, high=14.5, label="14"),),
+    )
+
+
+def _row(
+    recording: str, region: str, errors: tuple[float, float, float | None], gain: float | None
+) -> HeldoutRow:
+    return HeldoutRow(
+        recording=recording,
+        region=region,
+        signal="speed",
+        unit="rad/s",
+        samples=5138,
+        nominal=errors[0],
+        refitted=errors[1],
+        corrected=errors[2],
+        noise_floor=0.79,
+        gain=gain,
+        gain_interval=None if gain is None else (gain - 0.04, gain + 0.03),
+    )
+
+
+def _fit() -> NominalFit:
+    def parameter(
+        nominal: float, unit: str, doubt: float, refitted: float, corrected: float
+    ) -> FittedParameter:
+        def near(value: float) -> Estimate:
+            return Estimate(value=value, unit=unit, interval=(0.98 * value, 1.02 * value))
+
+        return FittedParameter(
+            nominal=nominal, uncertainty=doubt, refitted=near(refitted), corrected=near(corrected)
+        )
+
+    return NominalFit(
+        parameters={
+            "resistance": parameter(0.8102, "ohm", 0.044, 0.82, 0.815),
+            "inductance": parameter(1.5e-3, "H", 0.11, 1.4e-3, 1.48e-3),
+            "torque_constant": parameter(0.105, "N m/A", 0.11, 0.099, 0.104),
+            "inertia": parameter(3.24e-4, "kg m^2", 0.12, 3.5e-4, 3.25e-4),
+            "viscous_friction": parameter(7e-5, "N m s/rad", 0.34, 2.4e-4, 7.1e-5),
+        },
+        advice="Viscous friction tripled when refitted alone: it stood in for the dry friction.",
+    )
+
+
+def found() -> Diagnosis:
+    """One effect, named with confidence."""
+    rng = np.random.default_rng(1)
+    effect = FoundEffect(
+        name="coulomb-friction",
+        equation="mechanical",
+        probability=0.97,
+        parameters={"coulomb_torque": Estimate(value=0.0208, unit="N m", interval=(0.0203, 0.0213))},
+        formula="T = -T_c sign(w), holds up to T_c at standstill",
+        meaning="dry friction of constant level",
+    )
+    regions = (
+        Region(
+            coordinate="speed",
+            low=-12,
+            high=12,
+            unit="rad/s",
+            share=0.71,
+            samples_share=0.09,
+            name="reversals",
+        ),
+        Region(
+            coordinate="speed", low=12, high=180, unit="rad/s", share=0.16, samples_share=0.45, name="forward"
+        ),
+        Region(
+            coordinate="speed",
+            low=-180,
+            high=-12,
+            unit="rad/s",
+            share=0.13,
+            samples_share=0.46,
+            name="backward",
+        ),
+    )
+    return Diagnosis(
+        verdict="missing-physics",
+        equation="mechanical",
+        effects=(effect,),
+        set=("coulomb-friction",),
+        alternatives=(
+            Alternative(
+                effects=("stribeck-friction",),
+                probability=0.02,
+                separated_by="a slow ramp through zero speed",
+            ),
+            Alternative(effects=("brush-voltage-drop",), probability=0.01, separated_by="braking from speed"),
+        ),
+        location=Location(
+            equation="mechanical",
+            regions=regions,
+            description="A torque that depends on the direction of motion, 21 mN m, and hardly on speed.",
+        ),
+        nominal_fit=_fit(),
+        heldout=(
+            _row("heldout_1.csv", "all", (14.2, 6.31, 0.83), 0.868),
+            _row("heldout_1.csv", "reversals", (31.0, 14.9, 0.91), 0.939),
+            _row("heldout_2.csv", "all", (9.8, 4.42, 0.81), 0.817),
+        ),
+        curves=(_response(rng), *_residuals(rng), _law()),
+        next_experiment="None needed for this name. A slow ramp through zero would bound any Stribeck part.",
+        sources=(
+            Source(path="model.toml", use="model", sha256="8f14e45fceea167a5a36dedd4bea2543"),
+            Source(
+                path="train_1.csv",
+                use="fit",
+                samples=5138,
+                duration=5.137,
+                sha256="c9f0f895fb98ab9159f51fd0297e236d",
+            ),
+            Source(path="heldout_1.csv", use="heldout", samples=3227, duration=3.226),
+        ),
+        command="rwn diagnose train_1.csv --model model.toml --heldout heldout_1.csv --out out",
+        version="0.1.0",
+        elapsed=7.42,
+    )
+
+
+def adequate() -> Diagnosis:
+    """Nothing is missing."""
+    one = found()
+    heldout = (_row("heldout_1.csv", "all", (3.1, 0.81, None), None),)
+    return replace(
+        one,
+        verdict="adequate",
+        equation="",
+        effects=(),
+        set=(),
+        alternatives=(),
+        location=Location(),
+        heldout=heldout,
+        curves=one.curves[:1],
+        next_experiment="",
+        adequate_probability=0.96,
+    )
+
+
+def unexplained() -> Diagnosis:
+    """Something without a name; the learned law is the correction."""
+    one = found()
+    location = replace(
+        one.location, description="a torque that depends on angle, 14 periods per revolution, 3 mN m"
+    )
+    return replace(
+        one,
+        verdict="unexplained",
+        effects=(),
+        set=(),
+        alternatives=(),
+        location=location,
+        curves=(*one.curves[:3], _spectrum(np.random.default_rng(2))),
+        warnings=("train_1.csv, line 812: 2 gap(s) of up to 4.0 sample times: input taken as held",),
+        next_experiment="Turn the shaft slowly by hand over two revolutions, drive switched off.",
+    )
+
+
+def ambiguous() -> Diagnosis:
+    """A set of effects that the recordings cannot tell apart, two of them with several parameters."""
+    one = found()
+    backlash = FoundEffect(
+        name="backlash",
+        equation="mechanical",
+        probability=0.46,
+        meaning="play between motor and load",
+        parameters={
+            "gap": Estimate(value=0.0121, unit="rad", interval=(0.009, 0.019)),
+            "load_inertia": Estimate(value=0.43, unit="1", interval=(0.38, 0.48)),
+        },
+        formula="shaft torque is zero inside the gap",
+    )
+    return replace(
+        one,
+        effects=(backlash,),
+        set=("backlash", "shaft-compliance", "presliding-hysteresis"),
+        alternatives=(
+            Alternative(
+                effects=("shaft-compliance",), probability=0.34, separated_by="two reversal amplitudes"
+            ),
+        ),
+        next_experiment="Reverse with two amplitudes, 5 % and 50 % of the rated voltage, at 1 Hz.",
+    )
+
+
+def mistake() -> Diagnosis:
+    """A recording mistake."""
+    effect = FoundEffect(
+        name="wrong-unit",
+        equation="recording",
+        probability=0.99,
+        meaning="speed is 9.55 times what the voltage allows: rpm for rad/s",
+    )
+    return replace(
+        adequate(), verdict="recording-mistake", equation="recording", effects=(effect,), heldout=()
+    )
+
+
+ALL = {state.__name__: state for state in (found, adequate, unexplained, ambiguous, mistake)}

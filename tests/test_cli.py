@@ -1,0 +1,188 @@
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import made_up
+import rwn
+from rwn import cli
+from rwn.diagnosis import Diagnosis, Estimate
+from rwn.model import Model, read_model
+from rwn.recording import Recording, read_recording, write_csv
+
+MODEL = """[motor]
+kind = "dc"
+resistance = 0.8
+inductance = 1.5e-3
+torque_constant = 0.1
+back_emf_constant = 0.1
+inertia = 3e-4
+viscous_friction = 7e-5
+"""
+
+
+@dataclass(frozen=True)
+class FakeRun:
+    time: np.ndarray
+    signals: dict[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class FakeFit:
+    model: Model
+    parameters: dict[str, Estimate]
+    status: str = "converged"
+    advice: str = ""
+
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    """Runs the command line in a folder with a.csv, b.csv and model.toml: (exit code, stdout, stderr)."""
+    t = np.arange(300) / 1000
+    for k, name in enumerate(("a.csv", "b.csv")):
+        write_csv(tmp_path / name, t, {"voltage": np.sin(30 * t + k), "speed": np.cos(30 * t + k)})
+    (tmp_path / "model.toml").write_text(MODEL)
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["rwn", *arguments])
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        said = capsys.readouterr()
+        return int(str(end.value.code)), said.out, said.err
+
+    return call
+
+
+def _fake_diagnose(calls: list[dict[str, Any]]) -> Callable[..., Diagnosis]:
+    def fake(recordings: list[Recording], model: Model, **options: Any) -> Diagnosis:
+        options["progress"]("refit", 0.5)
+        calls.append({"recordings": recordings, "model": model, **options})
+        return replace(made_up.found(), corrected=model)
+
+    return fake
+
+
+def test_diagnose_writes_the_three_files(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    calls: list[dict[str, Any]] = []
+    monkeypatch.setattr(rwn, "diagnose", _fake_diagnose(calls), raising=False)
+    code, out, err = run(
+        "diagnose", "a.csv", "--model", "model.toml", "--out", "new/out", "--heldout", "b.csv", "--seed", "4"
+    )
+    assert (code, err) == (0, "")
+    (call,) = calls
+    assert [r.name for r in call["recordings"]] == ["a.csv"]
+    assert [r.name for r in call["heldout"]] == ["b.csv"]
+    assert call["seed"] == 4
+    folder = tmp_path / "new" / "out"
+    assert sorted(f.name for f in folder.iterdir()) == ["corrected.toml", "diagnosis.json", "report.html"]
+    assert read_model(folder / "corrected.toml") == read_model("model.toml")
+    assert Diagnosis.from_json((folder / "diagnosis.json").read_bytes()).verdict == "missing-physics"
+    report = (folder / "report.html").read_text(encoding="utf-8")
+    assert "--heldout b.csv" in report
+    assert hashlib.sha256((tmp_path / "a.csv").read_bytes()).hexdigest()[:12] in report
+    assert out.startswith("The model lacks Coulomb friction")
+    assert "coulomb_torque = 20.8 ± 0.5 mN m" in out
+
+
+def test_a_failure_half_way_leaves_nothing(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(rwn, "diagnose", _fake_diagnose([]), raising=False)
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("rwn.report.write_report", full)
+    code, _, err = run("diagnose", "a.csv", "--model", "model.toml", "--out", "out")
+    assert code == 2
+    assert "No space left" in err
+    assert not (tmp_path / "out").exists()
+
+
+def test_overwrite_replaces_the_results_and_nothing_else(
+    run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(rwn, "diagnose", _fake_diagnose([]), raising=False)
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "notes.txt").write_text("mine")
+    (tmp_path / "out" / "report.html").write_text("old")
+    code, _, _ = run("diagnose", "a.csv", "--model", "model.toml", "--out", "out", "--overwrite")
+    assert code == 0
+    assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
+    assert "Coulomb" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_simulate_writes_a_recording(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fake(_: Model, recording: Recording) -> FakeRun:
+        return FakeRun(recording.time, {"voltage": recording.signals["voltage"], "speed": 2 * recording.time})
+
+    monkeypatch.setattr(rwn, "simulate", fake, raising=False)
+    code, out, _ = run("simulate", "model.toml", "--input", "a.csv", "--out", "sim.csv")
+    assert code == 0
+    assert "300 samples" in out
+    simulated = read_recording("sim.csv")
+    np.testing.assert_allclose(simulated.signals["speed"], 2 * simulated.time)
+
+
+def test_identify_prints_and_writes_the_fitted_model(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fake(_: list[Recording], model: Model) -> FakeFit:
+        fitted = replace(model, parameters={**model.parameters, "resistance": 0.9})
+        return FakeFit(fitted, {"resistance": Estimate(value=0.9, unit="ohm", interval=(0.88, 0.92))})
+
+    monkeypatch.setattr(rwn, "identify", fake, raising=False)
+    code, out, _ = run("identify", "a.csv", "b.csv", "--model", "model.toml", "--out", "fitted.toml")
+    assert code == 0
+    assert "0.900 ± 0.020 Ω" in out
+    assert read_model("fitted.toml").parameters["resistance"] == 0.9
+    code, _, err = run("identify", "a.csv", "--model", "model.toml", "--out", "fitted.toml")
+    assert code == 2
+    assert "exists" in err
+
+
+def test_effects_prints_the_table(run: Run) -> None:
+    code, out, _ = run("effects")
+    assert code == 0
+    assert "coulomb-friction" in out
+    code, out, _ = run("effects", "stribeck-friction")
+    assert "stribeck_speed" in out
+    assert "source:" in out
+
+
+def test_version(run: Run) -> None:
+    assert run("--version")[:2] == (0, rwn.__version__ + "\n")
+
+
+def test_help_names_every_command(run: Run) -> None:
+    code, out, _ = run("--help")
+    assert code == 0
+    for command in ("diagnose", "simulate", "identify", "effects", "demo"):
+        assert command in out
+
+
+def test_a_bug_is_not_called_bad_input(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise KeyError("inner")
+
+    monkeypatch.setattr(rwn, "diagnose", broken, raising=False)
+    with pytest.raises(KeyError):
+        run("diagnose", "a.csv", "--model", "model.toml", "--out", "out")
+
+
+def test_the_command_line_starts_quickly() -> None:
+    heavy = "scipy", "pint", "plotly", "numpy.f2py"
+    code = f"import sys, rwn.cli; print([m for m in {heavy} if m in sys.modules])"
+    start = time.perf_counter()
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert loaded.strip() == "[]"
+    assert time.perf_counter() - start < 5.0
