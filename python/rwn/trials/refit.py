@@ -167,8 +167,8 @@ def fit_rival(
 ) -> float:
     """What the best fit of a candidate effect leaves, in noise units over all signals.
 
-    Starts from the nominal values of the refit `near`, with the effect weak and strong; what a fit cannot move (a
-    number of periods) is taken from `known` where it is there. A short look decides about a long fit.
+    Starts from the nominal values of the refit `near`, with the effect weak and strong; what no fit moves
+    (a number of periods) is taken from `known` where it is there. A short look decides about a long fit.
     """
     best = np.inf
     for strength in STRENGTHS:
