@@ -89,6 +89,9 @@ void bind_simulate(py::module_& m) {
   m.def("motor_parameter_table", [] { return describe_all(motor_parameters); }, "The motor's own parameters.");
   m.def("effect_table", &effect_table, "Every effect with its parameters, as the C++ table states them.");
   m.def("parameter_count", &parameter_count);
+  m.def("simulation_advice", [](const std::string& status) {
+    return std::string(advice(status == "ok" ? SimulationStatus::ok : SimulationStatus::diverged));
+  });
   m.def("simulate", &run, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(), "active"_a,
         "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
         "Returns status, current, speed, position (n) and their derivatives (n, p).");

@@ -5,7 +5,15 @@
 namespace rwn::bind {
 void bind_normal_equations(py::module_& m);
 void bind_simulate(py::module_& m);
+void bind_plant(py::module_& m);
 void bind_wavelets(py::module_& m);
+void bind_conventional_network(py::module_& m);
+void bind_initialisation(py::module_& m);
+void bind_trainers(py::module_& m);
+void bind_recurrent_network(py::module_& m);
+void bind_structured_network(py::module_& m);
+void bind_rates(py::module_& m);
+void bind_online_training(py::module_& m);
 }  // namespace rwn::bind
 
 PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
@@ -15,5 +23,13 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.def("isa", [] { return std::string(rwn::to_string(rwn::isa())); }, "Instruction set in use.");
   bind_normal_equations(m);
   bind_simulate(m);
+  bind_plant(m);
   bind_wavelets(m);
+  bind_conventional_network(m);
+  bind_initialisation(m);
+  bind_trainers(m);
+  bind_recurrent_network(m);
+  bind_structured_network(m);
+  bind_rates(m);
+  bind_online_training(m);
 }

@@ -107,7 +107,21 @@ def _motor_unknown(name: str, nominal: Nominal) -> Unknown:
         logarithmic=positive,
         prior=value,
         prior_std=nominal.uncertainty[name],
+        tied_to="back_emf_constant" if name == "torque_constant" and _same_constant(nominal) else "",
+        tie_std=TORQUE_TO_EMF,
     )
+
+
+TORQUE_TO_EMF = 0.02  # Kt = Ke in SI but for losses that the equations do not hold
+
+
+def _same_constant(nominal: Nominal) -> bool:
+    """Whether the data sheet leaves room for Kt = Ke, which a brushed motor with a constant field has."""
+    pair = ("torque_constant", "back_emf_constant")
+    if not all(nominal.uncertainty.get(name, 0.0) > 0.0 for name in pair):
+        return False
+    ratio = abs(np.log(nominal.motor[pair[0]] / nominal.motor[pair[1]]))
+    return bool(ratio < 3.0 * np.hypot(*(nominal.uncertainty[name] for name in pair)))
 
 
 def _free_unknown(name: str) -> Unknown:

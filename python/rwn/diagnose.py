@@ -97,7 +97,7 @@ def explain(setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[
     left = evidence.statistics(search.problem, best)
     layer = fits[:3]
     for size in range(2, MOST_EFFECTS + 1):
-        if left.coloured < AT_THE_FLOOR or not layer:
+        if at_the_floor(left) or not layer:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
         more = [f for base in layer for f in search.explain(base, wanted, keep=1)]
@@ -143,10 +143,10 @@ def _prior(setup: Setup) -> dict[str, float]:
 
 def _with_noise(search: Search, fitted: Fitted) -> Search:
     problem = search.problem
-    levels = noise_levels(problem.residuals(fitted.vector, fitted.candidate.active))
+    levels = noise_levels(problem.targets, problem.residuals(fitted.vector, fitted.candidate.active))
     if len(problem.targets[0].time) < 100 < sum(t.time.size for t in problem.targets):  # windows: pool them
         joined = evidence.join(replace(problem, noise={}), problem.residuals(fitted.vector, fitted.candidate.active))
-        levels = noise_levels([joined])
+        levels = noise_levels(problem.targets[:1], [joined])
     return replace(search, problem=replace(problem, noise=levels))
 
 
@@ -170,6 +170,11 @@ def _distinct(fits: list[Fitted]) -> list[Fitted]:
     return list(seen.values())
 
 
+def at_the_floor(left: Statistics) -> bool:
+    """Whether a residual may be measurement noise and nothing else."""
+    return left.coloured < AT_THE_FLOOR or left.variance < 1.05
+
+
 def _choose(found: Explanation) -> Hypothesis:
     """The most probable explanation; the nominal model where the gain is not material."""
     first = found.hypotheses[0]
@@ -183,7 +188,7 @@ def verdict_of(found: Explanation, chosen: Hypothesis) -> Verdict:
     nominal = next(h for h in found.hypotheses if not h.fitted.added)
     count = max(found.left.count, 1)
     before, after = nominal.fitted.minimum.chi2 / count, chosen.fitted.minimum.chi2 / count
-    left_over = found.left.coloured > AT_THE_FLOOR
+    left_over = not at_the_floor(found.left)
     if not chosen.fitted.added:
         return "unexplained" if left_over and after > 1.0 + 2.0 * MATERIAL else "adequate"
     removed = 1.0 - max(after - 1.0, 0.0) / max(before - 1.0, 1e-12)
@@ -219,7 +224,7 @@ def ambiguous(found: Explanation, chosen: Hypothesis) -> tuple[Hypothesis, ...]:
         for h in found.hypotheses
         if h.fitted.added
         and len(h.fitted.added) == len(chosen.fitted.added)
-        and (h.misfit - chosen.misfit < 3.0 or h.probability > 0.05 * chosen.probability)
+        and h.probability > 0.05 * chosen.probability
     ]
     others = [h for h in same if h is not chosen]
     return (chosen, *others)[:4]
@@ -278,7 +283,7 @@ def _lead(h: Hypothesis, chosen: Hypothesis) -> str:
 
 def _warnings(found: Explanation, chosen: Hypothesis, verdict: Verdict) -> tuple[str, ...]:
     texts = []
-    if verdict == "missing-physics" and found.left.coloured > AT_THE_FLOOR:
+    if verdict == "missing-physics" and not at_the_floor(found.left):
         texts.append(
             f"something smaller is left over: the residual of the corrected model is coloured "
             f"({found.left.effective:.0f} independent samples of {found.left.count})"

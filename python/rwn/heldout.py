@@ -40,7 +40,7 @@ def heldout_rows(
         runs = [_errors(problem, target, c) for c in (nominal, refitted, corrected) if c is not None]
         slow = _slow(target)
         best = runs[-1]
-        floor = noise_levels([best])
+        floor = noise_levels([target], [best])
         for signal in target.recorded:
             for region, chosen in (("all", np.ones(slow.size, dtype=bool)), ("low speed", slow)):
                 if chosen.sum() < 20:

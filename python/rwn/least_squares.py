@@ -33,6 +33,8 @@ class Unknown:
     logarithmic: bool = False  # searched as its logarithm
     prior: float | None = None
     prior_std: float = np.inf  # relative where logarithmic or `prior` is not 0
+    tied_to: str = ""  # another logarithmic unknown that has about the same value
+    tie_std: float = np.inf  # relative standard deviation of their ratio
 
     def coordinate(self, value: float) -> float:
         """Search coordinate of a value."""
@@ -79,6 +81,7 @@ class _Search:
         self.upper = np.array([u.coordinate(u.upper) for u in unknowns])
         self.prior = np.array([u.coordinate(u.prior) if u.prior is not None else 0.0 for u in unknowns])
         self.weight = np.array([_prior_weight(u) for u in unknowns])
+        self.tie = _ties(unknowns)
 
     def values(self, z: Array) -> Array:
         return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, z, 0.0)), z)
@@ -91,14 +94,25 @@ class _Search:
             return np.inf, np.zeros_like(z), np.eye(z.size), normal
         slope = np.where(self.logarithmic, values, 1.0)
         off = z - self.prior
-        cost = normal.chi2 + float(np.sum(self.weight * off**2))
-        gradient = normal.gradient * slope - self.weight * off
-        curvature = normal.curvature * np.outer(slope, slope) + np.diag(self.weight)
+        cost = normal.chi2 + float(np.sum(self.weight * off**2) + z @ self.tie @ z)
+        gradient = normal.gradient * slope - self.weight * off - self.tie @ z
+        curvature = normal.curvature * np.outer(slope, slope) + np.diag(self.weight) + self.tie
         return cost, gradient, curvature, normal
 
     def information(self, z: Array, normal: Normal) -> Array:
         slope = np.where(self.logarithmic, self.values(z), 1.0)
-        return normal.curvature + np.diag(self.weight / slope**2)
+        return normal.curvature + (np.diag(self.weight) + self.tie) / np.outer(slope, slope)
+
+
+def _ties(unknowns: tuple[Unknown, ...]) -> Array:
+    """Curvature of the priors on ratios."""
+    names = [u.name for u in unknowns]
+    tie = np.zeros((len(names), len(names)))
+    for i, u in enumerate(unknowns):
+        if u.tied_to in names and u.logarithmic:
+            j = names.index(u.tied_to)
+            tie[np.ix_([i, j], [i, j])] += np.array([[1.0, -1.0], [-1.0, 1.0]]) / u.tie_std**2
+    return tie
 
 
 def _prior_weight(u: Unknown) -> float:

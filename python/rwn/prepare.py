@@ -37,7 +37,7 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     whole = OutputError(
         kind=model.kind,
         targets=targets,
-        noise=noise_levels([{s: t.signal(s) for s in t.recorded} for t in targets]),
+        noise=noise_levels(targets, [{s: t.signal(s) for s in t.recorded} for t in targets]),
         angle_per_position=2.0 * np.pi if model.linear else 1.0,
         start_indices=(
             motor_index("initial_current"),
@@ -81,24 +81,24 @@ def target(recording: Recording, model: Model) -> Target:
         current=signals.get("current", empty) if model.kind == "dc" else empty,
         speed=speed,
         position=position,
-        speed_is_difference=is_counted(speed),
+        speed_is_difference=lattice(speed) > 0.0,
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
         angle=position if position.size else _integral(time, speed),
     )
 
 
-def is_counted(speed: Array) -> bool:
-    """Whether the values lie on a lattice, as differences of encoder counts do."""
-    if speed.size < 20:
-        return False
-    values = np.unique(np.round(speed, 9))
-    if values.size > speed.size / 3:
-        return False
+def lattice(signal: Array) -> float:
+    """The step of the lattice that the values lie on, as encoder counts and their differences do; 0: none."""
+    if signal.size < 20:
+        return 0.0
+    values = np.unique(np.round(signal, 9))
+    if values.size > signal.size / 3 or values.size < 3:
+        return 0.0
     gaps = np.diff(values)
     step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 30)]))
     off = np.abs(values / step - np.round(values / step))
-    return bool(np.percentile(off, 90) < 0.1)
+    return step if np.percentile(off, 90) < 0.1 else 0.0
 
 
 def windows(whole: Target, length: int = WINDOW) -> list[Target]:
@@ -142,16 +142,27 @@ def motion(target: Target) -> tuple[Array, Array]:
     return smooth, savgol_filter(target.speed, length, 3, deriv=1, delta=step)
 
 
-def noise_levels(residuals: Sequence[Mapping[str, Array]]) -> dict[str, float]:
-    """Standard deviation of the measurement noise per signal: what is left of second differences, robustly.
+def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Array]]) -> dict[str, float]:
+    """Standard deviation of the measurement noise per signal.
 
-    A model error is smooth against the sample time, so it falls out; a few sharp instants do not count (median).
+    Encoder counts: of their quantisation. Else what is left of second differences, robustly: a model error is smooth
+    against the sample time, so it falls out, and a few sharp instants do not count (median).
     """
     levels = {}
     for signal in residuals[0]:
+        counted = float(np.median([quantisation(t, signal) for t in targets]))
         found = [_noise(r[signal]) for r in residuals if r[signal].size > 8]
-        levels[signal] = max(float(np.median(found)), 1e-12) if found else 1.0
+        levels[signal] = counted or max(float(np.median(found)) if found else 1.0, 1e-12)
     return levels
+
+
+def quantisation(target: Target, signal: str) -> float:
+    """Standard deviation of the quantisation of a counted signal; 0 where it is not counted.
+
+    q / sqrt(12) for counts; a central difference of counts has steps of q / 2T, and q / sqrt(24) / T.
+    """
+    step = lattice(target.signal(signal))
+    return step / np.sqrt(6.0 if signal == "speed" else 12.0)
 
 
 def _noise(residual: Array) -> float:

@@ -76,7 +76,7 @@ class Search:
             (name, c) for name in names for c in self._starts(base, name) if name not in base.candidate.effects
         ]
         rows = self._race(racers, iterations=1)
-        rows = self._race([(n, c) for n, c, _ in _best_of_each(rows, 2 * keep)], iterations=4)
+        rows = self._race([(n, c) for n, c, _ in _best_of_each(rows, keep)], iterations=4)
         rows = _promising(_best_of_each(rows, keep), base.cost)
         finals = _best_of_each(self._race([(n, c) for n, c, _ in rows], iterations=60), 1)
         found = [Fitted(added=(*base.added, name), candidate=c, minimum=m) for name, c, m in finals]
@@ -104,7 +104,7 @@ class Search:
         return [
             candidate(self.nominal, effects, self.scales, {**inner, name: start}, begin)
             for start in self._guesses(base, effect)
-            for begin in (motor, {})  # the refitted motor may have been bent by what is missing
+            for begin in ((motor, {}) if _bent(base) else (motor,))
         ]
 
     def _guesses(self, base: Fitted, effect: Effect) -> list[Start]:
@@ -144,11 +144,22 @@ def _best_of_each(rows: Sequence[Row], keep: int) -> list[Row]:
     return [row for group in groups.values() for row in sorted(group, key=lambda r: r[2].cost)[:keep]]
 
 
-def _promising(rows: Sequence[Row], base_cost: float, least: int = 8) -> list[Row]:
-    """The rows of effects that have gained at least a fifth of what the best has, and of the `least` best in any case."""
+def _promising(rows: Sequence[Row], base_cost: float, least: int = 3, most: int = 8) -> list[Row]:
+    """The rows of effects that have gained at least half of what the best has; at least `least`, at most `most`."""
     if not rows:
         return []
-    best = min(row[2].cost for row in rows)
-    bar = base_cost - 0.2 * max(base_cost - best, 0.0)
-    ranked = list(dict.fromkeys(name for name, _, m in sorted(rows, key=lambda r: r[2].cost)))[:least]
-    return [row for row in rows if row[0] in ranked or row[2].cost < bar]
+    costs: dict[str, float] = {}
+    for name, _, m in rows:
+        costs[name] = min(costs.get(name, np.inf), m.cost)
+    ranked = sorted(costs, key=lambda name: costs[name])
+    bar = base_cost - 0.5 * max(base_cost - costs[ranked[0]], 0.0)
+    kept = {name for k, name in enumerate(ranked[:most]) if k < least or costs[name] < bar}
+    return [row for row in rows if row[0] in kept]
+
+
+def _bent(base: Fitted) -> bool:
+    """Whether a fit has moved the motor so far that what is missing may have bent it: then its start is worth a try."""
+    return any(
+        u.prior is not None and u.prior > 0.0 and abs(v - u.prior) > 0.5 * u.prior_std * u.prior
+        for u, v in zip(base.candidate.unknowns, base.minimum.values, strict=True)
+    )

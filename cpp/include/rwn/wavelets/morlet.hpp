@@ -11,6 +11,10 @@ struct Morlet {
   static constexpr std::string_view name = "morlet";
   double omega0 = 5.0;
 
+  static constexpr double max_value() { return 1.0; }  // at z = 0
+  double max_derivative() const;                       // computed by a search: keep it, do not call it in a loop
+  double max_scaled_derivative() const;
+
   template <class T>
   T value(const T& z) const {
     using std::cos;

@@ -1,0 +1,34 @@
+#include "bind.hpp"
+#include "rwn/rates.hpp"
+
+namespace rwn::bind {
+
+void bind_rates(py::module_& m) {
+  m.def("rate_rules", &rate_rules, "Name and guarantee of every learning-rate rule.");
+  py::class_<FixedRates>(m, "FixedRates")
+      .def(py::init([](std::vector<double> values) { return FixedRates{std::move(values)}; }), "values"_a);
+  py::class_<ThesisRates>(m, "ThesisRates")
+      .def(py::init([](double fraction, const std::string& maxima, bool shared, bool printed) {
+             return ThesisRates{fraction, maxima_by_name(maxima), shared, printed};
+           }),
+           py::kw_only(), "fraction"_a, "maxima"_a, "shared"_a, "printed"_a);
+  py::class_<ImpulseResponseRates>(m, "ImpulseResponseRates")
+      .def(py::init([](double fraction, bool shared) { return ImpulseResponseRates{fraction, shared}; }), py::kw_only(),
+           "fraction"_a, "shared"_a);
+  py::class_<NormalisedRates>(m, "NormalisedRates")
+      .def(py::init([](double fraction, double regularisation, std::vector<double> scales) {
+             return NormalisedRates{fraction, regularisation, std::move(scales)};
+           }),
+           py::kw_only(), "fraction"_a, "regularisation"_a, "scales"_a);
+  py::class_<RateReport>(m, "RateReport")
+      .def_readonly("spectral_radius", &RateReport::spectral_radius)
+      .def_readonly("condition", &RateReport::condition)
+      .def_readonly("recurrence", &RateReport::recurrence)
+      .def_readonly("smallest_dilation", &RateReport::smallest_dilation)
+      .def_readonly("samples", &RateReport::samples)
+      .def_readonly("unstable", &RateReport::unstable)
+      .def_readonly("defective", &RateReport::defective)
+      .def_readonly("recurrent", &RateReport::recurrent);
+}
+
+}  // namespace rwn::bind

@@ -1,0 +1,26 @@
+"""How a conventional network starts (thesis section 2.2.2); a new way is a file here and one entry in a
+registry."""
+
+from __future__ import annotations
+
+from rwn.initialisation.dyadic_grid import DyadicGrid
+from rwn.initialisation.heuristic import Heuristic
+from rwn.initialisation.least_squares import LeastSquares
+from rwn.initialisation.selection import Selection
+from rwn.initialisation.small_random import SmallRandom
+from rwn.initialisation.start import Initialiser, LinearStart
+
+INITIALISERS: dict[str, type[Initialiser]] = {way.name: way for way in (Heuristic, DyadicGrid, Selection)}
+LINEAR_STARTS: dict[str, type[LinearStart]] = {way.name: way for way in (LeastSquares, SmallRandom)}
+
+__all__ = [
+    "INITIALISERS",
+    "LINEAR_STARTS",
+    "DyadicGrid",
+    "Heuristic",
+    "Initialiser",
+    "LeastSquares",
+    "LinearStart",
+    "Selection",
+    "SmallRandom",
+]

@@ -1,0 +1,80 @@
+"""`rwn thesis`: repeats the experiments of the thesis."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(help="Repeats the tables and figures of Zahidi's thesis.", no_args_is_help=True)
+
+
+@app.callback()
+def thesis() -> None:
+    """Repeats the tables and figures of Zahidi's thesis."""
+
+
+@app.command("list")
+def list_experiments() -> None:
+    """Lists the experiments with their tables and figures."""
+    from rwn.thesis.registry import EXPERIMENTS
+
+    for e in EXPERIMENTS:
+        tables = ", ".join(map(str, e.tables)) or "-"
+        figures = ", ".join(map(str, e.figures)) or "-"
+        typer.echo(f"{e.name:28} tables {tables:10} figures {figures:24} {e.title}")
+
+
+@app.command()
+def run(
+    *,
+    table: Annotated[int | None, typer.Option(help="Only the experiment of this table.")] = None,
+    figure: Annotated[int | None, typer.Option(help="Only the experiment of this figure.")] = None,
+    everything: Annotated[bool, typer.Option("--all", help="Every experiment.")] = False,
+    out: Annotated[Path, typer.Option(help="Finished experiments are kept here; a rerun resumes.")] = Path(
+        "thesis-results"
+    ),
+    reduced: Annotated[
+        bool, typer.Option("--reduced", help="Small counts: a quick look, not a proof.")
+    ] = False,
+    page: Annotated[Path | None, typer.Option(help="The page to write; default OUT/thesis.md.")] = None,
+) -> None:
+    """Runs experiments, prints the comparison and writes the page with its pictures."""
+    from rwn.thesis.registry import select
+
+    if [table is not None, figure is not None, everything].count(True) != 1:
+        raise typer.BadParameter("say which: --table N, --figure N or --all")
+    try:
+        experiments = select(table=table, figure=figure)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from None
+    _run(experiments, out, reduced=reduced, page=page or out / "thesis.md")
+
+
+def _run(experiments: list, out: Path, *, reduced: bool, page: Path) -> None:  # type: ignore[type-arg]
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from rwn.thesis.comparison import rich_table, tally
+    from rwn.thesis.page import write_page
+    from rwn.thesis.runner import run as run_experiments
+
+    console = Console()
+    if not console.is_terminal:
+        console = Console(width=160)  # a file or a pipe has room
+    with Progress(console=Console(stderr=True)) as bars:
+        tasks = {e.name: bars.add_task(e.name, total=1.0) for e in experiments}
+        results = run_experiments(
+            experiments,
+            out,
+            reduced=reduced,
+            progress=lambda e, share: bars.update(tasks[e.name], completed=share),
+        )
+    console.print(rich_table(results))
+    console.print(
+        ", ".join(f"{w}: {n}" for w, n in tally(results).items()),
+        f"in {sum(r.seconds for r in results):.0f} s",
+    )
+    write_page(results, page)
+    console.print(f"page: {page}")

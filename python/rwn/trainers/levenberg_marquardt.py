@@ -1,0 +1,40 @@
+"""Levenberg-Marquardt on all parameters (2.22-2.24)."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import ClassVar
+
+from numpy.typing import ArrayLike
+
+from rwn import _core
+from rwn.arrays import as_pairs
+from rwn.conventional_network import ConventionalNetwork
+from rwn.training import Training, check_options
+
+
+@dataclass(frozen=True, kw_only=True)
+class LevenbergMarquardt:
+    """dtheta = (J^T J + mu I)^-1 J^T e; mu is divided by beta after a step that lowers the error, multiplied
+    after one that does not.
+
+    mu: first damping.
+    beta: factor of the damping, above 1.
+    iterations: most Jacobians.
+    target: MSE at which to stop.
+    stall: relative change of the MSE over 100 iterations below which to stop; -1 never stops.
+    """
+
+    name: ClassVar[str] = "levenberg-marquardt"
+    mu: float = 0.1
+    beta: float = 2.0
+    iterations: int = 100
+    target: float = 0.0
+    stall: float = 1e-12
+
+    def __post_init__(self) -> None:
+        check_options(iterations=self.iterations, positive={"mu": self.mu}, beta=self.beta)
+
+    def train(self, network: ConventionalNetwork, x: ArrayLike, y: ArrayLike) -> Training:
+        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
+        return Training.of(network, _core.levenberg_marquardt(network.core, *as_pairs(x, y), **asdict(self)))

@@ -1,0 +1,43 @@
+"""Steepest descent with momentum after every pattern (2.20): the online training of the thesis."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import ClassVar
+
+from numpy.typing import ArrayLike
+
+from rwn import _core
+from rwn.arrays import as_pairs
+from rwn.conventional_network import ConventionalNetwork
+from rwn.training import Training, check_options
+
+
+@dataclass(frozen=True, kw_only=True)
+class PatternDescent:
+    """Steps of (2.20) after every pattern, in the order given. Its history is a tracking error; see
+    `Training.frozen_mse`.
+
+    rate: learning rate mu.
+    momentum: momentum coefficient of b, a and w, in [0, 1).
+    shape_momentum: momentum coefficient of translations and dilations, in [0, 1).
+    iterations: most passes over the patterns.
+    target: MSE at which to stop.
+    stall: relative change of the MSE over 100 iterations below which to stop; -1 never stops.
+    """
+
+    name: ClassVar[str] = "pattern-descent"
+    rate: float = 0.1
+    momentum: float = 0.6
+    shape_momentum: float = 0.6
+    iterations: int = 1000
+    target: float = 0.0
+    stall: float = 1e-12
+
+    def __post_init__(self) -> None:
+        fractions = {"momentum": self.momentum, "shape_momentum": self.shape_momentum}
+        check_options(iterations=self.iterations, positive={"rate": self.rate}, fractions=fractions)
+
+    def train(self, network: ConventionalNetwork, x: ArrayLike, y: ArrayLike) -> Training:
+        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
+        return Training.of(network, _core.pattern_descent(network.core, *as_pairs(x, y), **asdict(self)))

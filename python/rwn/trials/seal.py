@@ -1,0 +1,40 @@
+"""The answers, apart from the trials: one compressed file whose SHA-256 is known before anything is run."""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+ANSWERS = "answers.sealed"
+HASH = "answers.sha256"
+
+
+class SealBrokenError(ValueError):
+    """The answers are not those whose hash was printed when the trials were made."""
+
+
+def seal(folder: Path, content: dict[str, Any]) -> str:
+    """Writes the sealed answers and their hash; returns the hash."""
+    text = json.dumps(content, sort_keys=True, separators=(",", ":")).encode()
+    packed = gzip.compress(text, mtime=0)
+    digest = hashlib.sha256(packed).hexdigest()
+    (folder / ANSWERS).write_bytes(packed)
+    (folder / HASH).write_text(f"{digest}  {ANSWERS}\n", encoding="utf-8")
+    return digest
+
+
+def unseal(folder: Path) -> dict[str, Any]:
+    """Opens the answers; raises SealBrokenError if they do not have the hash written beside them."""
+    packed = (folder / ANSWERS).read_bytes()
+    promised = (folder / HASH).read_text(encoding="utf-8").split()[0]
+    found = hashlib.sha256(packed).hexdigest()
+    if found != promised:
+        raise SealBrokenError(
+            f"{folder / ANSWERS} has SHA-256 {found}, {HASH} promises {promised}: "
+            "the answers or the hash were changed; make the trials again from their seed"
+        )
+    content: dict[str, Any] = json.loads(gzip.decompress(packed))
+    return content
