@@ -10,7 +10,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from rwn.effects import motor_index
 from rwn.output_error import OutputError, Target
@@ -36,6 +35,8 @@ def angle_spectrum(
 
     `with_current`: the torque is proportional to the driving current as well (a ripple of Kt).
     """
+    from scipy.signal import lfilter  # late: the command line starts without it
+
     explained, energy = np.zeros(orders.size), 1e-300
     grams = np.zeros((orders.size, 2, 2))
     loads = np.zeros((orders.size, 2))

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import savgol_filter
 
 from rwn.diagnosis import Region
 from rwn.effects import motor_index
@@ -72,6 +71,8 @@ _MOTOR = (
 
 
 def _smooth(signal: Array) -> Array:
+    from scipy.signal import savgol_filter  # late: the command line starts without it
+
     length = min(31, signal.size - 1 - signal.size % 2)
     result: Array = savgol_filter(signal, length, 3) if length >= 5 else signal
     return result

@@ -13,6 +13,7 @@ from rwn import drives
 from rwn.drives import Drive, Nominal
 from rwn.errors import InputError
 from rwn.layout import Layout
+from rwn.own_effects import OwnEffect
 
 
 class EffectParameter(Protocol):
@@ -39,7 +40,7 @@ EffectTable = Mapping[str, EffectEntry]
 @dataclass(frozen=True, kw_only=True)
 class Model:
     """Kind of drive, nominal `parameters` (SI) and relative standard deviations `uncertainty` (not listed:
-    exact), `effects` name -> parameter values (SI), known `load`s, the `recording` layout.
+    exact), `effects` name -> parameter values (SI), known `load`s, `recording` layout.
 
     Kind `lti`: parameters b0, b1, .. and a0, .. are the coefficients of s^0, s^1, .. of a transfer function
     of `order`, monic in its denominator; where they are not given they are estimated.
@@ -49,6 +50,7 @@ class Model:
     parameters: Mapping[str, float]
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     effects: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    own_effects: tuple[OwnEffect, ...] = ()
     load: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     linear: bool = False
     order: int = 0

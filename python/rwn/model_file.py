@@ -7,11 +7,12 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rwn import units
-from rwn.drives import KINDS, Nominal
+from rwn.drives import KINDS, LINEAR_AXIS, Nominal
 from rwn.errors import InputError, unknown
 from rwn.layout import Column, Layout
 from rwn.model import EffectTable, Model, effect_table, lti_parameters
 from rwn.model_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
+from rwn.own_effects import OwnEffect, from_entry
 from rwn.signals import COLUMNS, TIME
 
 _PENDULUM = (
@@ -29,11 +30,16 @@ def parse_model(text: str, *, where: str, effects: EffectTable | None = None) ->
     if kind == "lti":
         given = _coefficients(given, order, where)
     parameters = _values(given, nominal, linear=linear, where=f"{where}, [motor]")
+    drive = LINEAR_AXIS if linear else KINDS[kind]
+    own = {name: from_entry(name, entry, drive, where=where) for name, entry in file.own_effects.items()}
+    if own:
+        _check_own(own, kind, effect_table() if effects is None else effects, f"{where}, [own_effects]")
     return Model(
         kind=kind,
         parameters=parameters,
         uncertainty=_uncertainty(file.uncertainty, parameters, f"{where}, [uncertainty]"),
-        effects=_effects(file.effects, effects, where) if file.effects else {},
+        effects=_effects(file.effects, own, effects, where) if file.effects else {},
+        own_effects=tuple(own.values()),
         load=_load(file.load, kind, linear, where),
         linear=linear,
         order=order,
@@ -187,9 +193,12 @@ def _uncertainty(
 
 
 def _effects(
-    given: Mapping[str, Mapping[str, Number]], table: EffectTable | None, where: str
+    given: Mapping[str, Mapping[str, Number]],
+    own: Mapping[str, OwnEffect],
+    table: EffectTable | None,
+    where: str,
 ) -> dict[str, dict[str, float]]:
-    table = effect_table() if table is None else table
+    table = {**(effect_table() if table is None else table), **own}
     found: dict[str, dict[str, float]] = {}
     for name, values in given.items():
         place = f"{where}, [effects.{name}]"
@@ -209,6 +218,24 @@ def _effects(
                 )
         found[name] = {k: _number(v, _si(entries[k].unit), f"{place} {k}") for k, v in values.items()}
     return found
+
+
+def _check_own(own: Mapping[str, OwnEffect], kind: str, table: EffectTable, where: str) -> None:
+    if kind == "lti":
+        raise InputError(
+            "a transfer function has no equations to add effects to",
+            where=where,
+            expected="kind dc or axis",
+            fix="remove them, or model the drive as dc or axis",
+        )
+    for name in own:
+        if name in table:
+            raise InputError(
+                f"'{name}' is an effect that rwn knows",
+                where=where,
+                expected="a name of its own",
+                fix=f"rename it, or use [effects.{name}]",
+            )
 
 
 def _si(unit: str) -> str:

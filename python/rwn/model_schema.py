@@ -10,6 +10,7 @@ import msgspec
 
 from rwn.errors import InputError, closest, unknown
 from rwn.layout import Initial
+from rwn.own_effects import EffectEntry, ParameterEntry
 
 Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 
@@ -34,6 +35,7 @@ class File(msgspec.Struct, forbid_unknown_fields=True):
     motor: dict[str, Any]
     uncertainty: dict[str, Number] = {}
     effects: dict[str, dict[str, Number]] = {}
+    own_effects: dict[str, EffectEntry] = {}
     load: LoadTable = msgspec.field(default_factory=LoadTable)
     recording: RecordingTable = msgspec.field(default_factory=RecordingTable)
 
@@ -69,9 +71,7 @@ def _worded(message: str, where: str) -> InputError:
     place = f"{where}, [{'.'.join(keys)}]" if keys else where
     found = re.search(r"unknown field `(.+)`", what)
     if found:
-        fields = {"": File, "columns": ColumnEntry, "recording": RecordingTable, "load": LoadTable}
-        struct = fields.get("columns" if "columns" in keys else keys[0] if keys else "", File)
-        return unknown("key", found[1], struct.__struct_fields__, where=place)
+        return unknown("key", found[1], _table_at(keys).__struct_fields__, where=place)
     wrong = re.search(r"[Ee]xpected `(.+?)`, got `(.+?)`", what)
     if wrong:
         names = {"float | str": "a number, or text with a unit", "str": "text in quotes", "object": "a table"}
@@ -91,3 +91,20 @@ def _worded(message: str, where: str) -> InputError:
     return InputError(
         what.replace("`", "'"), where=place, expected="see docs/models.md", fix="correct the value"
     )
+
+
+def _table_at(keys: list[str]) -> type[msgspec.Struct]:
+    """The table that a path of keys leads to."""
+    nested: dict[tuple[str, str], type[msgspec.Struct]] = {
+        ("recording", "columns"): ColumnEntry,
+        ("own_effects", "parameters"): ParameterEntry,
+    }
+    for (outer, inner), entry in nested.items():
+        if keys[:1] == [outer] and inner in keys:
+            return entry
+    tables: dict[str, type[msgspec.Struct]] = {
+        "recording": RecordingTable,
+        "load": LoadTable,
+        "own_effects": EffectEntry,
+    }
+    return tables.get(keys[0] if keys else "", File)

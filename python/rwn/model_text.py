@@ -8,6 +8,7 @@ import msgspec
 
 from rwn.layout import Layout
 from rwn.model import Model
+from rwn.own_effects import to_lines
 
 
 def format_model(model: Model) -> str:
@@ -19,6 +20,8 @@ def format_model(model: Model) -> str:
     lines += _table("uncertainty", model.uncertainty)
     for name, values in model.effects.items():
         lines += _table(f"effects.{name}", values, always=True)
+    for effect in model.own_effects:
+        lines += to_lines(effect)
     for name, values in model.load.items():
         lines += _table(f"load.{name}", values)
     return "\n".join(lines + _layout_lines(model.recording)) + "\n"

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import savgol_filter
 
 from rwn.candidate import Nominal, candidate
 from rwn.effects import motor_index, motor_parameters
@@ -114,6 +113,8 @@ def windowed(whole: Target, length: int = WINDOW) -> Target:
 
 def motion(target: Target) -> tuple[Array, Array]:
     """Smoothed speed and acceleration (n,) of a recording (Savitzky-Golay over about 31 samples, order 3)."""
+    from scipy.signal import savgol_filter  # late: the command line starts without it
+
     n = target.time.size
     step = float(np.median(np.diff(target.time)))
     length = min(31, n - 1 - n % 2)

@@ -107,3 +107,16 @@ def has_dimension(unit: str, si_unit: str, *, where: object) -> bool:
     """Whether `unit` measures the same kind of quantity as `si_unit`."""
     given, wanted = _parse(unit, where=where), _parse(si_unit, where=where)
     return bool(given.dimensionality == wanted.dimensionality)
+
+
+def sample(unit: str, value: float) -> Any:
+    """`value` of `unit` as a quantity that refuses sums of unlike kinds; for checking formulas."""
+    return _registry().Quantity(
+        value, _parse(unit if unit not in ("", "1") else "dimensionless", where="units")
+    )
+
+
+def same_dimension(result: Any, unit: str) -> None:
+    """Raises pint's DimensionalityError unless `result` (a number or a `sample`) is of the kind of `unit`."""
+    wanted = _parse(unit if unit not in ("", "1") else "dimensionless", where="units")
+    _registry().Quantity(result).to(wanted)
