@@ -153,6 +153,28 @@ class OnlineHistory:
     @property
     def status(self) -> str:
         ...
+class StructuredFit:
+    @property
+    def advice(self) -> str:
+        ...
+    @property
+    def condition(self) -> float:
+        ...
+    @property
+    def deviation(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
+    @property
+    def mse(self) -> list[float]:
+        ...
+    @property
+    def slope(self) -> float:
+        ...
+    @property
+    def status(self) -> str:
+        ...
+    @property
+    def theta(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
 def dyadic_grid(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex, finest: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
     ...
 def effect_table() -> list:
@@ -185,7 +207,7 @@ def motor_parameter_table() -> list:
     """
     The motor's own parameters.
     """
-def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], current: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"], speed_is_difference: bool = False, angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
+def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], current: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"], speed_is_difference: bool = False, angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
     """
     Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.
     """
@@ -213,13 +235,21 @@ def rate_rules() -> list[tuple[str, str]]:
     """
     Name and guarantee of every learning-rate rule.
     """
+def recursive_gauss_newton(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, spread: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], noise: typing.SupportsFloat | typing.SupportsIndex, forgetting: typing.SupportsFloat | typing.SupportsIndex, settle: typing.SupportsFloat | typing.SupportsIndex, caution: typing.SupportsFloat | typing.SupportsIndex, follow_state: bool, cycles: typing.SupportsInt | typing.SupportsIndex, frozen_every: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], OnlineHistory, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]]:
+    ...
 def select_wavelets(wavelet: Wavelet, m: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], d: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
     ...
-def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
+def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
     """
     Returns status, current, speed, position (n) and their derivatives (n, p).
     """
+def simulate_plant(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], torque: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    Speed for the input and a given friction torque.
+    """
 def simulation_advice(arg0: str) -> str:
+    ...
+def structured_levenberg_marquardt(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, network_speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], current: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], current_weight: typing.SupportsFloat | typing.SupportsIndex, learn: collections.abc.Sequence[bool], iterations: typing.SupportsInt | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex, tolerance: typing.SupportsFloat | typing.SupportsIndex, gauge: bool, weights_first: bool) -> StructuredFit:
     ...
 def train_recurrent(network: RecurrentNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], *, rates: FixedRates | ThesisRates | ImpulseResponseRates | NormalisedRates, learn: typing.Annotated[collections.abc.Sequence[bool], "FixedSize(6)"], cycles: typing.SupportsInt | typing.SupportsIndex, frozen_every: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], OnlineHistory]:
     ...

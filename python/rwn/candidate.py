@@ -81,11 +81,15 @@ def candidate(
             p.name: _first(effect, p, nominal, scales, starts.get(name, {}), known) for p in effect.parameters
         }
         if known is None:
-            unknowns += [_effect_unknown(effect, p, nominal, scales) for p in effect.parameters if not p.fixed]
+            unknowns += [
+                _effect_unknown(effect, p, nominal, scales) for p in effect.parameters if not p.fixed
+            ]
     return Candidate(effects=active, vector=parameter_vector(motor_now, values), unknowns=tuple(unknowns))
 
 
-def fit(problem: OutputError, this: Candidate, *, max_iterations: int = 60, tolerance: float = 1e-2) -> Minimum:
+def fit(
+    problem: OutputError, this: Candidate, *, max_iterations: int = 60, tolerance: float = 1e-2
+) -> Minimum:
     """Fits the unknowns of a candidate to the recordings."""
 
     def evaluate(values: Array) -> CountedNormal:
@@ -121,7 +125,7 @@ def _same_constant(nominal: Nominal) -> bool:
     if not all(nominal.uncertainty.get(name, 0.0) > 0.0 for name in pair):
         return False
     ratio = abs(np.log(nominal.motor[pair[0]] / nominal.motor[pair[1]]))
-    return bool(ratio < 3.0 * np.hypot(*(nominal.uncertainty[name] for name in pair)))
+    return bool(ratio < 3.0 * np.hypot(nominal.uncertainty[pair[0]], nominal.uncertainty[pair[1]]))
 
 
 def _free_unknown(name: str) -> Unknown:
@@ -162,8 +166,7 @@ def _first(
 
 
 def first_unit(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapping[str, float]) -> float:
-    """What first guesses of a parameter are multiples of: its scale; where the effect takes over a nominal friction
-    level, that level stands for its guess."""
+    """What first guesses of a parameter are multiples of: its scale, or the nominal level it takes over."""
     replaced = next((q.replaces for q in effect.parameters if q.replaces), None)
     level = nominal.motor.get(replaced, 0.0) if replaced else 0.0
     if level > 0.0 and p.scale == "torque" and p.unit == "N m":

@@ -40,7 +40,9 @@ def estimates(fitted: Fitted, variance: float, correlation_time: float) -> dict[
             interval = (max(value / factor, u.lower), min(value * factor, u.upper))
         else:
             interval = (max(value - 1.96 * std, u.lower), min(value + 1.96 * std, u.upper))
-        found[u.name] = Estimate(value=float(value), unit=u.unit, interval=(float(interval[0]), float(interval[1])))
+        found[u.name] = Estimate(
+            value=float(value), unit=u.unit, interval=(float(interval[0]), float(interval[1]))
+        )
     return found
 
 
@@ -50,7 +52,9 @@ def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, 
     rows = []
     for name in chosen.fitted.added:
         effect = table()[name]
-        parameters = {p.name: numbers[f"{name}.{p.name}"] for p in effect.parameters if f"{name}.{p.name}" in numbers}
+        parameters = {
+            p.name: numbers[f"{name}.{p.name}"] for p in effect.parameters if f"{name}.{p.name}" in numbers
+        }
         for p in effect.parameters:
             if p.fixed:
                 parameters[p.name] = Estimate(value=p.start, unit=p.unit)
@@ -97,7 +101,8 @@ def corrected_model(fitted: Fitted, model: Model) -> Model:
         if name not in replaced
     }
     effects = {
-        name: {p.name: float(vector[table()[name].at(p.name)]) for p in table()[name].parameters} for name in active
+        name: {p.name: float(vector[table()[name].at(p.name)]) for p in table()[name].parameters}
+        for name in active
     }
     uncertainty = {name: value for name, value in model.uncertainty.items() if name in parameters}
     return replace(model, parameters=parameters, effects=effects, uncertainty=uncertainty)

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from rwn import hints
 from rwn.diagnosis import Mark, Plot, Region, Trace
+from rwn.effects import motor_index
 from rwn.evidence import Hypothesis
-from rwn.locate import Unknown, unknown_inputs
+from rwn.locate import Unknown, regions, unknown_inputs
 from rwn.output_error import OutputError
 
 if TYPE_CHECKING:
@@ -32,21 +33,23 @@ def describe(where: Sequence[Region]) -> str:
     )
 
 
-def plots(found: Explanation, chosen: Hypothesis, unknown: Sequence[Unknown], *, linear: bool) -> tuple[Plot, ...]:
+def plots(
+    found: Explanation, chosen: Hypothesis, unknown: Sequence[Unknown], *, linear: bool
+) -> tuple[Plot, ...]:
     """Response, residuals over time and speed, torque over speed, spectrum over angle."""
     whole = found.setup.whole
     free = replace(whole, targets=tuple(replace(t, angle=np.empty(0)) for t in whole.targets))
     speed_unit, torque_unit = ("m/s", "N") if linear else ("rad/s", "N m")
     position_unit = "m" if linear else "rad"
-    made = []
+    made: list[Plot] = []
     for k, target in enumerate(free.targets):
         signal = "speed" if target.speed.size else target.recorded[-1]
         unit = {"speed": speed_unit, "position": position_unit, "current": "A"}[signal]
         made += _response(free, found, chosen, k, signal, unit)
-    made.append(_residual_speed(unknown, found, speed_unit, torque_unit, "residual-speed"))
-    made.append(_torque_speed(found, chosen, unknown, speed_unit, torque_unit))
+    made.append(_residual_speed(unknown, speed_unit, torque_unit))
+    made.append(_torque_speed(found, chosen, speed_unit, torque_unit))
     spectrum = _spectrum(found, linear)
-    return tuple([*made, *([spectrum] if spectrum else [])])
+    return (*made, spectrum) if spectrum else tuple(made)
 
 
 def _thin(*arrays: Array) -> list[Array]:
@@ -54,7 +57,9 @@ def _thin(*arrays: Array) -> list[Array]:
     return [a[::step] for a in arrays]
 
 
-def _response(free: OutputError, found: Explanation, chosen: Hypothesis, k: int, signal: str, unit: str) -> list[Plot]:
+def _response(
+    free: OutputError, found: Explanation, chosen: Hypothesis, k: int, signal: str, unit: str
+) -> list[Plot]:
     target = free.targets[k]
     measured = target.signal(signal)
     refitted = free.simulate(target, found.nominal.vector, found.nominal.candidate.active).signals[signal]
@@ -65,7 +70,9 @@ def _response(free: OutputError, found: Explanation, chosen: Hypothesis, k: int,
     ]
     errors = [Trace(name="nominal, refitted", role="before", x=t, y=y - a)]
     if chosen.fitted.added:
-        (b,) = _thin(free.simulate(target, chosen.fitted.vector, chosen.fitted.candidate.active).signals[signal])
+        (b,) = _thin(
+            free.simulate(target, chosen.fitted.vector, chosen.fitted.candidate.active).signals[signal]
+        )
         lines.append(Trace(name="corrected", role="corrected", x=t, y=b))
         errors.append(Trace(name="corrected", role="after", x=t, y=y - b))
     label = f"{signal}"
@@ -77,12 +84,10 @@ def _response(free: OutputError, found: Explanation, chosen: Hypothesis, k: int,
     ]  # fmt: skip
 
 
-def _residual_speed(
-    unknown: Sequence[Unknown], found: Explanation, speed_unit: str, torque_unit: str, slot: str
-) -> Plot:
+def _residual_speed(unknown: Sequence[Unknown], speed_unit: str, torque_unit: str) -> Plot:
     speed = np.concatenate([u.speed for u in unknown])
     torque = np.concatenate([u.torque for u in unknown])
-    rows = [r for r in _speed_regions(unknown)]
+    rows = _speed_regions(unknown)
     x, y = _thin(speed, torque)
     return Plot(
         slot="residual-speed", title="Unknown torque of the refitted nominal model over speed", x_label="speed",
@@ -97,8 +102,6 @@ def _residual_speed(
 
 
 def _speed_regions(unknown: Sequence[Unknown]) -> list[Mark]:
-    from rwn.locate import regions
-
     found = [r for r in regions(unknown) if r.coordinate == "speed" and r.share - r.samples_share > 0.1]
     if not found:
         return []
@@ -117,14 +120,10 @@ def _mean_curve(x: Array, y: Array, name: str, role: str) -> Trace:
     return Trace(name=name, role=role, x=middles, y=means)  # type: ignore[arg-type]
 
 
-def _torque_speed(
-    found: Explanation, chosen: Hypothesis, unknown: Sequence[Unknown], speed_unit: str, torque_unit: str
-) -> Plot:
+def _torque_speed(found: Explanation, chosen: Hypothesis, speed_unit: str, torque_unit: str) -> Plot:
     """Friction over speed: the recordings' own (drive torque minus acceleration torque) and the models'."""
     whole = found.setup.whole
     bare = chosen.fitted.vector.copy()
-    from rwn.effects import motor_index
-
     for name in ("viscous_friction", "coulomb_friction"):
         bare[motor_index(name)] = 0.0
     own = [unknown_inputs(whole, bare, t) for t in whole.targets]
@@ -141,7 +140,7 @@ def _torque_speed(
 
 
 def _spectrum(found: Explanation, linear: bool) -> Plot | None:
-    """Share of the residual that a torque periodic in angle would explain; only where speed is recorded and it matters."""
+    """Share of the residual that a torque periodic in angle would explain, where it matters."""
     problem = found.setup.problem
     if not all(t.angle.size and t.speed.size for t in problem.targets):
         return None

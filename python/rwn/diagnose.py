@@ -20,6 +20,7 @@ from rwn.experiments import separated_by
 from rwn.heldout import Contender, heldout_rows
 from rwn.locate import Unknown, regions, unknown_inputs
 from rwn.model import Model
+from rwn.output_error import Target
 from rwn.prepare import Setup, noise_levels, prepare, target
 from rwn.recording import Recording
 from rwn.search import Fitted, Search
@@ -67,7 +68,7 @@ def diagnose(
         The verdict, located region, named effects with intervals, corrected model and the curves that show it.
     """
     began = time.perf_counter()
-    say = progress or (lambda what, done: None)
+    say = progress or _silent
     say("refitting the nominal model", 0.0)
     setup = prepare(recordings, model)
     found = explain(setup, jobs=jobs or os.cpu_count() or 1, progress=say)
@@ -83,7 +84,13 @@ def diagnose(
     return _report(found, chosen, rows, unknown, model, seed, time.perf_counter() - began)
 
 
-def explain(setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None) -> Explanation:
+def _silent(what: str, done: float) -> None:
+    """Progress that nobody asked for."""
+
+
+def explain(
+    setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None
+) -> Explanation:
     """Fits the nominal model, every single effect, and what still helps beside the best ones."""
     search = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales, jobs=jobs)
     search = _with_noise(search, search.fit_nominal())
@@ -191,19 +198,21 @@ def verdict_of(found: Explanation, chosen: Hypothesis) -> Verdict:
 
 
 def _prove(
-    found: Explanation, chosen: Hypothesis, proof: Sequence[object], model: Model, seed: int
+    found: Explanation, chosen: Hypothesis, proof: Sequence[Target], model: Model, seed: int
 ) -> tuple[HeldoutRow, ...]:
     setup = found.setup
     given = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales).fit_start()
-    contenders = [
-        Contender(vector=given.vector, active=tuple(given.active)),
-        Contender(vector=found.nominal.vector, active=tuple(found.nominal.candidate.active)),
-    ]
+    nominal = Contender(vector=given.vector, active=tuple(given.active))
+    refitted = Contender(vector=found.nominal.vector, active=tuple(found.nominal.candidate.active))
     corrected = None
     if chosen.fitted.added:
         corrected = Contender(vector=chosen.fitted.vector, active=tuple(chosen.fitted.candidate.active))
-    units = {"current": "A", "speed": "m/s" if model.linear else "rad/s", "position": "m" if model.linear else "rad"}
-    return heldout_rows(setup.whole, proof, *contenders, corrected, units=units, seed=seed)  # type: ignore[arg-type]
+    units = {
+        "current": "A",
+        "speed": "m/s" if model.linear else "rad/s",
+        "position": "m" if model.linear else "rad",
+    }
+    return heldout_rows(setup.whole, proof, nominal, refitted, corrected, units=units, seed=seed)
 
 
 def _hurts(rows: Sequence[HeldoutRow]) -> bool:
@@ -237,8 +246,8 @@ def _report(
     verdict = verdict_of(found, chosen)
     named = verdict == "missing-physics"
     same = ambiguous(found, chosen) if named else ()
-    names = tuple(dict.fromkeys(_lead(h, chosen) for h in same))
     effects = found_effects(found, chosen) if chosen.fitted.added and named else ()
+    names = tuple(dict.fromkeys([e.name for e in effects[:1]] + [_lead(h, chosen) for h in same[1:]]))
     equation = effects[0].equation if effects else ""
     where = regions(unknown, linear=model.linear)
     nominal = next(h for h in found.hypotheses if not h.fitted.added)

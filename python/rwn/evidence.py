@@ -80,7 +80,8 @@ def join(problem: OutputError, residuals: Sequence[Mapping[str, Array]]) -> dict
     """Weighted residuals of each signal, recordings end to end."""
     signals = {s for r in residuals for s in r}
     return {
-        s: np.concatenate([r[s] for r in residuals if s in r]) / problem.noise.get(s, 1.0) for s in sorted(signals)
+        s: np.concatenate([r[s] for r in residuals if s in r]) / problem.noise.get(s, 1.0)
+        for s in sorted(signals)
     }
 
 
@@ -105,10 +106,10 @@ def weigh(
     effective = left.effective if left.at_the_floor else min(left.effective, MISSPECIFIED)
     scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
     least = min(f.cost for f in fits)
-    base = min(seen(f) for f in fits)
+    base = min(len(f.candidate.unknowns) for f in fits)
     scores = []
     for f in fits:
-        unknowns = seen(f) - base
+        unknowns = len(f.candidate.unknowns) - base
         names = sum((prior or {}).get(name, 0.0) for name in f.added)
         scores.append(
             -(f.cost - least) / scale
@@ -123,8 +124,3 @@ def weigh(
         for f, s, p in zip(fits, scores, weights, strict=True)
     ]
     return sorted(rows, key=lambda h: -h.score)
-
-
-def seen(fitted: Fitted) -> int:
-    """Unknowns that the recordings respond to at all."""
-    return int(np.sum(np.diag(fitted.minimum.data_information) > 0.0))

@@ -47,13 +47,19 @@ def heldout_rows(
                 if chosen.sum() < 20:
                     continue
                 parts = [run[signal][chosen] for run in runs]
-                rows.append(_row(target, region, signal, units, parts, floor[signal], corrected is not None, seed))
+                rows.append(
+                    _row(target, region, signal, units, parts, floor[signal], corrected is not None, seed)
+                )
         if problem.kind == "axis":
-            rows += _force_row(problem, target, [c for c in (nominal, refitted, corrected) if c is not None], seed)
+            rows += _force_row(
+                problem, target, [c for c in (nominal, refitted, corrected) if c is not None], seed
+            )
     return tuple(rows)
 
 
-def _force_row(problem: OutputError, target: Target, contenders: list[Contender], seed: int) -> list[HeldoutRow]:
+def _force_row(
+    problem: OutputError, target: Target, contenders: list[Contender], seed: int
+) -> list[HeldoutRow]:
     """Error of the inverse dynamics relative to the driving force, in percent of its norm."""
     parts = [force_error(problem, target, c.vector, list(c.active)) for c in contenders]
     errors, force = [e for e, _ in parts], parts[0][1]
@@ -83,7 +89,14 @@ def _slow(target: Target) -> NDArray[np.bool_]:
 
 
 def _row(
-    target: Target, region: str, signal: str, units: dict[str, str], parts: list[Array], floor: float, found: bool, seed: int
+    target: Target,
+    region: str,
+    signal: str,
+    units: dict[str, str],
+    parts: list[Array],
+    floor: float,
+    found: bool,
+    seed: int,
 ) -> HeldoutRow:
     rms = [float(np.sqrt(np.nanmean(p**2))) for p in parts]
     gain = 1.0 - rms[2] / rms[1] if found else None
@@ -121,4 +134,5 @@ def gain_interval(before: Array, after: Array, *, seed: int, draws: int = 400) -
 def _block_sums(x: Array, length: int) -> Array:
     """Sum over the circular block that begins at each sample."""
     sums = np.concatenate([[0.0], np.cumsum(np.concatenate([x, x[:length]]))])
-    return sums[length : length + x.size] - sums[: x.size]
+    found: Array = sums[length : length + x.size] - sums[: x.size]
+    return found

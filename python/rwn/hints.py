@@ -29,7 +29,12 @@ def drive_filter(problem: OutputError, motor: Array, step: float) -> tuple[float
 
 
 def angle_spectrum(
-    problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]], orders: Array, *, with_current: bool = False
+    problem: OutputError,
+    motor: Array,
+    residuals: Sequence[dict[str, Array]],
+    orders: Array,
+    *,
+    with_current: bool = False,
 ) -> Array:
     """Share of the speed residual's energy that a torque cos(N theta), sin(N theta) explains, per order N.
 
@@ -85,7 +90,9 @@ def order_grid(problem: OutputError) -> Array:
     return np.arange(2.0, 900.0) * (0.5 / max(travel, 1e-9))
 
 
-def windows(problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]], count: int = 2) -> list[tuple[float, float]]:
+def windows(
+    problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]], count: int = 2
+) -> list[tuple[float, float]]:
     """(t_start, t_end) of the time windows in which a constant extra torque explains most of the residual."""
     length = max(float(t.time[-1] - t.time[0]) for t in problem.targets)
     bins = 60
@@ -104,7 +111,11 @@ def windows(problem: OutputError, motor: Array, residuals: Sequence[dict[str, Ar
     counts = np.concatenate([[0.0], np.cumsum(weight)])
     i, j = np.triu_indices(bins + 1, 2)
     n, whole = counts[j] - counts[i], counts[-1]
-    gain = np.where((n > 0) & (n < whole), (sums[j] - sums[i]) ** 2 / np.maximum(n * (1.0 - n / max(whole, 1.0)), 1e-9), 0.0)
+    gain = np.where(
+        (n > 0) & (n < whole),
+        (sums[j] - sums[i]) ** 2 / np.maximum(n * (1.0 - n / max(whole, 1.0)), 1e-9),
+        0.0,
+    )
     found: list[tuple[float, float]] = []
     for k in np.argsort(gain)[::-1]:
         if all(abs(i[k] - p) + abs(j[k] - q) > bins / 6 for p, q in found):

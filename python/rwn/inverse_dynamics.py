@@ -19,7 +19,9 @@ DECIMATION = 10
 EDGE = 50  # samples at either end that the filters spoil
 
 
-def force_error(problem: OutputError, target: Target, vector: Array, active: list[int]) -> tuple[Array, Array]:
+def force_error(
+    problem: OutputError, target: Target, vector: Array, active: list[int]
+) -> tuple[Array, Array]:
     """(error, driving force), decimated; empty where no position is recorded or the recording is too short."""
     step = float(np.median(np.diff(target.time)))
     if not target.position.size or target.time.size < 20 * EDGE:

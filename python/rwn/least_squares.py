@@ -65,7 +65,9 @@ class Minimum:
     values: Array  # (p)
     chi2: float  # sum of squared weighted errors, priors aside
     cost: float  # chi2 and priors
-    information: Array  # (p, p) J'J and priors by value: the inverse covariance for white residuals of variance 1
+    information: (
+        Array  # (p, p) J'J and priors by value: the inverse covariance for white residuals of variance 1
+    )
     data_information: Array  # (p, p) the same without priors
     status: FitStatus
     iterations: int
@@ -101,7 +103,8 @@ class _Search:
 
     def information(self, z: Array, normal: Normal) -> Array:
         slope = np.where(self.logarithmic, self.values(z), 1.0)
-        return normal.curvature + (np.diag(self.weight) + self.tie) / np.outer(slope, slope)
+        found: Array = normal.curvature + (np.diag(self.weight) + self.tie) / np.outer(slope, slope)
+        return found
 
 
 def _ties(unknowns: tuple[Unknown, ...]) -> Array:
@@ -136,7 +139,9 @@ def minimise(
     Ends when a step promises less than `tolerance` of cost, in units of the residual's variance.
     """
     search = _Search(evaluate, unknowns)
-    z = np.array([u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in zip(unknowns, start, strict=True)])
+    z = np.array(
+        [u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in zip(unknowns, start, strict=True)]
+    )
     z = np.clip(z, search.lower, search.upper)
     cost, gradient, curvature, normal = search.at(z)
     if not np.isfinite(cost):
@@ -145,7 +150,9 @@ def minimise(
     for count in range(1, max_iterations + 1):
         step = _step(search, z, gradient, curvature, damping)
         promised = float(2.0 * step @ gradient - step @ curvature @ step)
-        if promised <= 0.0 and step.any():  # the ends of ranges stood in the way: shorten towards the gradient
+        if (
+            promised <= 0.0 and step.any()
+        ):  # the ends of ranges stood in the way: shorten towards the gradient
             damping, growth, misses = damping * 10.0, 2.0, misses + 1
             if misses <= 8:
                 continue
@@ -198,7 +205,9 @@ def _reach(search: _Search) -> Array:
     return np.where(search.logarithmic, 1.1, np.maximum((search.upper - search.lower) / 3.0, 1e-300))
 
 
-def _minimum(search: _Search, z: Array, normal: Normal, cost: float, status: FitStatus, count: int) -> Minimum:
+def _minimum(
+    search: _Search, z: Array, normal: Normal, cost: float, status: FitStatus, count: int
+) -> Minimum:
     return Minimum(
         values=search.values(z),
         chi2=normal.chi2,

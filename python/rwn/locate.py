@@ -80,7 +80,10 @@ def _smooth(signal: Array) -> Array:
 
 def regions(unknown: Sequence[Unknown], *, linear: bool = False) -> tuple[Region, ...]:
     """For each coordinate the stretch that holds most of the mismatch's energy for its share of samples, best first."""
-    joined = {name: np.concatenate([getattr(u, name) for u in unknown]) for name in ("speed", "acceleration", "current", "angle", "time")}
+    joined = {
+        name: np.concatenate([getattr(u, name) for u in unknown])
+        for name in ("speed", "acceleration", "current", "angle", "time")
+    }
     energy = np.concatenate([u.torque for u in unknown]) ** 2
     energy = np.minimum(energy, np.percentile(energy, 99.9))
     speed = joined["speed"]
@@ -114,7 +117,9 @@ def _stretch(name: str, x: Array, energy: Array, unit: str, bins: int = 12) -> R
     i, j = np.triu_indices(edges.size, 1)
     best = int(np.argmax(excess[j] - excess[i]))
     a, b = int(i[best]), int(j[best])
-    word = {"speed": ("low speed", "high speed"), "current": ("low current", "high current")}.get(name, ("", ""))
+    word = {"speed": ("low speed", "high speed"), "current": ("low current", "high current")}.get(
+        name, ("", "")
+    )
     label = word[0] if a == 0 else word[1] if b == edges.size - 1 else ""
     return Region(
         coordinate=name,

@@ -33,8 +33,12 @@ class Target:
     speed_is_difference: bool = False  # speed was computed as the central difference of the position
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     input_before: float = 0.0
-    angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
-    restart_every: int = 0  # samples of a window after which the motion restarts from the recorded one; 0: free run
+    angle: Array = field(
+        default_factory=lambda: _NONE
+    )  # recorded position that angle-dependent effects follow
+    restart_every: int = (
+        0  # samples of a window after which the motion restarts from the recorded one; 0: free run
+    )
     restart_speed: Array = field(default_factory=lambda: _NONE)
     restart_position: Array = field(default_factory=lambda: _NONE)
 
@@ -72,7 +76,11 @@ class OutputError:
     targets: tuple[Target, ...]
     noise: dict[str, float]  # standard deviation per recorded signal
     angle_per_position: float = 1.0
-    start_indices: tuple[int, int, int] = (0, 0, 0)  # of initial current, speed, position in the parameter vector
+    start_indices: tuple[int, int, int] = (
+        0,
+        0,
+        0,
+    )  # of initial current, speed, position in the parameter vector
 
     def parameters_for(self, target: Target, vector: Array) -> Array:
         """The parameter vector with the start of this recording filled in."""
@@ -81,7 +89,9 @@ class OutputError:
             own[index] += value
         return own
 
-    def simulate(self, target: Target, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:
+    def simulate(
+        self, target: Target, vector: Array, active: Sequence[int], by: Sequence[int] = ()
+    ) -> Output:
         """Free run of one recording; speed as it was measured."""
         status, *arrays = _core.simulate(
             self.kind, target.time, target.input, self.parameters_for(target, vector), list(active), list(by),
@@ -105,7 +115,13 @@ class OutputError:
 
     def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations by the parameters `by`, summed over the recordings."""
-        chi2, count, gradient, curvature, finite = 0.0, 0, np.zeros(len(by)), np.zeros((len(by), len(by))), True
+        chi2, count, gradient, curvature, finite = (
+            0.0,
+            0,
+            np.zeros(len(by)),
+            np.zeros((len(by), len(by))),
+            True,
+        )
         weights = [1.0 / self.noise.get(s, 1.0) for s in SIGNALS]
         for target in self.targets:
             status, c, n, g, h = _core.normal_equations(

@@ -16,7 +16,9 @@ from rwn.recording import Recording
 from rwn.scales import scales
 
 Array = NDArray[np.float64]
-WINDOW = 50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
+WINDOW = (
+    50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +51,9 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     problem = whole
     if model.kind == "axis" and model.recording.initial == "estimate":
         problem = replace(whole, targets=tuple(windowed(t) if t.position.size else t for t in targets))
-    return Setup(nominal=nominal, whole=whole, problem=problem, scales=scales(model.kind, vector, targets, outputs))
+    return Setup(
+        nominal=nominal, whole=whole, problem=problem, scales=scales(model.kind, vector, targets, outputs)
+    )
 
 
 def nominal_of(model: Model) -> Nominal:
@@ -147,7 +151,7 @@ def quantisation(target: Target, signal: str) -> float:
     q / sqrt(12) for counts; a central difference of counts has steps of q / 2T, and q / sqrt(24) / T.
     """
     step = lattice(target.signal(signal))
-    return step / np.sqrt(6.0 if signal == "speed" else 12.0)
+    return float(step / np.sqrt(6.0 if signal == "speed" else 12.0))
 
 
 def _noise(residual: Array) -> float:

@@ -13,7 +13,9 @@ from rwn.output_error import Target
 Array = NDArray[np.float64]
 
 
-def scales(kind: str, motor: Array, targets: Sequence[Target], outputs: Sequence[dict[str, Array]]) -> dict[str, float]:
+def scales(
+    kind: str, motor: Array, targets: Sequence[Target], outputs: Sequence[dict[str, Array]]
+) -> dict[str, float]:
     """Value of each `Scale` (SI) from the motor's parameter vector, the recordings and their nominal simulation."""
     inertia = motor[motor_index("inertia")]
     step = float(np.median(np.concatenate([np.diff(t.time) for t in targets])))

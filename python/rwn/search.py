@@ -73,7 +73,10 @@ class Search:
     def explain(self, base: Fitted, names: Iterable[str], *, keep: int = 2) -> list[Fitted]:
         """`base` with each of `names` added, fitted from several starts; best first."""
         racers = [
-            (name, c) for name in names for c in self._starts(base, name) if name not in base.candidate.effects
+            (name, c)
+            for name in names
+            for c in self._starts(base, name)
+            if name not in base.candidate.effects
         ]
         rows = self._race(racers, iterations=1)
         rows = self._race([(n, c) for n, c, _ in _best_of_each(rows, keep)], iterations=4)

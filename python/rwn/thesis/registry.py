@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from rwn.thesis import (
+    better_offline,
     black_box,
+    claims,
     convergence_map,
     electrical,
     frictionless,
@@ -12,6 +14,8 @@ from rwn.thesis import (
     miso_size,
     miso_trainers,
     miso_wavelets,
+    online_miso,
+    online_siso,
     simultaneous,
     siso_rate,
     siso_size,
@@ -34,6 +38,10 @@ EXPERIMENTS: tuple[Experiment, ...] = tuple(
         miso_rate,
         miso_trainers,
         miso_wavelets,
+        online_siso,
+        online_miso,
+        better_offline,
+        claims,
         black_box,
         measured_friction,
         structured_friction,

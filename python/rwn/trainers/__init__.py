@@ -5,6 +5,7 @@ from __future__ import annotations
 from rwn.trainers.gradient_descent import GradientDescent
 from rwn.trainers.levenberg_marquardt import LevenbergMarquardt
 from rwn.trainers.pattern_descent import PatternDescent
+from rwn.trainers.pattern_gauss_newton import PatternGaussNewton
 from rwn.trainers.recursive_gauss_newton import RecursiveFit, RecursiveGaussNewton
 from rwn.trainers.structured_levenberg_marquardt import StructuredFit, StructuredLevenbergMarquardt
 from rwn.trainers.variable_projection import VariableProjection
@@ -12,7 +13,13 @@ from rwn.training import Trainer
 
 TRAINERS: dict[str, type[Trainer]] = {
     trainer.name: trainer
-    for trainer in (GradientDescent, PatternDescent, LevenbergMarquardt, VariableProjection)
+    for trainer in (
+        GradientDescent,
+        PatternDescent,
+        PatternGaussNewton,
+        LevenbergMarquardt,
+        VariableProjection,
+    )
 }
 
 STRUCTURED_TRAINERS = {
@@ -25,6 +32,7 @@ __all__ = [
     "GradientDescent",
     "LevenbergMarquardt",
     "PatternDescent",
+    "PatternGaussNewton",
     "RecursiveFit",
     "RecursiveGaussNewton",
     "StructuredFit",
