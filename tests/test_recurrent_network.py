@@ -29,7 +29,7 @@ def test_training_agrees_with_the_twin(shape: tuple[int, int, int, str]) -> None
     inputs, wavelets, seed, name = shape
     network = recurrent(inputs, wavelets, seed, name=name)
     x, y = signals(inputs, 1000, seed)
-    rates = dict(zip(network.groups, (1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4), strict=True))
+    rates = dict(zip(network.groups, (1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5), strict=True))
     got = rwn.train_recurrent(network, x, y, rates=Fixed(rates), cycles=2)
     wanted, errors = twin.train(network, x, y, rates=np.array(list(rates.values())), cycles=2)
     assert relative_error(got.network.theta, wanted.theta) < 1e-12

@@ -2,7 +2,7 @@
 
 Open in the thesis, and chosen here: B is known too (with B to be learned by the network the rule
 diverges); dyadic start over the speeds of the recording, w normal with deviation 1e-3, c = 0, 3 seeds;
-running maxima at 0.1 of the bound of each group by itself; 20 000 cycles for 100 000 (2 000 for the
+running maxima at 0.1 of the bound of each group by itself; 10 000 cycles for 100 000 (2 000 for the
 wavelets of Table 15); Morlet with omega0 = 5; Table 16 is tested on a 0.75 V sine of 1 Hz. The batch fit
 starts from the same network and is given at most 1 % of the cycles.
 """
@@ -118,7 +118,7 @@ def run(settings: Settings) -> Outcome:
     seeds = range(settings.pick(3, 1))
     rows, first = [], {}
     for k, (wavelets, thesis) in enumerate(SIZES.items()):
-        runs = [train(wavelets, "gaussian-derivative", settings.pick(20_000, 20), s, u, y) for s in seeds]
+        runs = [train(wavelets, "gaussian-derivative", settings.pick(10_000, 20), s, u, y) for s in seeds]
         rows += rows_of(("Table 13", "Table 14"), f"Nw {wavelets}", thesis, runs, test)
         rows.append(
             batch_row("Table 14", f"Nw {wavelets}", thesis[1], wavelets, u, y, test, settings.pick(200, 5))
