@@ -214,7 +214,7 @@ def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Pat
 def test_trial_without_a_diagnosis_counts_as_wrong(made: tuple[Path, str], tmp_path: Path) -> None:
     grades = grade_folder(made[0], results=tmp_path).grades
     assert len(grades) == COUNT
-    assert not any(g.right or g.equation for g in grades)
+    assert not any(g.right or g.honest or g.equation for g in grades)
     assert all(g.false_alarm for g in grades if g.mode == "null")
 
 
