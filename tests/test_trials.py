@@ -185,9 +185,7 @@ def test_truthful_tool_meets_every_target(made: tuple[Path, str], tmp_path: Path
     assert run(made[0], results=tmp_path, jobs=1, diagnose=tell_the_truth) == []
     graded = grade_folder(made[0], results=tmp_path)
     assert graded.split == "development"
-    assert all(
-        target.met in (True, None) or "cover" in target.name for target in score.targets(graded.grades)
-    )
+    assert all(target.met in (True, None) for target in score.targets(graded.grades))
     named = [g for g in graded.grades if g.mode in SINGLE]
     assert named
     assert all(g.exact and g.first and g.equation for g in named)
@@ -216,7 +214,7 @@ def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Pat
 def test_trial_without_a_diagnosis_counts_as_wrong(made: tuple[Path, str], tmp_path: Path) -> None:
     grades = grade_folder(made[0], results=tmp_path).grades
     assert len(grades) == COUNT
-    assert not any(g.right or g.equation for g in grades)
+    assert not any(g.right or g.honest or g.equation for g in grades)
     assert all(g.false_alarm for g in grades if g.mode == "null")
 
 
@@ -297,7 +295,7 @@ def test_demonstration_recordings_can_be_made_again(tmp_path: Path) -> None:
     """Numbers may differ in the last digit between machines, nothing else."""
     demo.write_demo(tmp_path)
     kept = Path(demo.__file__).parents[1] / "demo"
-    assert {path.name for path in tmp_path.iterdir()} <= {path.name for path in kept.iterdir()}
+    assert {path.name for path in tmp_path.iterdir()} == {"model.toml", "train.csv", "heldout.csv"}
     assert (tmp_path / "model.toml").read_text() == (kept / "model.toml").read_text()
     assert sum(path.stat().st_size for path in kept.iterdir()) < 400_000
     for name in ("train.csv", "heldout.csv"):

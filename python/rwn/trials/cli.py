@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -68,7 +69,7 @@ def score(
         graded = grade_folder(folder, results=results)
     except (ValueError, OSError) as error:
         _stop(error)
-    show(graded, Console())
+    show(graded, Console(width=None if sys.stdout.isatty() else 150))  # a file has room
     if plot is not None:
         reliability_plot(graded, plot)
 

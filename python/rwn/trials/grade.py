@@ -17,6 +17,7 @@ from rwn.trials.plant import simulate
 from rwn.trials.run import out_of, trial_folders
 from rwn.trials.seal import ANSWERS, unseal
 
+NO_RESULT = "no-result"  # the diagnosis failed or was never run
 CONFIDENT = 0.5  # a single name with at least this probability
 LARGEST_SET = 3
 REMOVABLE = 1.0  # held-out error of the refitted nominal model, in noise units, from which removal counts
@@ -67,8 +68,8 @@ class Grade:
 
     @property
     def honest(self) -> bool:
-        """Does not claim to know one name: adequate, unexplained, insufficient excitation, or a set."""
-        return self.verdict != "missing-physics" or self.ambiguous
+        """Does not claim to know one name: adequate, insufficient excitation, or a set of names."""
+        return self.verdict in ("adequate", "insufficient-excitation") or self.ambiguous
 
     @property
     def false_alarm(self) -> bool:
@@ -111,7 +112,7 @@ def grade_folder(folder: Path, *, results: Path | None = None) -> Graded:
 
 
 def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
-    said: dict[str, Any] = {"verdict": "no-result"}
+    said: dict[str, Any] = {"verdict": NO_RESULT}
     if (out / "diagnosis.json").exists():
         said = json.loads((out / "diagnosis.json").read_text())
     effects = said.get("effects", []) if said["verdict"] == "missing-physics" else []

@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from rwn.trials import score
-from rwn.trials.grade import Grade, Graded
+from rwn.trials.grade import NO_RESULT, Grade, Graded
 from rwn.trials.plan import FIRST_TEST_SEED
 
 BREAKDOWNS = {
@@ -34,11 +34,12 @@ def show(graded: Graded, console: Console) -> None:
 
 
 def _heading(graded: Graded) -> str:
-    count = len(graded.grades)
+    missing = sum(g.verdict == NO_RESULT for g in graded.grades)
+    trials = f"{len(graded.grades)} trials" + (f" ({missing} WITHOUT A DIAGNOSIS)" if missing else "")
     if graded.seed is None:
-        return f"{count} cases with open answers"
+        return f"{trials} with open answers"
     note = "" if graded.split == "test" else f" (not evidence: test seeds start at {FIRST_TEST_SEED})"
-    return f"{count} trials, seed {graded.seed}, {graded.split} split{note}"
+    return f"{trials}, seed {graded.seed}, {graded.split} split{note}"
 
 
 def _targets(grades: list[Grade]) -> Table:
