@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import inspect
 import json
 from pathlib import Path
 
@@ -144,3 +145,18 @@ def test_the_command_refuses_what_it_cannot_run(options: list[str], tmp_path: Pa
     answer = CliRunner().invoke(app, ["run", *options, "--out", str(tmp_path / "new")])
     assert answer.exit_code == 2
     assert not (tmp_path / "new").exists()
+
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "thesis.md"
+
+
+@pytest.mark.parametrize("experiment", EXPERIMENTS, ids=lambda e: e.name)
+def test_the_page_of_the_repository_holds_every_experiment(experiment: Experiment) -> None:
+    """`rwn thesis run --all --page docs/thesis.md` writes it."""
+    page = PAGE.read_text(encoding="utf-8")
+    assert f"## {experiment.title}\n" in page
+    assert inspect.cleandoc(experiment.choices) in page, "the open choices were changed: write the page again"
+    for figure in experiment.figures:
+        picture = PAGE.with_suffix("") / f"figure_{figure:02d}.png"
+        assert f"(thesis/{picture.name})" in page
+        assert picture.is_file()

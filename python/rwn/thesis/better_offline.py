@@ -4,8 +4,8 @@ Chosen here:
 - patterns, functions and sizes as in Tables 1 and 5 (their files say which); 31 wavelets, the largest of
   Tables 1 and 5, and 15 for Table 3.
 - start by selection (orthogonal least squares over a library of wavelets), then 100 iterations of
-  variable projection: both are deterministic, so no seed enters. Time is of start and training together,
-  on one core, of the machine that ran this.
+  variable projection: both are deterministic, so no seed enters. Time is processor time of start
+  and training together, on the machine that ran this.
 - Levenberg-Marquardt as printed from the same start is given beside it.
 - a low error on the patterns is worth little if the network swings between them: every network is tested
   on a grid ten times (one input) or four times (two inputs) finer, beside the thesis's own training
@@ -68,9 +68,9 @@ Timed = tuple[Runs, float]
 
 
 def _timed(task: Task, way: Initialiser, trainer: Trainer, wavelets: int) -> Timed:
-    start = time.perf_counter()
+    start = time.thread_time()
     runs = train(task, way, trainer, wavelets=wavelets, seeds=1)
-    return runs, time.perf_counter() - start
+    return runs, time.thread_time() - start
 
 
 def _compare(task: Task, wavelets: int, iterations: int, gd: Trainer) -> dict[str, Timed]:

@@ -5,9 +5,9 @@ Open in the thesis, and chosen here:
   (Table 7); on [-0.5, 0.5]^2, stated for the online case, it is lower.
 - patterns: a grid of 21 x 21. On 11 x 11 there would be fewer patterns (121) than parameters of 31
   wavelets (158), and the MSE would say nothing of the function.
-- (2.20) as printed, on the mean over patterns of (2.12); with mu (1
-- gamma) (see Table 1) most MSEs are 2 to 5 times larger, further from the thesis. All weights uniform in
-  [-0.1, 0.1] ("small random values"), 20 seeds.
+- (2.20) as printed, on the mean over patterns of (2.12); with mu (1 - gamma) (see Table 1) most MSEs are 2
+  to 5 times larger, further from the thesis. All weights uniform in [-0.1, 0.1] ("small random values"),
+  20 seeds.
 - the dyadic grid puts a wavelet on the same node of both inputs.
 - mu 0.1, momentum 0.6, 10 000 iterations, as stated. The function is (2.26) as printed.
 """

@@ -3,10 +3,9 @@
 Open in the thesis, and chosen here:
 - patterns: 201 points, evenly spaced on [-10, 10]; 101 give the same. x is not scaled.
 - (2.20) uses the mean over patterns of (2.12): the sum diverges at every rate of the tables.
-- (2.20) is read twice: as printed, and with mu (1
-- gamma) in place of mu, as MATLAB's own gradient descent with momentum (`traingdm`) has it. The thesis
-  was done in MATLAB, and with one input the second reading comes nearer; with two inputs (Table 5) the
-  first.
+- (2.20) is read twice: as printed, and with mu (1 - gamma) in place of mu, as MATLAB's own gradient
+  descent with momentum (`traingdm`) has it. The thesis was done in MATLAB, and with one input the second
+  reading comes nearer; with two inputs (Table 5) the first.
 - b and a by least squares (2.7). w too is said to be initialised so, but then the equal wavelets of the
   heuristic start stay equal for ever; w is uniform in [-0.1, 0.1], a new draw for each of 20 seeds.
 - mu 0.01, momentum 0.4, 10 000 iterations, as stated.
