@@ -35,7 +35,7 @@ def heldout_rows(
     units: dict[str, str],
     seed: int,
 ) -> tuple[HeldoutRow, ...]:
-    """Rms free-run error of each recorded signal, whole and at low speed, with a block-bootstrap interval on the gain."""
+    """Rms free-run error of each recorded signal, whole and at low speed; block-bootstrap interval on the gain."""
     rows = []
     for target in targets:
         runs = [_errors(problem, target, c) for c in (nominal, refitted, corrected) if c is not None]

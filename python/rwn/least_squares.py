@@ -147,7 +147,7 @@ def minimise(
     if not np.isfinite(cost):
         return _minimum(search, z, normal, cost, FitStatus.DIVERGED, 0)
     growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
-    for count in range(1, max_iterations + 1):
+    for count in range(1, max_iterations + 1):  # noqa: B007 - reported
         step = _step(search, z, gradient, curvature, damping)
         promised = float(2.0 * step @ gradient - step @ curvature @ step)
         if (

@@ -1,0 +1,196 @@
+#include "rwn/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "allocations.hpp"
+#include "rwn/inverse_dynamics.hpp"
+#include "rwn/normal_equations.hpp"
+
+namespace {
+
+struct Case {
+  std::vector<double> time, input, parameters;
+  std::vector<int> active, by;
+  rwn::Kind kind = rwn::Kind::dc;
+
+  rwn::SimulationTask task() const { return {kind, time, input, parameters, active, by}; }
+};
+
+/// A 24 V motor under a chirp.
+Case motor(int samples = 400, double step = 1e-3) {
+  Case c;
+  for (int k = 0; k < samples; ++k) {
+    const double t = step * k;
+    c.time.push_back(t);
+    c.input.push_back(12.0 * std::sin(2.0 * std::numbers::pi * (1.0 + 4.0 * t) * t));
+  }
+  c.parameters.assign(static_cast<std::size_t>(rwn::parameter_count()), 0.0);
+  c.parameters[rwn::resistance] = 0.8;
+  c.parameters[rwn::inductance] = 1.5e-3;
+  c.parameters[rwn::torque_constant] = 0.1;
+  c.parameters[rwn::back_emf_constant] = 0.1;
+  c.parameters[rwn::inertia] = 3e-4;
+  c.parameters[rwn::viscous_friction] = 7e-5;
+  c.parameters[rwn::coulomb_friction] = 0.02;
+  return c;
+}
+
+std::vector<double> speed_of(const Case& c) {
+  std::vector<double> speed(c.time.size());
+  EXPECT_EQ(rwn::simulate(c.task(), {.current = {}, .speed = speed, .position = {}, .d_current = {}, .d_speed = {},
+                                     .d_position = {}}),
+            rwn::SimulationStatus::ok);
+  return speed;
+}
+
+/// First guesses of one effect, in SI for the motor above.
+void switch_on(Case& c, int effect, const rwn::Parameter* parameters, std::size_t count) {
+  c.active = {effect};
+  for (std::size_t k = 0; k < count; ++k) {
+    const rwn::Parameter& p = parameters[k];
+    const double unit = p.scale == rwn::Scale::torque      ? 0.5
+                        : p.scale == rwn::Scale::speed     ? 100.0
+                        : p.scale == rwn::Scale::voltage   ? 12.0
+                        : p.scale == rwn::Scale::current   ? 5.0
+                        : p.scale == rwn::Scale::inertia   ? 3e-4
+                        : p.scale == rwn::Scale::damping   ? 5e-3
+                        : p.scale == rwn::Scale::stiffness ? 27.0
+                        : p.scale == rwn::Scale::drag      ? 5e-5
+                        : p.scale == rwn::Scale::time_step ? 1e-3
+                        : p.scale == rwn::Scale::duration  ? 0.3977
+                                                           : 1.0;
+    c.parameters[static_cast<std::size_t>(rwn::first_parameter(effect)) + k] = p.start * unit;
+  }
+}
+
+template <class E>
+void check_slopes(int effect) {
+  SCOPED_TRACE(std::string(E::info.name));
+  Case c = motor();
+  switch_on(c, effect, E::parameters.data(), E::parameters.size());
+  for (int k = 0; k <= rwn::viscous_friction; ++k) c.by.push_back(k);
+  for (std::size_t k = 0; k < E::parameters.size(); ++k) {
+    if (!E::parameters[k].lattice) c.by.push_back(rwn::first_parameter(effect) + static_cast<int>(k));
+  }
+  const std::size_t p = c.by.size(), n = c.time.size();
+  std::vector<double> speed(n), slopes(n * p);
+  ASSERT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}}), rwn::SimulationStatus::ok);
+  if constexpr (requires { E::parameters[0].lattice; }) {
+    if (!E::parameters.empty() && E::parameters[0].lattice) return;  // a staircase has no slope
+  }
+  for (std::size_t j = 0; j < p; ++j) {
+    const auto index = static_cast<std::size_t>(c.by[j]);
+    const double value = c.parameters[index];
+    const double nudge = 1e-7 * (value != 0.0 ? std::abs(value) : 1e-3);
+    Case up = c, down = c;
+    up.parameters[index] = value + nudge;
+    down.parameters[index] = value - nudge;
+    const std::vector<double> high = speed_of(up), low = speed_of(down);
+    double error = 0.0, size = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double difference = (high[k] - low[k]) / (2.0 * nudge);
+      error += std::pow(difference - slopes[k * p + j], 2);
+      size += difference * difference;
+    }
+    EXPECT_LE(std::sqrt(error), 2e-4 * std::sqrt(size) + 1e-12) << "parameter " << index;
+  }
+}
+
+}  // namespace
+
+TEST(Simulate, LinearMotorIsExactAtAnySampleTime) {
+  Case fine = motor(401, 1e-3);
+  fine.parameters[rwn::coulomb_friction] = 0.0;
+  Case coarse = fine;
+  coarse.time.clear();
+  coarse.input.clear();
+  for (std::size_t k = 0; k < fine.time.size(); ++k) fine.input[k] = fine.input[k - k % 20];
+  for (std::size_t k = 0; k < fine.time.size(); k += 20) {
+    coarse.time.push_back(fine.time[k]);
+    coarse.input.push_back(fine.input[k]);
+  }
+  const auto a = speed_of(fine), b = speed_of(coarse);
+  for (std::size_t k = 0; k < b.size(); ++k) EXPECT_NEAR(a[20 * k], b[k], 1e-10);
+}
+
+TEST(Simulate, FrictionHoldsAtStandstill) {
+  Case c = motor();
+  for (double& v : c.input) v = 0.1;  // 0.0125 N m at stall, below 0.02
+  for (double w : speed_of(c)) EXPECT_EQ(w, 0.0);
+}
+
+TEST(Simulate, SlopesOfEveryEffectAgreeWithCentralDifferences) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (check_slopes<std::tuple_element_t<I, rwn::Effects>>(static_cast<int>(I)), ...);
+  }(std::make_index_sequence<rwn::effect_count>{});
+}
+
+TEST(Simulate, DivergenceIsAStatusNotANumber) {
+  Case c = motor();
+  c.parameters[rwn::viscous_friction] = -50.0;
+  std::vector<double> speed(c.time.size());
+  EXPECT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, {}, {}}), rwn::SimulationStatus::diverged);
+  for (double w : speed) EXPECT_TRUE(std::isfinite(w));
+}
+
+TEST(Simulate, WrongLengthsAreRefused) {
+  Case c = motor();
+  c.input.pop_back();
+  EXPECT_THROW(speed_of(c), std::invalid_argument);
+}
+
+TEST(Simulate, AllocationsDoNotGrowWithTheRecording) {
+  const auto count = [](int samples) {
+    Case c = motor(samples);
+    c.by = {rwn::resistance, rwn::inertia, rwn::coulomb_friction};
+    std::vector<double> speed(c.time.size()), slopes(3 * c.time.size());
+    const rwn::SimulationTask task = c.task();
+    const auto before = rwn::testing::allocations();
+    rwn::simulate(task, {{}, speed, {}, {}, slopes, {}});
+    return rwn::testing::allocations() - before;
+  };
+  EXPECT_EQ(count(400), count(4000));
+}
+
+TEST(NormalEquations, AreTheSumsOverTheSamples) {
+  Case c = motor();
+  c.by = {rwn::resistance, rwn::inertia};
+  const std::size_t n = c.time.size();
+  std::vector<double> speed(n), slopes(2 * n);
+  rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}});
+  std::vector<double> measured(n);
+  double chi2 = 0.0, gradient = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    measured[k] = speed[k] + std::sin(0.1 * static_cast<double>(k));
+    const double e = 2.0 * (measured[k] - speed[k]);
+    chi2 += e * e;
+    gradient += 2.0 * slopes[2 * k + 1] * e;
+  }
+  const auto sum = rwn::normal_equations(c.task(), {.current = {}, .speed = measured, .position = {}, .speed_weight = 2.0});
+  EXPECT_NEAR(sum.chi2, chi2, 1e-9 * chi2);
+  EXPECT_NEAR(sum.gradient[1], gradient, 1e-9 * std::abs(gradient));
+  EXPECT_EQ(sum.count, static_cast<long>(n));
+}
+
+TEST(InverseDynamics, GivesTheDrivingForceOfASimulatedAxis) {
+  Case c = motor(2000, 1e-4);
+  c.kind = rwn::Kind::axis;
+  for (double& u : c.input) u *= 0.01;
+  const std::size_t n = c.time.size();
+  std::vector<double> speed(n), position(n), acceleration(n), force(n);
+  rwn::simulate(c.task(), {{}, speed, position, {}, {}, {}});
+  for (std::size_t k = 0; k + 1 < n; ++k) acceleration[k] = (speed[k + 1] - speed[k]) / 1e-4;
+  rwn::inverse_dynamics(c.parameters, {}, 1.0, c.time, position, speed, acceleration, force);
+  int moving = 0;
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    if (std::abs(speed[k]) < 1.0 || std::abs(speed[k + 1]) < 1.0) continue;
+    ++moving;
+    EXPECT_NEAR(force[k], c.input[k], 1e-3);
+  }
+  EXPECT_GT(moving, 500);
+}

@@ -1,0 +1,108 @@
+"""The main job, end to end."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.diagnosis import Diagnosis
+
+DEMO = Path(rwn.__file__).parent / "demo"
+EMPS = "data/nonlinear_benchmarks/EMPS"
+
+
+def read(folder: Path, model: rwn.Model, *names: str) -> list[rwn.Recording]:
+    return [rwn.read_recording(folder / name, layout=model.recording) for name in names]
+
+
+def example(shared: Path, number: int) -> tuple[Diagnosis, dict[str, object]]:
+    folder = shared / f"cases/case_{number:02d}"
+    model = rwn.read_model(folder / "model.toml")
+    train = sorted(p.name for p in folder.glob("train_?.csv"))
+    found = rwn.diagnose(read(folder, model, *train), model, heldout=read(folder, model, "heldout_1.csv"))
+    return found, json.loads((folder / "answer.json").read_text())
+
+
+@pytest.fixture(scope="module")
+def demo() -> Diagnosis:
+    model = rwn.read_model(DEMO / "model.toml")
+    return rwn.diagnose(read(DEMO, model, "train.csv"), model, heldout=read(DEMO, model, "heldout.csv"))
+
+
+def test_the_demo_lacks_coulomb_friction_and_its_correction_predicts(demo: Diagnosis) -> None:
+    assert demo.verdict == "missing-physics"
+    assert [e.name for e in demo.effects] == ["coulomb-friction"]
+    assert demo.equation == "mechanical"
+    row = next(r for r in demo.heldout if r.region == "all" and r.signal == "speed")
+    assert row.corrected is not None
+    assert row.gain_interval is not None
+    assert row.gain_interval[0] > 0.5
+    assert row.corrected < 1.2 * (row.noise_floor or np.inf)
+
+
+def test_the_corrected_model_has_nothing_missing(demo: Diagnosis) -> None:
+    model = replace(demo.corrected, uncertainty={})
+    again = rwn.diagnose(read(DEMO, model, "train.csv"), model)
+    assert again.verdict == "adequate"
+
+
+def test_the_result_does_not_depend_on_the_number_of_threads(demo: Diagnosis) -> None:
+    model = rwn.read_model(DEMO / "model.toml")
+    alone = rwn.diagnose(read(DEMO, model, "train.csv"), model, heldout=read(DEMO, model, "heldout.csv"), jobs=1)
+    assert alone.to_json() == demo.to_json()
+
+
+@pytest.mark.parametrize("number", [2, 4, 8, 10, 13])
+def test_example_cases_with_known_answers(shared: Path, number: int) -> None:
+    found, answer = example(shared, number)
+    assert found.verdict == answer["verdict"]
+    effects = answer["effects"]
+    assert isinstance(effects, list)
+    if found.verdict == "missing-physics":
+        assert [e.name for e in found.effects] == [e["name"] for e in effects]
+        assert found.equation == effects[0]["equation"]
+
+
+def test_emps(shared: Path) -> None:
+    """From inertia and viscous friction alone; published: Fc 20.3935 N, Fv 203.5034 N s/m, force error 5.982 %."""
+    model = rwn.read_model(DEMO / "emps.toml")
+    (train,) = read(shared / EMPS, model, "DATA_EMPS.mat")
+    (pulses,) = read(shared / EMPS, model, "DATA_EMPS_PULSES.mat")
+    found = rwn.diagnose([train], model, heldout=[pulses])
+    assert found.verdict == "missing-physics"
+    assert found.equation == "mechanical"
+    assert found.effects[0].name == found.set[0] == "coulomb-friction"
+    assert found.effects[0].parameters["coulomb_torque"].value == pytest.approx(20.3935, rel=0.05)
+    viscous = found.nominal_fit.parameters["viscous_friction"]
+    assert viscous.refitted.value == pytest.approx(411.0, rel=0.05), "alone, viscous friction doubles"
+    assert viscous.corrected is not None
+    assert viscous.corrected.value == pytest.approx(203.5034, rel=0.05)
+    names = [r.name for r in found.location.regions if r.share - r.samples_share > 0.05]
+    assert "low speed" in names
+    assert "reversals" in names
+    force = next(r for r in found.heldout if r.signal == "driving force")
+    assert force.refitted > 15.0
+    assert force.corrected is not None
+    assert force.corrected <= 6.0
+
+
+def test_identify_finds_the_demo_parameters_and_says_what_it_cannot_see() -> None:
+    model = rwn.read_model(DEMO / "model.toml")
+    fit = rwn.identify(read(DEMO, model, "train.csv"), model)
+    assert fit.status == "converged"
+    for name in model.uncertainty:
+        low, high = fit.parameters[name].interval or (np.nan, np.nan)
+        assert low <= fit.parameters[name].value <= high
+
+
+def test_simulation_follows_the_recording(demo: Diagnosis) -> None:
+    (heldout,) = read(DEMO, demo.corrected, "heldout.csv")
+    run = rwn.simulate(demo.corrected, heldout)
+    assert run.status == "ok"
+    error = run.signals["speed"] - heldout.signals["speed"]
+    assert np.sqrt(np.mean(error**2)) < 0.05 * np.sqrt(np.mean(heldout.signals["speed"] ** 2))
