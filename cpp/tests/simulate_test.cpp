@@ -18,7 +18,16 @@ struct Case {
   std::vector<int> active, by;
   rwn::Kind kind = rwn::Kind::dc;
 
-  rwn::SimulationTask task() const { return {kind, time, input, parameters, active, by}; }
+  rwn::SimulationTask task() const {
+    rwn::SimulationTask t;
+    t.kind = kind;
+    t.time = time;
+    t.input = input;
+    t.parameters = parameters;
+    t.active = active;
+    t.by = by;
+    return t;
+  }
 };
 
 /// A 24 V motor under a chirp.
@@ -42,9 +51,7 @@ Case motor(int samples = 400, double step = 1e-3) {
 
 std::vector<double> speed_of(const Case& c) {
   std::vector<double> speed(c.time.size());
-  EXPECT_EQ(rwn::simulate(c.task(), {.current = {}, .speed = speed, .position = {}, .d_current = {}, .d_speed = {},
-                                     .d_position = {}}),
-            rwn::SimulationStatus::ok);
+  EXPECT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, {}, {}}), rwn::SimulationStatus::ok);
   return speed;
 }
 
@@ -86,7 +93,7 @@ void check_slopes(int effect) {
   for (std::size_t j = 0; j < p; ++j) {
     const auto index = static_cast<std::size_t>(c.by[j]);
     const double value = c.parameters[index];
-    const double nudge = 1e-7 * (value != 0.0 ? std::abs(value) : 1e-3);
+    const double nudge = 1e-7 * (value != 0.0 ? std::abs(value) : 1.0);
     Case up = c, down = c;
     up.parameters[index] = value + nudge;
     down.parameters[index] = value - nudge;
@@ -171,7 +178,10 @@ TEST(NormalEquations, AreTheSumsOverTheSamples) {
     chi2 += e * e;
     gradient += 2.0 * slopes[2 * k + 1] * e;
   }
-  const auto sum = rwn::normal_equations(c.task(), {.current = {}, .speed = measured, .position = {}, .speed_weight = 2.0});
+  rwn::Measurements recorded;
+  recorded.speed = measured;
+  recorded.speed_weight = 2.0;
+  const auto sum = rwn::normal_equations(c.task(), recorded);
   EXPECT_NEAR(sum.chi2, chi2, 1e-9 * chi2);
   EXPECT_NEAR(sum.gradient[1], gradient, 1e-9 * std::abs(gradient));
   EXPECT_EQ(sum.count, static_cast<long>(n));

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, decimate, filtfilt
 
 from rwn import _core
 from rwn.output_error import OutputError, Target
@@ -23,6 +22,8 @@ def force_error(
     problem: OutputError, target: Target, vector: Array, active: list[int]
 ) -> tuple[Array, Array]:
     """(error, driving force), decimated; empty where no position is recorded or the recording is too short."""
+    from scipy.signal import butter, decimate, filtfilt  # late: scipy takes half a second to load
+
     step = float(np.median(np.diff(target.time)))
     if not target.position.size or target.time.size < 20 * EDGE:
         return np.empty(0), np.empty(0)

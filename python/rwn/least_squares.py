@@ -92,7 +92,8 @@ class _Search:
         """Cost, -gradient/2 and curvature in search coordinates."""
         values = self.values(z)
         normal = self.evaluate(values)
-        if not normal.finite or not np.isfinite(normal.chi2):
+        large = float(np.max(np.abs(normal.curvature), initial=0.0))
+        if not normal.finite or not np.isfinite(normal.chi2) or large > 1e150:
             return np.inf, np.zeros_like(z), np.eye(z.size), normal
         slope = np.where(self.logarithmic, values, 1.0)
         off = z - self.prior
@@ -185,6 +186,8 @@ def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping:
     step = np.zeros_like(z)
     low = np.maximum(search.lower - z, -_reach(search))
     high = np.minimum(search.upper - z, _reach(search))
+    if not np.isfinite(curvature).all():
+        return step
     while free.any():
         held = ~free
         load = gradient[free] - curvature[np.ix_(free, held)] @ step[held]

@@ -130,9 +130,12 @@ class OutputError:
                 self.angle_per_position, target.input_before, target.angle,
                 target.restart_every, target.restart_speed, target.restart_position,
             )  # fmt: skip
-            finite = finite and status == "ok"
+            if status != "ok" or not np.isfinite(h).all():
+                return CountedNormal(
+                    chi2=np.inf, gradient=gradient, curvature=curvature, finite=False, count=max(count, 1)
+                )
             chi2, count, gradient, curvature = chi2 + c, count + n, gradient + g, curvature + h
-        return CountedNormal(chi2=chi2, gradient=gradient, curvature=curvature, finite=finite, count=count)
+        return CountedNormal(chi2=chi2, gradient=gradient, curvature=curvature, count=count)
 
 
 def central_difference(time: Array, position: Array) -> Array:

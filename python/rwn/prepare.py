@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rwn.candidate import Nominal, candidate
 from rwn.effects import motor_index, motor_parameters
+from rwn.errors import InputError
 from rwn.model import Model
 from rwn.output_error import OutputError, Target
 from rwn.recording import Recording
@@ -32,7 +33,11 @@ class Setup:
 
 
 def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
-    """Targets, weights and scales; the noise levels are first guesses from the recordings alone."""
+    """Targets, weights and scales; the noise levels are first guesses from the recordings alone.
+
+    Raises InputError for models that can be read but not simulated yet.
+    """
+    _refuse_what_cannot_run(model)
     targets = tuple(target(r, model) for r in recordings)
     nominal = nominal_of(model)
     whole = OutputError(
@@ -54,6 +59,23 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     return Setup(
         nominal=nominal, whole=whole, problem=problem, scales=scales(model.kind, vector, targets, outputs)
     )
+
+
+def _refuse_what_cannot_run(model: Model) -> None:
+    if model.kind == "lti":
+        raise InputError(
+            "models of kind 'lti' cannot be simulated yet",
+            where=model.source or "model",
+            expected="kind 'dc' or 'axis'",
+            fix="write the drive as a motor or an axis",
+        )
+    if model.own_effects:
+        raise InputError(
+            f"own effects ({', '.join(e.name for e in model.own_effects)}) are read and checked but cannot be simulated yet",
+            where=model.source or "model",
+            expected="built-in effects only",
+            fix="remove [own_effects]",
+        )
 
 
 def nominal_of(model: Model) -> Nominal:
