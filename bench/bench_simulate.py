@@ -54,7 +54,8 @@ def reference_axis(force: np.ndarray, friction: float) -> np.ndarray:
 def main() -> None:
     t = STEP * np.arange(N)
     force = 120.0 * np.sin(2.0 * np.pi * 0.8 * t) + 25.0 * np.sin(2.0 * np.pi * 3.1 * t)
-    print(f"{platform.processor() or platform.machine()}, {_core.isa()}, {os.cpu_count()} processors, rwn {rwn.__version__}")
+    machine = platform.processor() or platform.machine()
+    print(f"{machine}, {_core.isa()}, {os.cpu_count()} processors, rwn {rwn.__version__}")
     coulomb = table()["coulomb-friction"]
     plain = parameter_vector(AXIS, {})
     dry = parameter_vector(AXIS, {"coulomb-friction": {"coulomb_torque": 20.4}})

@@ -115,13 +115,7 @@ class OutputError:
 
     def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations by the parameters `by`, summed over the recordings."""
-        chi2, count, gradient, curvature, finite = (
-            0.0,
-            0,
-            np.zeros(len(by)),
-            np.zeros((len(by), len(by))),
-            True,
-        )
+        chi2, count, gradient, curvature = 0.0, 0, np.zeros(len(by)), np.zeros((len(by), len(by)))
         weights = [1.0 / self.noise.get(s, 1.0) for s in SIGNALS]
         for target in self.targets:
             status, c, n, g, h = _core.normal_equations(

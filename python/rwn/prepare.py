@@ -70,8 +70,9 @@ def _refuse_what_cannot_run(model: Model) -> None:
             fix="write the drive as a motor or an axis",
         )
     if model.own_effects:
+        names = ", ".join(e.name for e in model.own_effects)
         raise InputError(
-            f"own effects ({', '.join(e.name for e in model.own_effects)}) are read and checked but cannot be simulated yet",
+            f"own effects ({names}) are read and checked but cannot be simulated yet",
             where=model.source or "model",
             expected="built-in effects only",
             fix="remove [own_effects]",
