@@ -78,6 +78,7 @@ def test_emps(shared: Path) -> None:
     assert found.equation == "mechanical"
     assert found.effects[0].name == found.set[0] == "coulomb-friction"
     assert found.effects[0].parameters["coulomb_torque"].value == pytest.approx(20.3935, rel=0.05)
+    assert found.effects[0].parameters["coulomb_torque"].unit == "N"
     viscous = found.nominal_fit.parameters["viscous_friction"]
     assert viscous.refitted.value == pytest.approx(411.0, rel=0.05), "alone, viscous friction doubles"
     assert viscous.corrected is not None

@@ -46,9 +46,18 @@ def estimates(fitted: Fitted, variance: float, correlation_time: float) -> dict[
     return found
 
 
+def linear_unit(unit: str) -> str:
+    """The unit of a linear axis in place of that of a shaft: N for N m, kg for kg m^2, m/s for rad/s."""
+    for rotary, linear in (("N m", "N"), ("kg m^2", "kg"), ("rad/s", "m/s"), ("/rad", "/m")):
+        unit = unit.replace(rotary, linear)
+    return unit
+
+
 def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, ...]:
     """The named effects with parameters, intervals and probability, the one that explains most first."""
     numbers = estimates(chosen.fitted, found.left.variance, found.left.correlation_time)
+    if found.setup.whole.angle_per_position != 1.0:
+        numbers = {name: replace(e, unit=linear_unit(e.unit)) for name, e in numbers.items()}
     rows = []
     for name in chosen.fitted.added:
         effect = table()[name]
