@@ -39,6 +39,7 @@ class Integrator {
       dry_ = dry_ || call.dry;
       electrical_ = electrical_ || call.electrical;
       rates_ = rates_ || call.rate != nullptr;
+      timed_ = timed_ || call.breaks != nullptr;
       replaced = replaced || call.replaces;
       hiddens_ = hiddens_ || call.hiddens > 0;
       finishes_ = finishes_ || call.finish != nullptr;
@@ -65,11 +66,15 @@ class Integrator {
   void advance(State& s, S h, const S& input, double time) {
     input_ = input;
     time_ = time + 0.5 * value_of(h);
+    if (timed_) constants_known_ = {};
     if (dry_) {
       advance_with_friction(s, h);
       return;
     }
-    constants_known_ = false;
+    if (!varies_ && !finishes_) {
+      linear_update(s, h, s.x, s.position);
+      return;
+    }
     const int steps = step_count(s, value_of(h));
     const S part = steps == 1 ? h : h / static_cast<double>(steps);
     for (int k = 0; k < steps; ++k) s = step(s, part);
@@ -174,17 +179,21 @@ class Integrator {
 
   /// The same where no effect varies within a step: the terms depend on direction alone.
   Vector constant_part(const State& s) {
-    if (!constants_known_ || constants_direction_ != s.direction) {
+    const std::size_t place = s.direction > 0.0 ? 2 : s.direction < 0.0 ? 0 : 1;
+    const bool stick = dry_ && place == 1;
+    if (!constants_known_[place]) {
       const Terms<S> t = terms_of(s, s.position);
-      constants_[w] = s.direction == 0.0 && dry_ ? S(0.0) : (t.torque - s.direction * t.friction) * inverse_inertia_;
-      if constexpr (kind == Kind::dc)
-        constants_[0] = input_ * inverse_inductance_;
-      else if (!(s.direction == 0.0 && dry_))
-        constants_[w] += input_ * inverse_inertia_;
-      constants_known_ = true;
-      constants_direction_ = s.direction;
+      constants_[place] = stick ? S(0.0) : (t.torque - s.direction * t.friction) * inverse_inertia_;
+      constants_known_[place] = true;
     }
-    return constants_;
+    Vector f;
+    f[w] = constants_[place];
+    if constexpr (kind == Kind::dc) {
+      f[0] = input_ * inverse_inductance_;
+    } else if (!stick) {
+      f[w] += input_ * inverse_inertia_;
+    }
+    return f;
   }
 
   // ---- one step -----------------------------------------------------------------------------------------------------
@@ -229,7 +238,7 @@ class Integrator {
   /// Operators of constant step lengths are kept; those of located instants (h carries derivatives) are made anew.
   const Operators& operators(const S& h, int level, bool stick) {
     const double length = value_of(h);
-    if (!is_constant(h)) {
+    if (searching_ || !is_constant(h)) {
       make_operators(passing_, h, level, stick);
       return passing_;
     }
@@ -270,15 +279,23 @@ class Integrator {
   State step(const State& s, const S& h) { return varies_ ? nonlinear_step(s, h) : linear_step(s, h); }
 
   State linear_step(const State& s, const S& h) {
-    const Operators& o = operators(h, 0, dry_ && s.direction == 0.0);
-    const Vector f = constant_part(s);
     State next = s;
-    next.x = Vector{};
-    add_product<S, n>(next.x, o.e, s.x);
-    add_product<S, n>(next.x, o.p1, f);
-    for (std::size_t j = 0; j < n; ++j) next.position += o.p1[w * n + j] * s.x[j] + o.p2[w * n + j] * f[j];
+    linear_update(s, h, next.x, next.position);
     if (finishes_) finish(s, next, h);
     return next;
+  }
+
+  /// Exact solution over h for constant terms; `x` and `position` may be those of `s`.
+  void linear_update(const State& s, const S& h, Vector& x, S& position) {
+    const Operators& o = operators(h, 0, dry_ && s.direction == 0.0);
+    const Vector f = constant_part(s);
+    Vector after{};
+    add_product<S, n>(after, o.e, s.x);
+    add_product<S, n>(after, o.p1, f);
+    S travelled = s.position;
+    for (std::size_t j = 0; j < n; ++j) travelled += o.p1[w * n + j] * s.x[j] + o.p2[w * n + j] * f[j];
+    x = after;
+    position = travelled;
   }
 
   State nonlinear_step(const State& s, const S& h) {
@@ -342,7 +359,16 @@ class Integrator {
   // ---- dry friction -------------------------------------------------------------------------------------------------
 
   void advance_with_friction(State& s, S left) {
-    constants_known_ = false;
+    if (!varies_ && !finishes_ && s.direction != 0.0) {  // the common case: it goes on sliding
+      Vector x;
+      S position;
+      linear_update(s, left, x, position);
+      if (s.direction * value_of(x[w]) >= 0.0) {
+        s.x = x;
+        s.position = position;
+        return;
+      }
+    }
     const double whole = value_of(left);
     for (int guard = 0; guard < 40 && value_of(left) > 1e-12 * whole; ++guard) {
       if (s.direction == 0.0) decide(s);
@@ -424,7 +450,15 @@ class Integrator {
 
   /// Root of g on (0, h], g(0) >= 0 > g(h), by the Illinois method.
   template <class G>
-  static double root(double h, const G& g) {
+  double root(double h, const G& g) {
+    searching_ = true;  // its steps are not worth keeping
+    const double found = illinois(h, g);
+    searching_ = false;
+    return found;
+  }
+
+  template <class G>
+  static double illinois(double h, const G& g) {
     double low = 0.0, high = h, at_low = g(0.0), at_high = g(h);
     double mid = h;
     for (int k = 0; k < 60 && high - low > 1e-13 * h; ++k) {
@@ -450,13 +484,12 @@ class Integrator {
   int count_;
   double angle_per_position_;
   bool varies_ = false, dry_ = false, hiddens_ = false, finishes_ = false, pendulum_ = false, electrical_ = false,
-       rates_ = false;
+       rates_ = false, timed_ = false, searching_ = false;
   S base_friction_{}, inverse_inertia_{}, inverse_inductance_{};
   S input_{};
   double time_ = 0.0, offset_ = 0.0;
-  Vector constants_{};
-  bool constants_known_ = false;
-  double constants_direction_ = 0.0;
+  std::array<S, 3> constants_{};  // constant acceleration when sliding back, standing, sliding forth
+  std::array<bool, 3> constants_known_{};
   std::array<Operators, 6> kept_{};
   int next_kept_ = 0;
   Operators passing_{};
