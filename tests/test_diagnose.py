@@ -92,13 +92,22 @@ def test_emps(shared: Path) -> None:
     assert force.corrected <= 6.0
 
 
-def test_identify_finds_the_demo_parameters_and_says_what_it_cannot_see() -> None:
+def test_identify_says_how_far_the_nominal_structure_is_from_the_noise() -> None:
     model = rwn.read_model(DEMO / "model.toml")
     fit = rwn.identify(read(DEMO, model, "train.csv"), model)
     assert fit.status == "converged"
-    for name in model.uncertainty:
-        low, high = fit.parameters[name].interval or (np.nan, np.nan)
-        assert low <= fit.parameters[name].value <= high
+    assert fit.residual_over_noise > 2.0, "Coulomb friction is missing, so the nominal structure cannot reach the noise"
+
+
+def test_identify_recovers_a_simulated_motor(demo: Diagnosis) -> None:
+    truth = replace(demo.corrected, uncertainty={"inertia": 0.3, "resistance": 0.3})
+    (run,) = read(DEMO, truth, "train.csv")
+    signals = {name: values for name, values in rwn.simulate(truth, run).signals.items() if name in run.signals}
+    made = replace(run, signals={"voltage": run.signals["voltage"], **signals})
+    off = {**truth.parameters, "inertia": 1.2 * truth.parameters["inertia"]}
+    fit = rwn.identify([made], replace(truth, parameters=off))
+    assert fit.parameters["inertia"].value == pytest.approx(truth.parameters["inertia"], rel=1e-3)
+    assert fit.parameters["resistance"].value == pytest.approx(truth.parameters["resistance"], rel=1e-3)
 
 
 def test_simulation_follows_the_recording(demo: Diagnosis) -> None:

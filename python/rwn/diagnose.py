@@ -59,7 +59,7 @@ def diagnose(
     Args:
         recordings: runs to judge the model from, SI, time first.
         model: the nominal model with its declared uncertainty.
-        heldout: runs used for proof alone; without them the last part of the recordings is held out for that.
+        heldout: runs used for proof alone; without them nothing is proved, and a warning says so.
         seed: of the block bootstrap; the result depends on input and seed alone.
         jobs: threads (default: all processors); the result does not depend on it.
         progress: called with what is being done and how far it is, 0 to 1.
@@ -75,13 +75,21 @@ def diagnose(
     say("proving it on held-out data", 0.85)
     proof = [target(r, model) for r in heldout]
     chosen = _choose(found)
+    verdict = verdict_of(found, chosen)
     rows = _prove(found, chosen, proof, model, seed)
-    if rows and chosen.fitted.added and _hurts(rows):
+    if chosen.fitted.added and (verdict != "missing-physics" or _hurts(rows)):
+        # a name that is not given is not shown, proved or written to corrected.toml either
         chosen = next(h for h in found.hypotheses if not h.fitted.added)
+        verdict = verdict if verdict == "unexplained" else _without_a_name(found)
         rows = _prove(found, chosen, proof, model, seed)
     say("drawing", 0.95)
     unknown = [unknown_inputs(found.setup.whole, found.nominal.vector, t) for t in found.setup.whole.targets]
-    return _report(found, chosen, rows, unknown, model, seed, time.perf_counter() - began)
+    return _report(found, chosen, verdict, rows, unknown, model, seed, time.perf_counter() - began)
+
+
+def _without_a_name(found: Explanation) -> Verdict:
+    """The verdict where held-out recordings refuse every name."""
+    return "adequate" if found.before.at_the_floor else "unexplained"
 
 
 def _silent(what: str, done: float) -> None:
@@ -237,13 +245,13 @@ def ambiguous(found: Explanation, chosen: Hypothesis) -> tuple[Hypothesis, ...]:
 def _report(
     found: Explanation,
     chosen: Hypothesis,
+    verdict: Verdict,
     rows: tuple[HeldoutRow, ...],
     unknown: list[Unknown],
     model: Model,
     seed: int,
     elapsed: float,
 ) -> Diagnosis:
-    verdict = verdict_of(found, chosen)
     named = verdict == "missing-physics"
     same = ambiguous(found, chosen) if named else ()
     effects = found_effects(found, chosen) if chosen.fitted.added and named else ()
@@ -269,7 +277,7 @@ def _report(
         nominal_fit=nominal_fit(found, chosen, model),
         heldout=rows,
         curves=curves.plots(found, chosen, unknown, linear=model.linear),
-        warnings=_warnings(found, chosen, verdict),
+        warnings=_warnings(found, chosen, verdict, proved=bool(rows)),
         next_experiment=separated_by(names) if len(names) > 1 else "",
         adequate_probability=nominal.probability,
         seed=seed,
@@ -285,8 +293,10 @@ def _lead(h: Hypothesis, chosen: Hypothesis) -> str:
     return own[0] if own else h.fitted.added[0]
 
 
-def _warnings(found: Explanation, chosen: Hypothesis, verdict: Verdict) -> tuple[str, ...]:
+def _warnings(found: Explanation, chosen: Hypothesis, verdict: Verdict, *, proved: bool) -> tuple[str, ...]:
     texts = []
+    if verdict == "missing-physics" and not proved:
+        texts.append("no held-out recording was given: that the corrected model simulates better is not proved")
     if verdict == "missing-physics" and not found.left.at_the_floor:
         texts.append(
             f"something smaller is left over: the residual of the corrected model is coloured "
