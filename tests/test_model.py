@@ -23,7 +23,10 @@ MODELS = {
     "dc with effects": Model(
         kind="dc",
         parameters={**DC, "coulomb_friction": 0.02},
-        effects={"coulomb-friction": {"coulomb_torque": 0.1}, "sensor-rectification": {}},
+        effects={
+            "coulomb-friction": {"coulomb_torque": 0.1},
+            "sensor-rectification": {"exponent": 1.0, "reference_speed": 9.0},
+        },
         load={"pendulum": {"mass": 0.49, "length": 0.1}},
     ),
     "linear axis": Model(

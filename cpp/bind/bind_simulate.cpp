@@ -1,5 +1,6 @@
 #include "bind.hpp"
 #include "rwn/simulate.hpp"
+#include "rwn/transfer_function.hpp"
 
 namespace rwn::bind {
 namespace {
@@ -60,13 +61,13 @@ py::list effect_table() {
 py::tuple run(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
               const std::vector<int>& active, const std::vector<int>& by, double angle_per_position,
               double input_before, const Array& angle, int restart_every, const Array& restart_speed,
-              const Array& restart_position) {
+              const Array& restart_position, int order) {
   const auto n = time.size();
   const auto p = static_cast<py::ssize_t>(by.size());
   std::vector<Array> out;
   for (int k = 0; k < 3; ++k) out.emplace_back(n);
   for (int k = 0; k < 3; ++k) out.emplace_back(std::vector<py::ssize_t>{n, p});
-  const SimulationTask task{kind == "dc" ? Kind::dc : Kind::axis,
+  const SimulationTask task{kind_of(kind),
                             view(time),
                             view(input),
                             view(parameters),
@@ -77,7 +78,8 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
                             view(angle),
                             restart_every,
                             view(restart_speed),
-                            view(restart_position)};
+                            view(restart_position),
+                            order};
   const SimulationOutput output{view(out[0]), view(out[1]), view(out[2]), view(out[3]), view(out[4]), view(out[5])};
   SimulationStatus status;
   {
@@ -93,12 +95,14 @@ void bind_simulate(py::module_& m) {
   m.def("motor_parameter_table", [] { return describe_all(motor_parameters); }, "The motor's own parameters.");
   m.def("effect_table", &effect_table, "Every effect with its parameters, as the C++ table states them.");
   m.def("parameter_count", &parameter_count);
+  m.def("first_coefficient", &first_coefficient);
+  m.attr("max_order") = max_order;
   m.def("simulation_advice", [](const std::string& status) {
     return std::string(advice(status == "ok" ? SimulationStatus::ok : SimulationStatus::diverged));
   });
   m.def("simulate", &run, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(), "active"_a,
         "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0), "restart_every"_a = 0,
-        "restart_speed"_a = Array(0), "restart_position"_a = Array(0),
+        "restart_speed"_a = Array(0), "restart_position"_a = Array(0), "order"_a = 0,
         "Returns status, current, speed, position (n) and their derivatives (n, p).");
 }
 

@@ -11,6 +11,7 @@ template <int N>
 int run(Kind kind, const SimulationSlice& slice) {
   using S = Dual<N, Tag>;
   if (kind == Kind::dc) return Simulation<S, N, Kind::dc>(slice).run();
+  if (kind == Kind::lti) return Simulation<S, N, Kind::lti>(slice).run();
   return Simulation<S, N, Kind::axis>(slice).run();
 }
 

@@ -58,6 +58,7 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
           "simulate: windows need the recorded motion at every sample");
   require(task.parameters.size() == static_cast<std::size_t>(parameter_count()),
           "simulate: wrong number of parameters");
+  require(task.kind != Kind::lti || (task.order >= 1 && task.order <= max_order), "simulate: order out of range");
   require(task.active.size() <= max_active_effects, "simulate: too many effects at once");
   for (int effect : task.active) require(effect >= 0 && effect < effect_count, "simulate: no such effect");
   for (int index : task.by) require(index >= 0 && index < parameter_count(), "simulate: no such parameter");
@@ -90,7 +91,16 @@ std::string_view advice(SimulationStatus status) {
                                           "inductance, or an unstable model.";
 }
 
-int parameter_count() { return offsets()[effect_count]; }
+int parameter_count() { return first_coefficient() + coefficient_count; }
+
+int first_coefficient() { return offsets()[effect_count]; }
+
+Kind kind_of(std::string_view name) {
+  constexpr std::string_view names[] = {"dc", "axis", "lti"};
+  const auto* found = std::find(std::begin(names), std::end(names), name);
+  require(found != std::end(names), "simulate: no such kind of drive");
+  return static_cast<Kind>(found - std::begin(names));
+}
 
 int first_parameter(int effect) { return offsets()[static_cast<std::size_t>(effect)]; }
 
@@ -121,7 +131,9 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         pointer(output.d_current),
                         pointer(output.d_speed),
                         pointer(output.d_position),
-                        columns};
+                        columns,
+                        task.order,
+                        first_coefficient()};
   int finite = slice.samples;
   do {
     const int width = width_for(columns - slice.column);

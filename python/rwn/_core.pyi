@@ -183,6 +183,8 @@ def effect_table() -> list:
     """
 def finest_scale(wavelets: typing.SupportsInt | typing.SupportsIndex) -> tuple[int, int]:
     ...
+def first_coefficient() -> int:
+    ...
 def gradient_descent(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, rate: typing.SupportsFloat | typing.SupportsIndex, momentum: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
 def heuristic(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
@@ -207,7 +209,7 @@ def motor_parameter_table() -> list:
     """
     The motor's own parameters.
     """
-def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], current: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"], speed_is_difference: bool = False, angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
+def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], current: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"], speed_is_difference: bool = False, angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple:
     """
     Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.
     """
@@ -239,7 +241,7 @@ def recursive_gauss_newton(network: StructuredNetwork, input: typing.Annotated[n
     ...
 def select_wavelets(wavelet: Wavelet, m: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], d: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
     ...
-def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
+def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple:
     """
     Returns status, current, speed, position (n) and their derivatives (n, p).
     """
@@ -266,3 +268,4 @@ def wavelet_library(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m
 def wavelet_names() -> list[str]:
     ...
 __version__: str = '0.1.0'
+max_order: int = 20

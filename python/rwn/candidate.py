@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,8 @@ class Nominal:
     motor: Mapping[str, float]
     uncertainty: Mapping[str, float]
     effects: Mapping[str, Mapping[str, float]]  # already part of the nominal model
-    free: Mapping[str, float]  # unknown without a prior (initial state), with their first guess
+    free: Mapping[str, float]  # unknown without a prior (coefficients), with their first guess
+    starts: tuple[Mapping[str, float], ...] = ()  # other first guesses of what is free, worth a try
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +101,8 @@ def fit(
 
 def _motor_unknown(name: str, nominal: Nominal) -> Unknown:
     value = nominal.motor[name]
+    if name not in motor_parameters():  # a coefficient of a transfer function, of either sign
+        return replace(_free_unknown(name), prior=value, prior_std=nominal.uncertainty[name])
     parameter = motor_parameters()[name]
     positive = name not in ("viscous_friction", "coulomb_friction", "pendulum_torque") and value > 0.0
     return Unknown(
@@ -129,8 +132,7 @@ def _same_constant(nominal: Nominal) -> bool:
 
 
 def _free_unknown(name: str) -> Unknown:
-    parameter = motor_parameters()[name]
-    return Unknown(name=name, unit=parameter.unit, index=motor_index(name), lower=-1e9, upper=1e9)
+    return Unknown(name=name, unit="", index=motor_index(name), lower=-np.inf, upper=np.inf)
 
 
 def _effect_unknown(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapping[str, float]) -> Unknown:

@@ -66,7 +66,7 @@ def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, 
         }
         for p in effect.parameters:
             if p.fixed:
-                parameters[p.name] = Estimate(value=p.start, unit=p.unit)
+                parameters[p.name] = Estimate(value=float(chosen.fitted.vector[effect.at(p.name)]), unit=p.unit)
         rows.append(
             FoundEffect(
                 name=name,
@@ -87,7 +87,8 @@ def nominal_fit(found: Explanation, chosen: Hypothesis, model: Model) -> Nominal
     alone = estimates(found.nominal, before.variance, before.correlation_time)
     together = estimates(chosen.fitted, left.variance, left.correlation_time) if chosen.fitted.added else {}
     rows = {}
-    for name, value in model.parameters.items():
+    given = dict(model.parameters) or dict(found.setup.nominal.free)
+    for name, value in given.items():
         unit = model.unit(name)
         rows[name] = FittedParameter(
             nominal=value,
@@ -104,9 +105,12 @@ def corrected_model(fitted: Fitted, model: Model) -> Model:
     vector = fitted.vector
     active = fitted.candidate.effects
     replaced = {p.replaces for name in active for p in table()[name].parameters}
+    names = model.parameters or [p.name for p in model.nominal]  # a transfer function without values: all are fitted
     parameters = {
-        name: float(vector[motor_index(name)]) if name in model.uncertainty else value
-        for name, value in model.parameters.items()
+        name: model.parameters[name]
+        if name in model.parameters and name not in model.uncertainty
+        else float(vector[motor_index(name)])
+        for name in names
         if name not in replaced
     }
     effects = {

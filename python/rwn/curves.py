@@ -46,6 +46,8 @@ def plots(
         signal = "speed" if target.speed.size else target.recorded[-1]
         unit = {"speed": speed_unit, "position": position_unit, "current": "A"}[signal]
         made += _response(free, found, chosen, k, signal, unit)
+    if whole.kind == "lti":
+        return tuple(made)
     made.append(_residual_speed(unknown, speed_unit, torque_unit))
     made.append(_torque_speed(found, chosen, speed_unit, torque_unit))
     spectrum = _spectrum(found, linear)

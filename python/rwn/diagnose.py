@@ -21,7 +21,7 @@ from rwn.heldout import Contender, heldout_rows
 from rwn.locate import Unknown, regions, unknown_inputs
 from rwn.model import Model
 from rwn.output_error import Target
-from rwn.prepare import Setup, noise_levels, prepare, target
+from rwn.prepare import Setup, noise_levels, prepare, proof_target
 from rwn.recording import Recording
 from rwn.search import Fitted, Search
 
@@ -73,7 +73,7 @@ def diagnose(
     setup = prepare(recordings, model)
     found = explain(setup, jobs=jobs or os.cpu_count() or 1, progress=say)
     say("proving it on held-out data", 0.85)
-    proof = [target(r, model) for r in heldout]
+    proof = [proof_target(r, model) for r in heldout]
     chosen = _choose(found)
     verdict = verdict_of(found, chosen)
     rows = _prove(found, chosen, proof, model, seed)
@@ -83,7 +83,8 @@ def diagnose(
         verdict = verdict if verdict == "unexplained" else _without_a_name(found)
         rows = _prove(found, chosen, proof, model, seed)
     say("drawing", 0.95)
-    unknown = [unknown_inputs(found.setup.whole, found.nominal.vector, t) for t in found.setup.whole.targets]
+    before = found.nominal.candidate.active
+    unknown = [unknown_inputs(found.setup.whole, found.nominal.vector, t, before) for t in found.setup.whole.targets]
     return _report(found, chosen, verdict, rows, unknown, model, seed, time.perf_counter() - began)
 
 
@@ -146,12 +147,22 @@ def _applies(name: str, setup: Setup) -> bool:
     axis = setup.problem.kind == "axis"
     if axis and effect.site in ("voltage", "flux"):
         return False
+    if setup.problem.kind == "lti" and effect.site not in ("actuator", "sensor"):
+        return False
+    if name == "sensor-rectification" and not _may_be_rectified(setup):
+        return False
     if any(p.lattice for p in effect.parameters):
         return False  # read off the values, not fitted
     if name == "viscous-friction":
         return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
     signals = {s for t in setup.problem.targets for s in t.recorded}
     return not (effect.site == "sensor" and "speed" not in signals)
+
+
+def _may_be_rectified(setup: Setup) -> bool:
+    """A sensor that does not see the direction never shows a negative speed."""
+    speeds = [t.speed for t in setup.problem.targets if t.speed.size]
+    return all(np.percentile(s, 2.0) > -0.05 * np.max(np.abs(s)) for s in speeds)
 
 
 def _prior(setup: Setup) -> dict[str, float]:

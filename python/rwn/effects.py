@@ -77,8 +77,22 @@ def table() -> Mapping[str, Effect]:
 
 
 def motor_index(name: str) -> int:
-    """Position of a motor parameter in the parameter vector."""
-    return list(motor_parameters()).index(name)
+    """Position of a motor parameter, or of a coefficient of a transfer function, in the parameter vector."""
+    return _positions()[name]
+
+
+def state_indices(order: int) -> list[int]:
+    """Positions of the initial state x1, x2, .. of a transfer function in the parameter vector."""
+    return [_positions()[f"x{i + 1}"] for i in range(order)]
+
+
+@cache
+def _positions() -> Mapping[str, int]:
+    first, most = _core.first_coefficient(), _core.max_order
+    positions = {name: k for k, name in enumerate(motor_parameters())}
+    for block, letter in enumerate("ba"):
+        positions |= {f"{letter}{k}": first + block * most + k for k in range(most)}
+    return positions | {f"x{i + 1}": first + 2 * most + i for i in range(most)}
 
 
 def parameter_vector(

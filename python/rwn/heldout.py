@@ -39,7 +39,7 @@ def heldout_rows(
     rows = []
     for target in targets:
         runs = [_errors(problem, target, c) for c in (nominal, refitted, corrected) if c is not None]
-        slow = _slow(target)
+        slow = _slow(target)[target.judged_from :]
         best = runs[-1]
         floor = noise_levels([target], [best])
         for signal in target.recorded:
@@ -79,7 +79,8 @@ def _force_row(
 
 def _errors(problem: OutputError, target: Target, contender: Contender) -> dict[str, Array]:
     alone = replace(problem, targets=(replace(target, angle=np.empty(0)),))
-    return alone.residuals(contender.vector, contender.active)[0]
+    found = alone.residuals(contender.vector, contender.active)[0]
+    return {signal: error[target.judged_from :] for signal, error in found.items()}
 
 
 def _slow(target: Target) -> NDArray[np.bool_]:

@@ -36,12 +36,14 @@ class Layout:
     """The column map (signal -> Column) and what else the files do not say.
 
     `sample_time` [s]: of files without a time column. `initial`: whether recordings start at rest (position
-    0, no current) or from a state that has to be estimated.
+    0, no current) or from a state that has to be estimated; `initial_samples`: from how many samples, on recordings
+    that are not fitted (they are not judged by them).
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
     sample_time: float | None = None
     initial: Initial = "rest"
+    initial_samples: int = 20
 
 
 def column_map(table: Table, layout: Layout, by_name: set[str]) -> dict[str, Column]:

@@ -29,13 +29,22 @@ class Unknown:
     voltage: Array  # drop in the winding [V]; empty where current was not recorded
 
 
-def unknown_inputs(problem: OutputError, vector: Array, target: Target) -> Unknown:
+def unknown_inputs(
+    problem: OutputError, vector: Array, target: Target, active: Sequence[int] = ()
+) -> Unknown:
     """Inverse dynamics of the refitted nominal motor along the recorded motion.
 
     torque = J dw/dt + B w + T_c sign(w) - Kt i (or minus the driving torque); voltage = v - R i - L di/dt - Ke w. With
-    voltage and speed alone the current follows from the electrical equation, so both carry the mismatch.
+    voltage and speed alone the current follows from the electrical equation, so both carry the mismatch. A transfer
+    function has no torque: its place is taken by the error of the output, under the effects that are `active`.
     """
     speed, acceleration = motion(target)
+    if problem.kind == "lti":  # no torque: what is left of the output
+        left = problem.simulate(target, vector, active).signals["speed"]
+        return Unknown(
+            time=target.time, speed=speed, acceleration=acceleration, current=np.zeros(speed.size),
+            angle=np.zeros(speed.size), torque=target.speed - left, voltage=np.empty(0),
+        )  # fmt: skip
     value = {name: float(vector[motor_index(name)]) for name in _MOTOR}
     voltage = np.empty(0)
     current = np.zeros(speed.size)

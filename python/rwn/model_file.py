@@ -270,7 +270,16 @@ def _layout(given: RecordingTable, where: str) -> Layout:
             expected="a positive time",
             fix="write for instance 0.001",
         )
-    return Layout(columns=columns, sample_time=time, initial=given.initial)
+    if given.initial_samples < 1:
+        raise InputError(
+            f"initial_samples is {given.initial_samples}",
+            where=where,
+            expected="a positive whole number",
+            fix="write for instance 20",
+        )
+    return Layout(
+        columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples
+    )
 
 
 def _column(name: str, given: ColumnEntry, where: str) -> Column:

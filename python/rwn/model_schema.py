@@ -25,6 +25,7 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     columns: dict[str, ColumnEntry] = {}
     sample_time: Number | None = None
     initial: Initial = "rest"
+    initial_samples: int = 20
 
 
 class LoadTable(msgspec.Struct, forbid_unknown_fields=True):

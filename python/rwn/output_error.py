@@ -41,6 +41,7 @@ class Target:
     )
     restart_speed: Array = field(default_factory=lambda: _NONE)
     restart_position: Array = field(default_factory=lambda: _NONE)
+    judged_from: int = 0  # first sample that is judged; those before may serve to estimate the initial state
 
     def signal(self, name: str) -> Array:
         """A recorded signal by name; empty where it was not recorded."""
@@ -81,8 +82,9 @@ class OutputError:
         0,
         0,
     )  # of initial current, speed, position in the parameter vector
+    order: int = 0  # of a transfer function
 
-    def parameters_for(self, target: Target, vector: Array) -> Array:
+    def parameters_for(self, target: Target, vector: Array, active: Sequence[int]) -> Array:  # noqa: ARG002
         """The parameter vector with the start of this recording filled in."""
         own = vector.copy()
         for index, value in zip(self.start_indices, target.start, strict=True):
@@ -94,9 +96,9 @@ class OutputError:
     ) -> Output:
         """Free run of one recording; speed as it was measured."""
         status, *arrays = _core.simulate(
-            self.kind, target.time, target.input, self.parameters_for(target, vector), list(active), list(by),
+            self.kind, target.time, target.input, self.parameters_for(target, vector, active), list(active), list(by),
             self.angle_per_position, target.input_before, target.angle, target.restart_every,
-            target.restart_speed, target.restart_position,
+            target.restart_speed, target.restart_position, self.order,
         )  # fmt: skip
         signals = dict(zip(SIGNALS, arrays[:3], strict=True))
         slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
@@ -116,20 +118,35 @@ class OutputError:
     def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations by the parameters `by`, summed over the recordings."""
         chi2, count, gradient, curvature = 0.0, 0, np.zeros(len(by)), np.zeros((len(by), len(by)))
-        weights = [1.0 / self.noise.get(s, 1.0) for s in SIGNALS]
         for target in self.targets:
-            status, c, n, g, h = _core.normal_equations(
-                self.kind, target.time, target.input, self.parameters_for(target, vector), list(active), list(by),
-                target.current, target.speed, target.position, weights, target.speed_is_difference,
-                self.angle_per_position, target.input_before, target.angle,
-                target.restart_every, target.restart_speed, target.restart_position,
-            )  # fmt: skip
-            if status != "ok" or not np.isfinite(h).all():
+            one = self.normal_of(target, vector, active, by)
+            if not one.finite or not np.isfinite(one.curvature).all():
                 return CountedNormal(
                     chi2=np.inf, gradient=gradient, curvature=curvature, finite=False, count=max(count, 1)
                 )
-            chi2, count, gradient, curvature = chi2 + c, count + n, gradient + g, curvature + h
+            chi2, count = chi2 + one.chi2, count + one.count
+            gradient, curvature = gradient + one.gradient, curvature + one.curvature
         return CountedNormal(chi2=chi2, gradient=gradient, curvature=curvature, count=count)
+
+    def normal_of(
+        self, target: Target, vector: Array, active: Sequence[int], by: Sequence[int]
+    ) -> CountedNormal:
+        """Normal equations of one recording."""
+        return self.normal_at(target, self.parameters_for(target, vector, active), active, by)
+
+    def normal_at(
+        self, target: Target, vector: Array, active: Sequence[int], by: Sequence[int]
+    ) -> CountedNormal:
+        """Normal equations of one recording whose start is part of `vector`."""
+        status, chi2, count, gradient, curvature = _core.normal_equations(
+            self.kind, target.time, target.input, vector, list(active), list(by), target.current, target.speed,
+            target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS], target.speed_is_difference,
+            self.angle_per_position, target.input_before, target.angle,
+            target.restart_every, target.restart_speed, target.restart_position, self.order,
+        )  # fmt: skip
+        return CountedNormal(
+            chi2=chi2, gradient=gradient, curvature=curvature, count=count, finite=status == "ok"
+        )
 
 
 def central_difference(time: Array, position: Array) -> Array:

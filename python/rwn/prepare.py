@@ -8,13 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.candidate import Nominal, candidate
+from rwn.candidate import Nominal, candidate, fit
 from rwn.effects import motor_index, motor_parameters
 from rwn.errors import InputError
 from rwn.model import Model
 from rwn.output_error import OutputError, Target
 from rwn.recording import Recording
 from rwn.scales import scales
+from rwn.transfer_error import TransferError
+from rwn.transfer_start import first_guesses
 
 Array = NDArray[np.float64]
 WINDOW = (
@@ -40,17 +42,9 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     _refuse_what_cannot_run(model)
     targets = tuple(target(r, model) for r in recordings)
     nominal = nominal_of(model)
-    whole = OutputError(
-        kind=model.kind,
-        targets=targets,
-        noise=noise_levels(targets, [{s: t.signal(s) for s in t.recorded} for t in targets]),
-        angle_per_position=2.0 * np.pi if model.linear else 1.0,
-        start_indices=(
-            motor_index("initial_current"),
-            motor_index("initial_speed"),
-            motor_index("initial_position"),
-        ),
-    )
+    whole = _whole(targets, model)
+    if model.kind == "lti" and not model.parameters:
+        nominal = _started(whole, nominal, first_guesses(targets, model.order))
     vector = candidate(nominal, (), {}).vector
     outputs = [_with_motion(t, whole.simulate(t, vector, []).signals) for t in targets]
     problem = whole
@@ -61,14 +55,33 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     )
 
 
-def _refuse_what_cannot_run(model: Model) -> None:
+def _whole(targets: tuple[Target, ...], model: Model) -> OutputError:
+    noise = noise_levels(targets, [{s: t.signal(s) for s in t.recorded} for t in targets])
     if model.kind == "lti":
-        raise InputError(
-            "models of kind 'lti' cannot be simulated yet",
-            where=model.source or "model",
-            expected="kind 'dc' or 'axis'",
-            fix="write the drive as a motor or an axis",
-        )
+        at_rest = model.recording.initial == "rest"
+        return TransferError(kind="lti", targets=targets, noise=noise, order=model.order, at_rest=at_rest)
+    return OutputError(
+        kind=model.kind,
+        targets=targets,
+        noise=noise,
+        angle_per_position=2.0 * np.pi if model.linear else 1.0,
+        start_indices=(
+            motor_index("initial_current"),
+            motor_index("initial_speed"),
+            motor_index("initial_position"),
+        ),
+    )
+
+
+def _started(problem: OutputError, nominal: Nominal, guesses: Sequence[Mapping[str, float]]) -> Nominal:
+    """`nominal` with unknown coefficients at the guess from which a short fit gets furthest."""
+    legs = [candidate(replace(nominal, free=guess), (), {}) for guess in guesses]
+    costs = [fit(problem, leg, max_iterations=6).cost for leg in legs]
+    first, *others = (guesses[k] for k in np.argsort(costs, kind="stable"))
+    return replace(nominal, free=first, starts=tuple(others))
+
+
+def _refuse_what_cannot_run(model: Model) -> None:
     if model.own_effects:
         names = ", ".join(e.name for e in model.own_effects)
         raise InputError(
@@ -82,7 +95,7 @@ def _refuse_what_cannot_run(model: Model) -> None:
 def nominal_of(model: Model) -> Nominal:
     """The model's values as the fit takes them."""
     known = motor_parameters()
-    motor = {name: value for name, value in model.parameters.items() if name in known}
+    motor = {name: value for name, value in model.parameters.items() if name in known or model.kind == "lti"}
     for load in model.load.values():
         motor["pendulum_torque"] = load["mass"] * 9.80665 * load["length"]
         if model.kind == "dc" or not model.linear:
@@ -93,8 +106,7 @@ def nominal_of(model: Model) -> Nominal:
 def target(recording: Recording, model: Model) -> Target:
     """One recording as the core takes it; samples are at the rows' times, the input is held from its row on."""
     signals = {name: np.array(values) for name, values in recording.signals.items()}
-    given = signals["voltage"] if model.kind == "dc" else signals.get("force", signals.get("torque"))
-    assert given is not None  # checked when the recording was read
+    given = signals[model.drive.input]
     time = recording.time - recording.time[0]
     empty = np.empty(0)
     speed, position = signals.get("speed", empty), signals.get("position", empty)
@@ -107,11 +119,17 @@ def target(recording: Recording, model: Model) -> Target:
         current=signals.get("current", empty) if model.kind == "dc" else empty,
         speed=speed,
         position=position,
-        speed_is_difference=lattice(speed) > 0.0,
+        speed_is_difference=model.kind != "lti" and lattice(speed) > 0.0,
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
         angle=position if position.size else _integral(time, speed),
     )
+
+
+def proof_target(recording: Recording, model: Model) -> Target:
+    """As `target`, for a recording that is not fitted: a state to be estimated comes from its first samples alone."""
+    estimated = model.kind == "lti" and model.recording.initial == "estimate"
+    return replace(target(recording, model), judged_from=model.recording.initial_samples if estimated else 0)
 
 
 def lattice(signal: Array) -> float:

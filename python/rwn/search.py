@@ -107,7 +107,7 @@ class Search:
         return [
             candidate(self.nominal, effects, self.scales, {**inner, name: start}, begin)
             for start in self._guesses(base, effect)
-            for begin in ((motor, {}) if _bent(base) else (motor,))
+            for begin in (motor, *(({},) if _bent(base) else ()), *self.nominal.starts)
         ]
 
     def _guesses(self, base: Fitted, effect: Effect) -> list[Start]:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from rwn import _core
 from rwn.candidate import candidate
 from rwn.model import Model
-from rwn.prepare import nominal_of, prepare
+from rwn.output_error import SIGNALS
+from rwn.prepare import prepare
 from rwn.recording import Recording
 
 Array = NDArray[np.float64]
@@ -33,9 +34,9 @@ def simulate(model: Model, recording: Recording) -> Simulation:
     The state at the first sample is rest or what the recording shows, as the model's `[recording]` table says.
     """
     setup = prepare([recording], model)
-    this = candidate(nominal_of(model), (), setup.scales)
+    this = candidate(setup.nominal, (), setup.scales)
     output = setup.whole.simulate(setup.whole.targets[0], this.vector, this.active)
-    wanted = ("current", "speed", "position") if model.kind == "dc" else ("speed", "position")
+    wanted = [name for name in SIGNALS if name in model.drive.outputs]
     return Simulation(
         time=recording.time,
         signals={name: output.signals[name] for name in wanted},

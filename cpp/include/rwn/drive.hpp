@@ -16,7 +16,8 @@
 
 namespace rwn {
 
-enum class Kind { dc, axis };
+/// dc: voltage and winding; axis: a known torque; lti: a transfer function (rwn/transfer_function.hpp).
+enum class Kind { dc, axis, lti };
 
 /// Index of each parameter of the motor itself, in the order of `motor_parameters`.
 enum MotorParameter : int {

@@ -86,6 +86,7 @@ struct Dual {
     const double e = std::exp(x.v);
     return x.chain(e, e);
   }
+  friend Dual log(const Dual& x) { return x.chain(std::log(x.v), 1.0 / x.v); }
   friend Dual sin(const Dual& x) { return x.chain(std::sin(x.v), std::cos(x.v)); }
   friend Dual cos(const Dual& x) { return x.chain(std::cos(x.v), -std::sin(x.v)); }
   friend Dual tanh(const Dual& x) {

@@ -16,10 +16,16 @@ enum class SimulationStatus { ok, diverged };
 std::string_view to_string(SimulationStatus status);
 std::string_view advice(SimulationStatus status);
 
-/// Parameters of motor and effects in one list: the motor's, then each effect's in the order of the table.
+/// Parameters of motor and effects in one list: the motor's, then each effect's in the order of the table, then the
+/// coefficients and the initial state of a transfer function.
 int parameter_count();
 /// Index of the first parameter of effect `effect` in that list.
 int first_parameter(int effect);
+/// Index of b_0 in that list; a_0 and x_1 follow max_order later each.
+int first_coefficient();
+
+/// "dc", "axis" or "lti". Throws std::invalid_argument for others.
+Kind kind_of(std::string_view name);
 
 /// What to simulate; spans must outlive the call.
 struct SimulationTask {
@@ -35,6 +41,7 @@ struct SimulationTask {
                                        // simulated one, which drifts; empty: free run
   int restart_every = 0;               // samples of a window, after which the motion restarts from the recorded one
   std::span<const double> restart_speed, restart_position;  // (n) recorded motion; not read where restart_every is 0
+  int order = 0;                                             // of a transfer function (kind lti)
 };
 
 /// Signals at the rows' times, before the new input acts; derivatives are (n, p) row-major. Empty spans are not

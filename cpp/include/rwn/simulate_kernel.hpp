@@ -1,7 +1,10 @@
 // The sample loop around the integrator, for one scalar type. Included by cpp/kernels/simulate.cpp only.
 #pragma once
 
+#include <type_traits>
+
 #include "rwn/integrator.hpp"
+#include "rwn/transfer_function.hpp"
 
 namespace rwn {
 
@@ -24,11 +27,17 @@ struct SimulationSlice {
   const double* restart_speed;
   const double* restart_position;
   double *current, *speed, *position, *d_current, *d_speed, *d_position;
-  int columns;  // row length of the derivative arrays
+  int columns;             // row length of the derivative arrays
+  int order;               // of a transfer function
+  int first_coefficient;   // place of its coefficients among the parameters
 };
 
 template <class S, int N, Kind kind>
 class Simulation {
+  using Plant = std::conditional_t<kind == Kind::lti, TransferFunction<S>, Integrator<S, kind>>;
+  using State = typename Plant::State;
+  static constexpr std::size_t w = Plant::w;
+
  public:
   explicit Simulation(const SimulationSlice& slice) : slice_(slice) {
     for (int k = 0; k < motor_parameter_count; ++k) motor_[static_cast<std::size_t>(k)] = parameter(k);
@@ -42,16 +51,20 @@ class Simulation {
         parameters_[static_cast<std::size_t>(slot++)] = parameter(k);
       memory += call.memories;
     }
+    if constexpr (kind == Kind::lti) {
+      for (int k = 0; k < coefficient_count; ++k)
+        coefficients_[static_cast<std::size_t>(k)] = parameter(slice_.first_coefficient + k);
+    }
   }
 
   /// Number of samples that stayed finite.
   int run() {
-    Integrator<S, kind> integrator(motor_, effects_.data(), slice_.active_count, slice_.angle_per_position);
-    auto state = initial();
+    Plant integrator = plant();
+    State state = initial(integrator);
     integrator.settle(state);
     prepare(state);
     for (int k = 0; k < slice_.samples; ++k) {
-      if (!std::isfinite(value_of(state.x[Integrator<S, kind>::w])) || !std::isfinite(value_of(state.position)))
+      if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position)))
         return k;
       write(k, state);
       if (slice_.restart_every > 0 && k > 0 && k % slice_.restart_every == 0) {
@@ -66,15 +79,21 @@ class Simulation {
   }
 
  private:
-  using State = typename Integrator<S, kind>::State;
-  static constexpr std::size_t w = Integrator<S, kind>::w;
+  Plant plant() const {
+    if constexpr (kind == Kind::lti) {
+      return {coefficients_.data(), slice_.order, effects_.data(), slice_.active_count};
+    } else {
+      return {motor_, effects_.data(), slice_.active_count, slice_.angle_per_position};
+    }
+  }
 
   S parameter(int index) const {
     const int column = slice_.column_of[index];
     return S::variable(slice_.parameters[index], column < 0 ? -1 : column - slice_.column);
   }
 
-  State initial() const {
+  State initial(const Plant& plant) const {
+    if constexpr (kind == Kind::lti) return plant.initial();
     State s;
     if constexpr (kind == Kind::dc) s.x[0] = motor_[initial_current];
     s.x[w] = motor_[initial_speed];
@@ -112,7 +131,7 @@ class Simulation {
 
   double command_before(int index) const { return index < 0 ? slice_.input_before : slice_.input[index]; }
 
-  void advance(Integrator<S, kind>& integrator, State& s, int k) {
+  void advance(Plant& integrator, State& s, int k) {
     const double begin = slice_.time[k];
     const double end = slice_.time[k + 1];
     if (!delayed_ && break_count_ == 0) {
@@ -123,7 +142,7 @@ class Simulation {
   }
 
   /// Splits the interval at instants that depend on parameters: late commands and the breaks of effects.
-  void advance_pieces(Integrator<S, kind>& integrator, State& s, int k, double begin, double end) {
+  void advance_pieces(Plant& integrator, State& s, int k, double begin, double end) {
     S at(begin);
     int row = k;
     if (delayed_) {
@@ -184,6 +203,7 @@ class Simulation {
   Motor<S> motor_{};
   std::array<S, 32> parameters_{};
   std::array<ActiveEffect<S>, max_active_effects> effects_{};
+  std::array<S, kind == Kind::lti ? coefficient_count : 0> coefficients_{};
   S delay_{0.0};
   std::array<S, 8> breaks_{};
   int break_count_ = 0;
