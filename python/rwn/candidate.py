@@ -96,7 +96,10 @@ def fit(
     def evaluate(values: Array) -> CountedNormal:
         return problem.normal(this.with_values(values), this.active, this.by)
 
-    return minimise(evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance)
+    return minimise(
+        evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance,
+        prior_scale=problem.colour,
+    )  # fmt: skip
 
 
 def _motor_unknown(name: str, nominal: Nominal) -> Unknown:

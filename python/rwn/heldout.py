@@ -15,6 +15,7 @@ from rwn.output_error import OutputError, Target
 from rwn.prepare import motion, noise_levels
 
 Array = NDArray[np.float64]
+RAN_AWAY = 1e100  # error of a simulation that diverged
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,7 +81,8 @@ def _force_row(
 def _errors(problem: OutputError, target: Target, contender: Contender) -> dict[str, Array]:
     alone = replace(problem, targets=(replace(target, angle=np.empty(0)),))
     found = alone.residuals(contender.vector, contender.active)[0]
-    return {signal: error[target.judged_from :] for signal, error in found.items()}
+    # a run that left for infinity is cut at a finite number, so that it can be squared
+    return {signal: np.clip(error[target.judged_from :], -RAN_AWAY, RAN_AWAY) for signal, error in found.items()}
 
 
 def _slow(target: Target) -> NDArray[np.bool_]:
@@ -99,7 +101,7 @@ def _row(
     found: bool,
     seed: int,
 ) -> HeldoutRow:
-    rms = [float(np.sqrt(np.nanmean(p**2))) for p in parts]
+    rms = [_rms(p) for p in parts]
     gain = 1.0 - rms[2] / rms[1] if found else None
     return HeldoutRow(
         recording=target.name,
@@ -116,12 +118,18 @@ def _row(
     )
 
 
+def _rms(x: Array) -> float:
+    return float(np.sqrt(np.nanmean(x**2))) if np.nanmax(np.abs(x)) < RAN_AWAY else float("inf")
+
+
 def gain_interval(before: Array, after: Array, *, seed: int, draws: int = 400) -> tuple[float, float]:
     """95 % interval of 1 - rms(after)/rms(before) by circular block bootstrap.
 
     Blocks of twice the correlation time of the longer-lived squared error (after Politis, White 2004).
     """
     n = before.size
+    if max(np.nanmax(np.abs(before)), np.nanmax(np.abs(after))) >= RAN_AWAY:
+        return -np.inf, -np.inf
     length = int(np.clip(2.0 * max(correlation_time(before), correlation_time(after)), 1, max(1, n // 4)))
     rng = np.random.default_rng(seed)
     sums = np.stack([_block_sums(before**2, length), _block_sums(after**2, length)])

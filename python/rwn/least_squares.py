@@ -76,14 +76,15 @@ class Minimum:
 class _Search:
     """The problem in search coordinates."""
 
-    def __init__(self, evaluate: Evaluate, unknowns: tuple[Unknown, ...]) -> None:
+    def __init__(self, evaluate: Evaluate, unknowns: tuple[Unknown, ...], prior_scale: float) -> None:
         self.evaluate, self.unknowns = evaluate, unknowns
         self.logarithmic = np.array([u.logarithmic for u in unknowns], dtype=bool)
         self.lower = np.array([u.coordinate(u.lower) for u in unknowns])
         self.upper = np.array([u.coordinate(u.upper) for u in unknowns])
         self.prior = np.array([u.coordinate(u.prior) if u.prior is not None else 0.0 for u in unknowns])
-        self.weight = np.array([_prior_weight(u) for u in unknowns])
-        self.tie = _ties(unknowns)
+        self.prior_scale = prior_scale
+        self.weight = prior_scale * np.array([_prior_weight(u) for u in unknowns])
+        self.tie = prior_scale * _ties(unknowns)
 
     def values(self, z: Array) -> Array:
         return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, z, 0.0)), z)
@@ -104,7 +105,9 @@ class _Search:
 
     def information(self, z: Array, normal: Normal) -> Array:
         slope = np.where(self.logarithmic, self.values(z), 1.0)
-        found: Array = normal.curvature + (np.diag(self.weight) + self.tie) / np.outer(slope, slope)
+        found: Array = normal.curvature + (np.diag(self.weight) + self.tie) / (
+            self.prior_scale * np.outer(slope, slope)
+        )
         return found
 
 
@@ -134,12 +137,14 @@ def minimise(
     max_iterations: int = 60,
     tolerance: float = 1e-2,
     damping: float = 1e-3,
+    prior_scale: float = 1.0,
 ) -> Minimum:
     """Levenberg-Marquardt (Nielsen's damping) from `start` (p values) within the unknowns' bounds.
 
-    Ends when a step promises less than `tolerance` of cost, in units of the residual's variance.
+    Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: what
+    priors are multiplied by: the independent samples that a coloured residual is short of.
     """
-    search = _Search(evaluate, unknowns)
+    search = _Search(evaluate, unknowns, prior_scale)
     z = np.array(
         [u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in zip(unknowns, start, strict=True)]
     )

@@ -83,6 +83,7 @@ class OutputError:
         0,
     )  # of initial current, speed, position in the parameter vector
     order: int = 0  # of a transfer function
+    colour: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
     def parameters_for(self, target: Target, vector: Array, active: Sequence[int]) -> Array:  # noqa: ARG002
         """The parameter vector with the start of this recording filled in."""

@@ -1,0 +1,39 @@
+"""How much a declared uncertainty weighs against residuals that are coloured and larger than the noise.
+
+Where physics is missing, thousands of samples repeat the same misfit, and against each of them counted as independent no
+prior holds: a refit then moves a resistance by a hundred declared standard deviations to absorb friction. A fit that has
+left the declared range is repeated with its samples counted at what they are worth, N / (variance x correlation time).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rwn import evidence
+from rwn.search import Fitted, Search
+
+BELIEVABLE = 4.0  # declared standard deviations that a parameter may move
+
+
+def tempered(search: Search, fitted: Fitted) -> Search:
+    """`search` with priors weighed against what `fitted` leaves, once a fit has left what is believable."""
+    if search.problem.colour == 1.0 and farthest(fitted) < BELIEVABLE:
+        return search
+    left = evidence.statistics(search.problem, fitted)
+    colour = max(1.0, left.variance * left.correlation_time)
+    # exactly 1 would forget that the fits had run away once
+    return replace(search, problem=replace(search.problem, colour=max(colour, 1.0 + 1e-9)))
+
+
+def farthest(fitted: Fitted) -> float:
+    """Largest move of a nominal parameter from its given value, in declared standard deviations."""
+    moves = [0.0]
+    for u, value in zip(fitted.candidate.unknowns, fitted.minimum.values, strict=True):
+        if u.prior is None or not np.isfinite(u.prior_std) or u.prior_std <= 0.0 or u.prior == 0.0:
+            continue
+        ratio = value / u.prior
+        logarithmic = u.logarithmic and ratio > 0.0
+        moves.append(abs(np.log(ratio) if logarithmic else ratio - 1.0) / u.prior_std)
+    return float(max(moves))
