@@ -135,7 +135,10 @@ def _same_constant(nominal: Nominal) -> bool:
 
 
 def _free_unknown(name: str) -> Unknown:
-    return Unknown(name=name, unit="", index=motor_index(name), lower=-np.inf, upper=np.inf)
+    if name not in motor_parameters():  # a coefficient of a transfer function
+        return Unknown(name=name, unit="", index=motor_index(name), lower=-np.inf, upper=np.inf)
+    parameter = motor_parameters()[name]
+    return Unknown(name=name, unit=parameter.unit, index=motor_index(name), lower=-1e9, upper=1e9, nuisance=True)
 
 
 def _effect_unknown(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapping[str, float]) -> Unknown:

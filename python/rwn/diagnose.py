@@ -163,6 +163,8 @@ def _applies(name: str, setup: Setup) -> bool:
         return False
     if any(p.lattice for p in effect.parameters):
         return False  # read off the values, not fitted
+    if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
+        return _revolutions(setup) > 0.75  # what comes back once a revolution has to have come back
     if name == "viscous-friction":
         return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
     signals = {s for t in setup.problem.targets for s in t.recorded}
@@ -173,6 +175,12 @@ def _may_be_rectified(setup: Setup) -> bool:
     """A sensor that does not see the direction never shows a negative speed."""
     speeds = [t.speed for t in setup.problem.targets if t.speed.size]
     return all(np.percentile(s, 2.0) > -0.05 * np.max(np.abs(s)) for s in speeds)
+
+
+def _revolutions(setup: Setup) -> float:
+    """The longest travel of a recording in revolutions (metres on a linear axis)."""
+    spans = [float(np.ptp(t.angle)) for t in setup.problem.targets if t.angle.size]
+    return max(spans, default=np.inf) * setup.problem.angle_per_position / (2.0 * np.pi)
 
 
 def _prior(setup: Setup) -> dict[str, float]:

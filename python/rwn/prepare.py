@@ -45,6 +45,9 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     whole = _whole(targets, model)
     if model.kind == "lti" and not model.parameters:
         nominal = _started(whole, nominal, first_guesses(targets, model.order))
+    if any(lattice(t.position) > 0.0 for t in targets) and model.recording.initial == "rest":
+        # a counter that was zeroed anywhere within a count: else the free run is off by up to one count for ever
+        nominal = replace(nominal, free={"initial_position": 0.0})
     vector = candidate(nominal, (), {}).vector
     outputs = [_with_motion(t, whole.simulate(t, vector, []).signals) for t in targets]
     problem = whole
@@ -133,16 +136,38 @@ def proof_target(recording: Recording, model: Model) -> Target:
 
 
 def lattice(signal: Array) -> float:
-    """The step of the lattice that the values lie on, as encoder counts and their differences do; 0: none."""
+    """The step of the lattice that the values lie on, as encoder counts and their differences do; 0: none.
+
+    A step of 1, 2 or 5 in some decimal is how numbers are written; it counts only where the values repeat.
+    """
     if signal.size < 20:
         return 0.0
-    values = np.unique(np.round(signal, 9))
-    if values.size > signal.size / 3 or values.size < 3:
-        return 0.0
+    values = np.unique(np.round(signal - signal[0], 12))
     gaps = np.diff(values)
-    step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 30)]))
+    gaps = gaps[gaps > 1e-9 * max(float(np.ptp(values)), 1e-300)]
+    if gaps.size < 2:
+        return 0.0
+    step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 5)]))
+    values = values[np.argsort(np.abs(values))]
+    size = 8
+    while True:  # the step is known the better, the further it has been counted
+        part = values[: min(size, values.size)]
+        counts = np.round(part / step)
+        step = float(part @ counts / max(counts @ counts, 1.0))
+        if size >= values.size or step <= 0.0:
+            break
+        size *= 2
+    if step <= 0.0:
+        return 0.0
     off = np.abs(values / step - np.round(values / step))
-    return step if np.percentile(off, 90) < 0.1 else 0.0
+    repeats = values.size < signal.size / 3
+    return step if np.percentile(off, 95) < 0.1 and (repeats or not _decimal(step)) else 0.0
+
+
+def _decimal(step: float) -> bool:
+    """Whether a step is 1, 2 or 5 in some decimal place."""
+    leading = step / 10.0 ** np.floor(np.log10(step) + 1e-9)
+    return bool(min(abs(leading / m - 1.0) for m in (1.0, 2.0, 5.0, 10.0)) < 1e-4)
 
 
 def windowed(whole: Target, length: int = WINDOW) -> Target:

@@ -27,7 +27,7 @@ def without_what_hurts(hypotheses: Sequence[Hypothesis], chosen: Hypothesis, pro
 
 
 def heldout_error(rows: Sequence[HeldoutRow]) -> float:
-    """Squared error of the corrected against the refitted free run, mean over held-out signals; inf where it ran away."""
+    """Squared error of the corrected against the refitted free run, mean of signals; inf where it ran away."""
     shares = [
         (r.corrected / r.refitted) ** 2
         for r in rows
@@ -37,7 +37,7 @@ def heldout_error(rows: Sequence[HeldoutRow]) -> float:
 
 
 def removed_certainly(rows: Sequence[HeldoutRow]) -> float:
-    """Share of the held-out squared error that is removed at the lower end of the bootstrap interval, mean of signals."""
+    """Share of the held-out squared error that is removed at the low end of the interval, mean of signals."""
     lows = [
         r.gain_interval[0] if r.gain_interval is not None else -1.0
         for r in rows

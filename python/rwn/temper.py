@@ -1,8 +1,8 @@
 """How much a declared uncertainty weighs against residuals that are coloured and larger than the noise.
 
-Where physics is missing, thousands of samples repeat the same misfit, and against each of them counted as independent no
-prior holds: a refit then moves a resistance by a hundred declared standard deviations to absorb friction. A fit that has
-left the declared range is repeated with its samples counted at what they are worth, N / (variance x correlation time).
+Where physics is missing, thousands of samples repeat the same misfit, and against them as independent samples no prior
+holds: a refit then moves a resistance by a hundred declared standard deviations to absorb friction. A fit that has left
+the declared range is repeated with its samples counted at what they are worth, N / (variance x correlation time).
 """
 
 from __future__ import annotations
