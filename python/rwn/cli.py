@@ -156,6 +156,22 @@ def demo(
     diagnose(train, folder / "model.toml", out, sorted(folder.glob("heldout*.csv")), overwrite=overwrite)
 
 
+@app.command()
+def evidence(
+    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME]...", help="Machines (default: all).")] = None,
+    data: Annotated[Path, typer.Option("--data", help="Folder of the recordings.")] = Path("../shared/data"),
+    out: Annotated[Path, typer.Option("--out", help="Folder for the table and reports.")] = Path("evidence-out"),
+    overwrite: Overwrite = False,
+) -> None:
+    """Diagnose recordings of real machines: what was found, and the error on recordings that were not fitted."""
+    from rwn.machines.runner import run_machines
+    from rwn.output import output_folder
+
+    with output_folder(out, overwrite=overwrite) as aside:
+        table = run_machines(names or [], data, aside)
+    typer.echo(table)
+
+
 @app.callback(invoke_without_command=True)
 def _options(version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False) -> None:
     if version:
@@ -210,7 +226,7 @@ def _mount(name: str, module: str) -> None:
 
 def main() -> None:
     """The entry point `rwn`."""
-    for name in ("thesis", "trials", "evidence"):
+    for name in ("thesis", "trials"):
         _mount(name, f"rwn.{name}.cli")
     try:
         status = app(standalone_mode=False)

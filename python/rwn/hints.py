@@ -11,8 +11,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn import _core
 from rwn.effects import motor_index
+from rwn.locate import unknown_inputs
 from rwn.output_error import OutputError, Target
+from rwn.prepare import motion
 
 Array = NDArray[np.float64]
 
@@ -63,6 +66,36 @@ def angle_spectrum(
         ridge = 1e-9 * np.trace(grams[k]) + 1e-300
         explained[k] = loads[k] @ np.linalg.solve(grams[k] + ridge * np.eye(2), loads[k])
     return explained / energy
+
+
+def torque_spectrum(problem: OutputError, vector: Array, active: Sequence[int], orders: Array) -> Array:
+    """As `angle_spectrum`, of the torque lacking along the recorded motion: where speed is not recorded."""
+    grams, loads, energy = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2)), 1e-300
+    for target in problem.targets:
+        lacking = _lacking_torque(problem, vector, active, target)
+        lacking = lacking - lacking.mean()
+        angle = problem.angle_per_position * target.angle
+        for k, order in enumerate(orders):
+            pair = np.stack([np.cos(order * angle), np.sin(order * angle)])
+            grams[k] += pair @ pair.T
+            loads[k] += pair @ lacking
+        energy += float(lacking @ lacking)
+    grams += 1e-9 * np.trace(grams, axis1=1, axis2=2)[:, None, None] * np.eye(2) + 1e-300 * np.eye(2)
+    explained = np.einsum("ki,ki->k", loads, np.linalg.solve(grams, loads[:, :, None])[:, :, 0])
+    found: Array = explained / energy
+    return found
+
+
+def _lacking_torque(problem: OutputError, vector: Array, active: Sequence[int], target: Target) -> Array:
+    if problem.kind != "axis":
+        return unknown_inputs(problem, vector, target).torque
+    speed, acceleration = motion(target)
+    position = np.ascontiguousarray(target.position)
+    needed = _core.inverse_dynamics(
+        vector, list(active), problem.angle_per_position, target.time, position, speed, acceleration
+    )
+    lacking: Array = needed - target.input
+    return lacking
 
 
 def _drive(problem: OutputError, target: Target) -> Array:

@@ -77,9 +77,9 @@ def _whole(targets: tuple[Target, ...], model: Model) -> OutputError:
 
 
 def _started(problem: OutputError, nominal: Nominal, guesses: Sequence[Mapping[str, float]]) -> Nominal:
-    """`nominal` with unknown coefficients at the guess from which a short fit gets furthest."""
+    """`nominal` with unknown coefficients at the guess from which a fit gets furthest."""
     legs = [candidate(replace(nominal, free=guess), (), {}) for guess in guesses]
-    costs = [fit(problem, leg, max_iterations=6).cost for leg in legs]
+    costs = [fit(problem, leg, max_iterations=25).cost for leg in legs]
     first, *others = (guesses[k] for k in np.argsort(costs, kind="stable"))
     return replace(nominal, free=first, starts=tuple(others))
 

@@ -11,27 +11,44 @@ from rwn.evidence import Hypothesis
 
 Prove = Callable[[Hypothesis], Sequence[HeldoutRow]]
 
+NOT_TOLD_APART = 3.0  # ratio of probabilities
 PROVED = 0.5  # share of the held-out squared error that a name has to remove certainly where more than noise is left
 
 
 def without_what_hurts(hypotheses: Sequence[Hypothesis], chosen: Hypothesis, prove: Prove) -> Hypothesis:
-    """The part of `chosen` that predicts held-out recordings best; `chosen` itself where every part of it helps there.
+    """`chosen`, or its equal on the fitted recordings, or a part of these: what predicts held-out recordings best.
 
     An effect that is real helps on every recording; one that has absorbed an accident of the fitted ones need not.
     """
-    parts = [h for h in hypotheses if h.fitted.added and set(h.fitted.added) < set(chosen.fitted.added)]
+    errors = {h.fitted.added: heldout_error(prove(h)) for h in _contenders(hypotheses, chosen)}
+    rivals = [h for h in _contenders(hypotheses, chosen) if len(h.fitted.added) == len(chosen.fitted.added)]
+    first = min(rivals, key=lambda h: errors[h.fitted.added])
+    parts = [h for h in hypotheses if h.fitted.added and set(h.fitted.added) < set(first.fitted.added)]
     if not parts:
-        return chosen
+        return first
     best = min(parts, key=lambda h: heldout_error(prove(h)))
-    return best if heldout_error(prove(best)) < heldout_error(prove(chosen)) else chosen
+    return best if heldout_error(prove(best)) < errors[first.fitted.added] else first
+
+
+def _contenders(hypotheses: Sequence[Hypothesis], chosen: Hypothesis) -> list[Hypothesis]:
+    """The chosen explanation and those as large that the fitted recordings do not tell from it."""
+    return [
+        h
+        for h in hypotheses
+        if h is chosen
+        or (len(h.fitted.added) == len(chosen.fitted.added) and h.probability > chosen.probability / NOT_TOLD_APART)
+    ]
 
 
 def heldout_error(rows: Sequence[HeldoutRow]) -> float:
-    """Squared error of the corrected against the refitted free run, mean of signals; inf where it ran away."""
+    """Squared error of the corrected against the refitted model, mean of signals; inf where it ran away.
+
+    On an axis the driving force counts as one: a free run of a drive that integrates drifts for small reasons.
+    """
     shares = [
         (r.corrected / r.refitted) ** 2
         for r in rows
-        if r.region == "all" and r.corrected is not None and r.unit != "%" and r.refitted > 0.0
+        if r.region == "all" and r.corrected is not None and r.refitted > 0.0
     ]
     return float(np.mean(shares)) if shares and np.isfinite(shares).all() else np.inf
 

@@ -129,6 +129,9 @@ class Search:
         if not any(t.angle.size for t in self.problem.targets):
             return []
         grid = hints.order_grid(self.problem)
+        if not any(t.speed.size for t in self.problem.targets):
+            spectrum = hints.torque_spectrum(self.problem, base.vector, base.candidate.active, grid)
+            return hints.orders_of(spectrum, grid)
         residuals = self.problem.residuals(base.vector, base.candidate.active)
         spectrum = hints.angle_spectrum(
             self.problem, base.vector, residuals, grid, with_current=effect.site == "flux"

@@ -27,13 +27,14 @@
 #include "rwn/effects/stribeck_friction.hpp"
 #include "rwn/effects/torque_ripple.hpp"
 #include "rwn/effects/unbalance.hpp"
+#include "rwn/effects/viscous_asymmetry.hpp"
 #include "rwn/effects/viscous_friction.hpp"
 #include "rwn/effects/voltage_saturation.hpp"
 
 namespace rwn {
 
 using Effects =
-    std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, QuadraticDrag,
+    std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
                LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque, Unbalance,
                ConstantLoad, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation, BrushVoltageDrop,
                ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation, InputDelay,

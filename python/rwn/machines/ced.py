@@ -1,0 +1,55 @@
+"""CED: two electric drives on one belt; the pulley's speed sensor does not see the direction."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from rwn.machines.machine import Error, Machine, Outcome, Say, cut, data_file, error_of, judged, nominal_model
+from rwn.model import Model
+from rwn.recording import Recording
+
+STEP = 0.02  # [s]
+TRAINED = 400  # samples; the last 100 are the test
+AMPLITUDES = (
+    ("low", "u11", "z11", 0.115, "0.115 (best), 0.103 SysIdentPy"),
+    ("high", "u12", "z12", 0.095, "0.074 (best), 0.107 SysIdentPy"),
+)
+
+
+def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
+    """Both amplitudes of the uniformly distributed input, with either initial window of the official protocol."""
+    import scipy.io
+
+    content = scipy.io.loadmat(str(data_file(folder, "DATAUNIF.MAT")))
+    outcomes = []
+    for name, u, z, wanted, published in AMPLITUDES:
+        voltage, speed = (np.ravel(content[key]).astype(float) for key in (u, z))
+        time = STEP * np.arange(voltage.size, dtype=np.float64)
+        whole = Recording(name=f"{name} amplitude", time=time, signals={"voltage": voltage, "speed": speed})
+        outcomes.append(_amplitude(whole, wanted, published, say))
+    return tuple(outcomes)
+
+
+def _amplitude(whole: Recording, wanted: float, published: str, say: Say) -> Outcome:
+    train, test = cut(whole, 0, TRAINED), cut(whole, TRAINED)
+    model = nominal_model("ced")
+    outcome = judged(f"CED, {whole.name}", "linear, third order", model, [train], [test], say)
+    errors = [_error(outcome, test, 10, wanted, published)]
+    short = judged(f"CED, {whole.name}, window 4", "", _window(model, 4), [train], [test], say)
+    errors.append(_error(short, test, 4, wanted, published))
+    return replace(outcome, errors=tuple(errors))
+
+
+def _window(model: Model, samples: int) -> Model:
+    return replace(model, recording=replace(model.recording, initial_samples=samples))
+
+
+def _error(outcome: Outcome, test: Recording, window: int, wanted: float, published: str) -> Error:
+    measure = f"speed, last 100 samples, initial window {window} [ticks/s]"
+    return error_of(outcome.found, test.name, "speed", measure, published=published, wanted=wanted)
+
+
+MACHINE = Machine(name="ced", folder="nonlinear_benchmarks/CED", source="Wigren, M. Schoukens 2017", run=run)
