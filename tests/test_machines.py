@@ -10,9 +10,9 @@ import pytest
 from typer.testing import CliRunner
 
 from rwn.cli import app
-from rwn.diagnose import explain
 from rwn.diagnosis import Diagnosis, FoundEffect
 from rwn.errors import InputError
+from rwn.explain import explain
 from rwn.machines import ced, emps, fra233, frc, odrive, xl330
 from rwn.machines.machine import Error, Outcome, cut, nominal_model
 from rwn.machines.registry import MACHINES

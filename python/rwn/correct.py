@@ -15,7 +15,7 @@ from rwn.model import Model
 from rwn.search import Fitted
 
 if TYPE_CHECKING:
-    from rwn.diagnose import Explanation
+    from rwn.explain import Explanation
 
 Array = NDArray[np.float64]
 

@@ -13,6 +13,7 @@ from rwn.effects import motor_index, motor_parameters
 from rwn.errors import InputError
 from rwn.model import Model
 from rwn.output_error import OutputError, Target
+from rwn.quantisation import counted, lattice, quantisation
 from rwn.recording import Recording
 from rwn.scales import scales
 from rwn.transfer_error import TransferError
@@ -122,7 +123,7 @@ def target(recording: Recording, model: Model) -> Target:
         current=signals.get("current", empty) if model.kind == "dc" else empty,
         speed=speed,
         position=position,
-        speed_is_difference=model.kind != "lti" and lattice(speed) > 0.0,
+        speed_is_difference=model.kind != "lti" and counted(time, speed),
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
         angle=position if position.size else _integral(time, speed),
@@ -133,41 +134,6 @@ def proof_target(recording: Recording, model: Model) -> Target:
     """As `target`, for a recording that is not fitted: a state to be estimated comes from its first samples alone."""
     estimated = model.kind == "lti" and model.recording.initial == "estimate"
     return replace(target(recording, model), judged_from=model.recording.initial_samples if estimated else 0)
-
-
-def lattice(signal: Array) -> float:
-    """The step of the lattice that the values lie on, as encoder counts and their differences do; 0: none.
-
-    A step of 1, 2 or 5 in some decimal is how numbers are written; it counts only where the values repeat.
-    """
-    if signal.size < 20:
-        return 0.0
-    values = np.unique(np.round(signal - signal[0], 12))
-    gaps = np.diff(values)
-    gaps = gaps[gaps > 1e-9 * max(float(np.ptp(values)), 1e-300)]
-    if gaps.size < 2:
-        return 0.0
-    step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 5)]))
-    values = values[np.argsort(np.abs(values))]
-    size = 8
-    while True:  # the step is known the better, the further it has been counted
-        part = values[: min(size, values.size)]
-        counts = np.round(part / step)
-        step = float(part @ counts / max(counts @ counts, 1.0))
-        if size >= values.size or step <= 0.0:
-            break
-        size *= 2
-    if step <= 0.0:
-        return 0.0
-    off = np.abs(values / step - np.round(values / step))
-    repeats = values.size < signal.size / 3
-    return step if np.percentile(off, 95) < 0.1 and (repeats or not _decimal(step)) else 0.0
-
-
-def _decimal(step: float) -> bool:
-    """Whether a step is 1, 2 or 5 in some decimal place."""
-    leading = step / 10.0 ** np.floor(np.log10(step) + 1e-9)
-    return bool(min(abs(leading / m - 1.0) for m in (1.0, 2.0, 5.0, 10.0)) < 1e-4)
 
 
 def windowed(whole: Target, length: int = WINDOW) -> Target:
@@ -205,19 +171,12 @@ def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Arr
     """
     levels = {}
     for signal in residuals[0]:
-        counted = float(np.median([quantisation(t, signal) for t in targets]))
+        steps = float(np.median([quantisation(t, signal) for t in targets]))
         found = [_noise(r[signal]) for r in residuals if r[signal].size > 8]
-        levels[signal] = counted or max(float(np.median(found)) if found else 1.0, 1e-12)
+        rough = max(float(np.median(found)) if found else 1.0, 1e-12)
+        encoder = signal == "position" or any(t.speed_is_difference for t in targets)
+        levels[signal] = steps if steps and encoder else max(steps, rough)
     return levels
-
-
-def quantisation(target: Target, signal: str) -> float:
-    """Standard deviation of the quantisation of a counted signal; 0 where it is not counted.
-
-    q / sqrt(12) for counts; a central difference of counts has steps of q / 2T, and q / sqrt(24) / T.
-    """
-    step = lattice(target.signal(signal))
-    return float(step / np.sqrt(6.0 if signal == "speed" else 12.0))
 
 
 def _noise(residual: Array) -> float:
