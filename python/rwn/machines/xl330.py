@@ -19,7 +19,7 @@ from rwn.recording import Recording
 Array = NDArray[np.float64]
 PWM_LIMIT = 885.0  # counts of full duty
 OFFSET = 0.03  # [rad] position that the sensor shows where the pendulum hangs, as the authors fitted it (M1: 0.0309)
-FITTED = ("10h28m10", "10h28m24", "10h28m32")  # kp = 100; in lift_and_drop the motor is switched off
+FITTED = ("10h28m10", "10h28m32")  # kp = 100: sin_sin, sin_time_square; in lift_and_drop the motor is switched off
 HELDOUT = ("10h29m14", "10h29m29", "10h29m37")  # kp = 400
 MODELS = tuple(f"m{k}" for k in range(1, 7))
 SUBSTEP = 5e-4  # [s] of the authors' models
