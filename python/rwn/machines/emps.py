@@ -112,7 +112,7 @@ def _validated(setup: Setup, start: Candidate, length: int) -> float:
     for part, rest in (((0, 3 * n // 4), (3 * n // 4, n)), ((n // 4, n), (0, n // 4))):
         values = fit(_in_windows(setup.whole, _part(whole, *part), length), start).values
         errors.append(_rms(setup.whole, _part(whole, *rest), start.with_values(values), start.active))
-    return float(np.hypot(*errors))
+    return float(np.linalg.norm(errors))
 
 
 def _candidate(found: Diagnosis, setup: Setup) -> Candidate:
