@@ -24,6 +24,7 @@ from rwn.proof import hurts, proved
 from rwn.quantisation import speed_resolution
 from rwn.recording import Recording
 from rwn.refuse import PROVED, removed_certainly, without_what_hurts
+from rwn.unknown_law import laws
 
 REMOVED = 0.85  # share of the removable squared error that a name has to remove
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
@@ -182,7 +183,10 @@ def _report(
         verdict, names = "recording-mistake", tuple(m.name for m in made)
     equation = effects[0].equation if effects else ""
     where = regions(unknown, linear=model.linear)
+    torque_unknown = verdict != "adequate" and model.kind != "lti"  # a transfer function has none
+    depends = laws(found.setup.whole, found.nominal, unknown, linear=model.linear) if torque_unknown else ()
     nominal = next(h for h in found.hypotheses if not h.fitted.added)
+    place = curves.describe(where, depends, linear=model.linear)
     return Diagnosis(
         verdict=verdict,
         equation=equation,
@@ -197,10 +201,10 @@ def _report(
             for h in found.hypotheses[:6]
             if h is not chosen and h.fitted.added and h.probability > 1e-3
         ),
-        location=Location(equation=equation, regions=where, description=curves.describe(where)),
+        location=Location(equation=equation, regions=where, description=place),
         nominal_fit=nominal_fit(found, chosen, model),
         heldout=rows,
-        curves=curves.plots(found, chosen, unknown, linear=model.linear),
+        curves=curves.plots(found, chosen, unknown, depends, linear=model.linear),
         warnings=_warnings(found, chosen, verdict, rows),
         next_experiment=_next_experiment(found, verdict, names),
         adequate_probability=nominal.probability,
