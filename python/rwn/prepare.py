@@ -102,8 +102,6 @@ def nominal_of(model: Model) -> Nominal:
     motor = {name: value for name, value in model.parameters.items() if name in known or model.kind == "lti"}
     for load in model.load.values():
         motor["pendulum_torque"] = load["mass"] * 9.80665 * load["length"]
-        if model.kind == "dc" or not model.linear:
-            motor["inertia"] += load["mass"] * load["length"] ** 2
     return Nominal(motor=motor, uncertainty=dict(model.uncertainty), effects=dict(model.effects), free={})
 
 

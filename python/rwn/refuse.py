@@ -43,12 +43,13 @@ def _contenders(hypotheses: Sequence[Hypothesis], chosen: Hypothesis) -> list[Hy
 def heldout_error(rows: Sequence[HeldoutRow]) -> float:
     """Squared error of the corrected against the refitted model, mean of signals; inf where it ran away.
 
-    On an axis the driving force counts as one: a free run of a drive that integrates drifts for small reasons.
+    Where an axis shows its position alone, which drifts for small reasons, the driving force counts as a signal too.
     """
+    drifts = not any(r.signal == "speed" for r in rows)
     shares = [
         (r.corrected / r.refitted) ** 2
         for r in rows
-        if r.region == "all" and r.corrected is not None and r.refitted > 0.0
+        if r.region == "all" and r.corrected is not None and r.refitted > 0.0 and (drifts or r.unit != "%")
     ]
     return float(np.mean(shares)) if shares and np.isfinite(shares).all() else np.inf
 

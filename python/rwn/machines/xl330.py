@@ -110,10 +110,13 @@ def _values(model: Model) -> dict[str, float]:
     """A model of rwn in the authors' terms: what of it they have terms for."""
     p, e = model.parameters, model.effects
     dry = next((v["coulomb_torque"] for v in e.values() if "coulomb_torque" in v), p.get("coulomb_friction", 0.0))
+    cogging = e.get("cogging-torque", {})
     return {
-        "kt": p["torque_constant"], "ke": p["back_emf_constant"], "R": p["resistance"], "armature": p["inertia"],
+        "kt": p["torque_constant"], "ke": p["back_emf_constant"], "R": p["resistance"],
+        "armature": p["inertia"] - MASS * LENGTH**2, "cogging": cogging.get("amplitude", 0.0),
+        "cogging_order": cogging.get("periods_per_rev", 0.0), "cogging_phase": cogging.get("phase", 0.0),
         "friction_viscous": p["viscous_friction"], "friction_base": dry, "q_offset": OFFSET,
-        "load_friction_motor": e.get("load-dependent-friction", {}).get("friction_ratio", 0.0),
+        "load_friction_base": e.get("load-dependent-friction", {}).get("friction_ratio", 0.0),
     }  # fmt: skip
 
 
@@ -125,6 +128,7 @@ def closed_loop(values: Mapping[str, float], servo: Servo, gain: float) -> Array
     """
     inertia = values["armature"] + MASS * LENGTH**2
     offset, back_emf = values["q_offset"], values.get("ke", values["kt"])
+    ripple = [values.get(name, 0.0) for name in ("cogging", "cogging_order", "cogging_phase")]
     q, w = float(servo.position[0]) - offset, 0.0
     shown = np.empty(servo.time.size)
     for k in range(servo.time.size):
@@ -139,6 +143,7 @@ def closed_loop(values: Mapping[str, float], servo: Servo, gain: float) -> Array
             duty = min(1.0, max(-1.0, gain * servo.kp * (float(servo.goal[k]) - q - offset)))
             motor = values["kt"] * (duty * bus - back_emf * w) / values["R"]
             external = -MASS * GRAVITY * LENGTH * math.sin(q)
+            motor -= ripple[0] * math.sin(ripple[1] * q + ripple[2])
             stop = inertia / h * w + motor + external
             limit = friction_level(values, motor, external, w)
             w += (motor + external - math.copysign(min(abs(stop), limit), stop)) / inertia * h
