@@ -105,7 +105,8 @@ def test_runs_side_by_side_equal_runs_alone() -> None:
     networks = [structured(15, seed) for seed in range(11)]
     theta = np.array([n.theta for n in networks])
     rates = np.array([list({**RATES, "v4": 0.0, "v5": 0.0}.values())] * 11) * np.linspace(0.5, 1, 11)[:, None]
-    got, mse, frozen, status, _ = _core.train_side_by_side(theta, networks[0].wavelet.core, rates, u, y, np.zeros(2), cycles=2)
+    core = networks[0].wavelet.core
+    got, mse, frozen, status, _ = _core.train_side_by_side(theta, core, rates, u, y, np.zeros(2), cycles=2)
     for k, network in enumerate(networks):
         rule = Fixed(dict(zip(network.groups, rates[k], strict=True)))
         alone = rwn.train_structured(network, u, y, learn=network.groups, rates=rule, cycles=2)

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -173,6 +174,25 @@ def test_a_levenberg_marquardt_step_solves_the_twin_s_normal_equations() -> None
     rounding = np.abs(damped) @ (np.abs(moved) + 1e-3 * np.abs(network.theta * scale))  # step is a difference
     assert (moved != 0.0).all()
     assert (np.abs(damped @ moved - gradient) <= 1e-12 * rounding).all()
+
+
+def test_trainings_in_threads_are_the_same_bit_for_bit() -> None:
+    """The core releases the interpreter and shares nothing between runs."""
+    u, y = drive(3000, frequency=10)
+    learn = ("v1", "v2", "v3", "w", "m", "d", "c")
+
+    def trained(seed: int) -> list[np.ndarray]:
+        network = structured(7, seed)
+        return [
+            rwn.train_structured(network, u, y, learn=learn, cycles=2).network.theta,
+            RecursiveGaussNewton(cycles=2).train(network, u, y, learn=learn).network.theta,
+            StructuredLevenbergMarquardt(iterations=5).fit(network, u, y, learn=learn).network.theta,
+        ]
+
+    alone = [trained(seed) for seed in range(6)]
+    with ThreadPoolExecutor(3) as pool:
+        together = list(pool.map(trained, range(6)))
+    np.testing.assert_array_equal(together, alone)
 
 
 def test_deviations_cover_the_errors_made_by_noise() -> None:
