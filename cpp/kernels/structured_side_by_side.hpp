@@ -11,7 +11,8 @@ template <class W>
 struct SideBySideRun : Run<W, Pack, 0> {
   using Base = Run<W, Pack, 0>;
   using Base::a11, Base::a12, Base::a21, Base::a22, Base::net, Base::tau, Base::v, Base::wavelet;
-  static constexpr bool split = width != 4;  // measured: at 16 registers of 4 lanes one loop is faster (1.17 against 0.98 of one run)
+  static constexpr bool split =
+      width != 4;  // measured: at 16 registers of 4 lanes one loop is faster (1.17 against 0.98 of one run)
   Pack rates[kStructuredGroups];
   Pack waiting[4] = {0.0, 0.0, 0.0, 0.0};  // mu e of w, m, d, c, not yet applied
 

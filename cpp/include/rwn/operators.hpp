@@ -15,7 +15,7 @@ class Operators {
     double h = -1.0;
     int level = -1;
     bool stick = false;
-    Matrix e{}, p1{}, p2{};              // whole step: e^{Ah}, h phi1, h^2 phi2 (p2 of linear steps only)
+    Matrix e{}, p1{}, p2{};                // whole step: e^{Ah}, h phi1, h^2 phi2 (p2 of linear steps only)
     Matrix eh{}, p1h{}, f1{}, f2{}, f3{};  // half step and Cox-Matthews weights (nonlinear steps only)
   };
 
