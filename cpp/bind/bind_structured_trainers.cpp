@@ -10,9 +10,17 @@ void bind_structured_trainers(py::module_& m) {
   m.def("structured_trainer_defaults", [] {
     py::dict all;
     all["recursive-gauss-newton"] = defaults_of<RecursiveGaussNewton>(
-        std::pair{"noise", &RecursiveGaussNewton::noise}, std::pair{"forgetting", &RecursiveGaussNewton::forgetting}, std::pair{"settle", &RecursiveGaussNewton::settle}, std::pair{"caution", &RecursiveGaussNewton::caution}, std::pair{"follow_state", &RecursiveGaussNewton::follow_state}, std::pair{"cycles", &RecursiveGaussNewton::cycles}, std::pair{"frozen_every", &RecursiveGaussNewton::frozen_every});
+        std::pair{"noise", &RecursiveGaussNewton::noise}, std::pair{"forgetting", &RecursiveGaussNewton::forgetting},
+        std::pair{"settle", &RecursiveGaussNewton::settle}, std::pair{"caution", &RecursiveGaussNewton::caution},
+        std::pair{"follow_state", &RecursiveGaussNewton::follow_state},
+        std::pair{"cycles", &RecursiveGaussNewton::cycles},
+        std::pair{"frozen_every", &RecursiveGaussNewton::frozen_every});
     all["structured-levenberg-marquardt"] = defaults_of<StructuredLevenbergMarquardt>(
-        std::pair{"iterations", &StructuredLevenbergMarquardt::iterations}, std::pair{"damping", &StructuredLevenbergMarquardt::damping}, std::pair{"tolerance", &StructuredLevenbergMarquardt::tolerance}, std::pair{"gauge", &StructuredLevenbergMarquardt::gauge}, std::pair{"weights_first", &StructuredLevenbergMarquardt::weights_first});
+        std::pair{"iterations", &StructuredLevenbergMarquardt::iterations},
+        std::pair{"damping", &StructuredLevenbergMarquardt::damping},
+        std::pair{"tolerance", &StructuredLevenbergMarquardt::tolerance},
+        std::pair{"gauge", &StructuredLevenbergMarquardt::gauge},
+        std::pair{"weights_first", &StructuredLevenbergMarquardt::weights_first});
     return all;
   });
   m.def("recursive_gauss_newton",
