@@ -102,11 +102,11 @@ SideBySide train_side_by_side(const Eigen::Ref<const RowMatrix>& theta, const Wa
   check_sizes(theta, rates, cycles);
   const double samples = static_cast<double>(signals.samples());
   const double mean_square = signals.speed.squaredNorm() / samples;
-  std::vector<Lane> lanes;
+  std::vector<Lane> runs;
   for (Eigen::Index row = 0; row < theta.rows(); ++row) {
     const Vector start = theta.row(row);
     const double first_mse = mean_squared_error({start, wavelet}, signals);
-    lanes.push_back({start, start, divergence_limit(mean_square, first_mse)});
+    runs.push_back({start, start, divergence_limit(mean_square, first_mse)});
   }
   const double first_error = signals.speed[0] - signals.start[0];
   const Eigen::Index width = structured_kernels().width;
@@ -115,7 +115,7 @@ SideBySide train_side_by_side(const Eigen::Ref<const RowMatrix>& theta, const Wa
     for (int n = 0; n < cycles; ++n) {
       batch.train(signals);
       for (Eigen::Index row = first; row < std::min(first + width, theta.rows()); ++row) {
-        Lane& lane = lanes[static_cast<std::size_t>(row)];
+        Lane& lane = runs[static_cast<std::size_t>(row)];
         if (lane.diverged) continue;
         batch.get(row - first, lane.next);
         lane.see((batch.squares(row - first) + first_error * first_error) / samples);
@@ -124,7 +124,7 @@ SideBySide train_side_by_side(const Eigen::Ref<const RowMatrix>& theta, const Wa
   }
   SideBySide out{RowMatrix(theta.rows(), theta.cols()), Vector(theta.rows()), Vector(theta.rows()), {}};
   for (Eigen::Index row = 0; row < theta.rows(); ++row) {
-    const Lane& lane = lanes[static_cast<std::size_t>(row)];
+    const Lane& lane = runs[static_cast<std::size_t>(row)];
     const StructuredNetwork network(lane.theta, wavelet);
     out.theta.row(row) = lane.theta;
     out.mse_learning[row] = lane.mse;
