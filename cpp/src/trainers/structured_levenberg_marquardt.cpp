@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "rwn/plant_gain.hpp"
+#include "rwn/trainers/structured_problem.hpp"
 
 namespace rwn {
 
@@ -56,144 +56,12 @@ Vector simulate_plant(const StructuredNetwork& network, const StructuredSignals&
 
 namespace {
 
-/// Friction torque of a network along a measured speed and its derivative by w, m, d, c (n, 4 N_w), by 3.16-3.18.
-struct Torque {
-  Vector value;
-  RowMatrix slope;
-
-  Torque(const StructuredNetwork& net, const VectorRef& speed)
-      : value(Vector::Zero(speed.size())), slope(speed.size(), 4 * net.wavelets()) {
-    net.wavelet().visit([&](const auto& kind) {
-      for (Eigen::Index j = 0; j < net.wavelets(); ++j) {
-        wavelet(kind, net, speed, j);
-      }
-    });
-  }
-
-  template <class W>
-  void wavelet(const W& kind, const StructuredNetwork& net, const VectorRef& speed, Eigen::Index j) {
-    const Eigen::Index count = net.wavelets();
-    const double w = net.group(kWeight)[j], m = net.group(kTranslation)[j];
-    const double d = net.group(kDilation)[j], c = net.group(kFeedback)[j];
-    double phi = 0.0, V1 = 0.0, V2 = 0.0, V3 = 0.0;
-    for (Eigen::Index n = 0; n < speed.size(); ++n) {
-      const double z = (speed[n] + c * phi - m) / d;
-      const double steep = kind.derivative(z) / d;
-      V1 = steep * (c * V1 - 1.0);
-      V2 = steep * (c * V2 - z);
-      V3 = steep * (c * V3 + phi);
-      phi = kind.value(z);
-      value[n] += w * phi;
-      slope(n, j) = phi;
-      slope(n, count + j) = w * V1;
-      slope(n, 2 * count + j) = w * V2;
-      slope(n, 3 * count + j) = w * V3;
-    }
-  }
-
-  /// Takes the part along the measured speed out of the torque and of its derivatives; returns the slope of the torque.
-  double project(const VectorRef& speed) {
-    const double square = speed.squaredNorm();
-    if (square == 0.0) {
-      return 0.0;
-    }
-    const double k = speed.dot(value) / square;
-    value -= k * speed;
-    const Eigen::RowVectorXd along = (speed.transpose() * slope) / square;
-    slope.noalias() -= speed * along;
-    return k;
-  }
-};
-
-/// Residual e = y - x1 and Jacobian dx1/dtheta (n, learning parameters) of a network.
-class Problem {
- public:
-  Problem(const StructuredMeasurements& data, const std::vector<bool>& learn, bool gauge)
-      : data_(data), signals_(data.signals), gauge_(gauge), outputs_(data.current.size() > 0 ? 2 : 1) {
-    for (std::size_t k = 0; k < learn.size(); ++k) {
-      if (learn[k]) {
-        which_.push_back(static_cast<Eigen::Index>(k));
-      }
-    }
-    jacobian_.resize(outputs_ * signals_.samples(), static_cast<Eigen::Index>(which_.size()));
-  }
-
-  const std::vector<Eigen::Index>& which() const { return which_; }
-  const RowMatrix& jacobian() const { return jacobian_; }
-  const Vector& residual() const { return residual_; }
-  double slope() const { return slope_; }
-
-  /// Takes over the residual and the Jacobian of another point.
-  void take(Problem& other) {
-    jacobian_.swap(other.jacobian_);
-    residual_.swap(other.residual_);
-    slope_ = other.slope_;
-  }
-  /// Sum of squared errors, or infinity where the plant is not stable.
-  double evaluate(const StructuredNetwork& net) {
-    const Eigen::Matrix2d a = net.plant();
-    if (!(plant_gain(a(0, 0), a(0, 1), a(1, 0), a(1, 1)).spectral_radius < 1.0)) {
-      return std::numeric_limits<double>::infinity();
-    }
-    Torque torque(net, data_.network_speed);
-    slope_ = gauge_ ? torque.project(data_.network_speed) : 0.0;
-    filter(net, torque, a);
-    return residual_.squaredNorm();
-  }
-
- private:
-  void filter(const StructuredNetwork& net, const Torque& torque, const Eigen::Matrix2d& a) {
-    const double v1 = net.theta()[0], v2 = net.theta()[1], v3 = net.theta()[2], v4 = net.theta()[3];
-    const auto p = static_cast<Eigen::Index>(which_.size());
-    Eigen::RowVectorXd drive1(p), drive2(p), P = Eigen::RowVectorXd::Zero(p), Q = P, next(p);
-    Eigen::RowVector<double, 5> first, second;
-    Eigen::Vector2d x = signals_.start;
-    residual_.resize(outputs_ * signals_.samples());
-    keep(0, x, P, Q);
-    for (Eigen::Index n = 1; n < signals_.samples(); ++n) {
-      const double tau = torque.value[n - 1], u = signals_.input[n - 1];
-      first << -v2 * x[0], v3 * x[1] - v1 * x[0] - tau, v2 * x[1], 0.0, 0.0;
-      second << 0.0, 0.0, -v4 * x[0], u - v3 * x[0], x[1];
-      for (Eigen::Index i = 0; i < p; ++i) {
-        const Eigen::Index k = which_[static_cast<std::size_t>(i)];
-        drive1[i] = k < 5 ? first[k] : -v2 * torque.slope(n - 1, k - 5);
-        drive2[i] = k < 5 ? second[k] : 0.0;
-      }
-      next = a(0, 0) * P + a(0, 1) * Q + drive1;
-      Q = a(1, 0) * P + a(1, 1) * Q + drive2;
-      P = next;
-      x = Eigen::Vector2d(a(0, 0) * x[0] + a(0, 1) * x[1] - v2 * tau, a(1, 0) * x[0] + a(1, 1) * x[1] + v4 * u);
-      keep(n, x, P, Q);
-    }
-  }
-
-  /// Residual and Jacobian rows of one sample: the speed's, and behind all of those the weighted current's.
-  void keep(Eigen::Index n, const Eigen::Vector2d& x, const Eigen::RowVectorXd& P, const Eigen::RowVectorXd& Q) {
-    jacobian_.row(n) = P;
-    residual_[n] = signals_.speed[n] - x[0];
-    if (outputs_ == 2) {
-      const Eigen::Index second = signals_.samples() + n;
-      jacobian_.row(second) = data_.current_weight * Q;
-      residual_[second] = data_.current_weight * (data_.current[n] - x[1]);
-    }
-  }
-
-  const StructuredMeasurements& data_;
-  const StructuredSignals& signals_;
-  bool gauge_;
-  Eigen::Index outputs_;
-  std::vector<Eigen::Index> which_;
-  RowMatrix jacobian_;
-  Vector residual_;
-  double slope_ = 0.0;
-};
-
 /// Normal equations with unit columns: (H + mu I) step = g in the scaled parameters.
 struct Normal {
   Vector scale, gradient;
   Eigen::MatrixXd H;
 
-  explicit Normal(const Problem& problem) {
+  explicit Normal(const StructuredProblem& problem) {
     const RowMatrix& J = problem.jacobian();
     H.setZero(J.cols(), J.cols());
     H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
@@ -240,7 +108,7 @@ StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const
   if (!any) {
     return net;
   }
-  Problem problem(data, weights, gauge);
+  StructuredProblem problem(data, weights, gauge);
   if (!std::isfinite(problem.evaluate(net))) {
     return net;
   }
@@ -248,11 +116,24 @@ StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const
   return {moved(net, problem.which(), Normal(problem).step(ridge)), net.wavelet()};
 }
 
-}  // namespace
+/// Condition of the scaled Jacobian and standard deviations, residuals taken as white.
+void add_uncertainty(StructuredLevenbergMarquardt::Result& out, const StructuredProblem& problem, double squares, double n) {
+  const Normal normal(problem);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(normal.H);
+  const double most = spectrum.eigenvalues().tail(1)[0];
+  const double floor = 1e-15 * most;  // rounding hides what lies below
+  out.condition = std::sqrt(most / std::max(spectrum.eigenvalues()[0], floor));
+  out.deviation = Vector::Zero(out.network.theta().size());
+  const double variance = squares / std::max(1.0, n - static_cast<double>(problem.which().size()));
+  const Vector weights = spectrum.eigenvalues().cwiseMax(floor).cwiseInverse();
+  for (std::size_t i = 0; i < problem.which().size(); ++i) {
+    const auto row = spectrum.eigenvectors().row(static_cast<Eigen::Index>(i)).transpose();
+    const double inverse = row.cwiseAbs2().dot(weights);
+    out.deviation[problem.which()[i]] = std::sqrt(variance * inverse) / normal.scale[static_cast<Eigen::Index>(i)];
+  }
+}
 
-StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const StructuredNetwork& network,
-                                                                       const StructuredMeasurements& data,
-                                                                       const std::vector<bool>& learn) const {
+void check_lengths(const StructuredNetwork& network, const StructuredMeasurements& data, const std::vector<bool>& learn) {
   const StructuredSignals& signals = data.signals;
   check(signals);
   if (data.network_speed.size() != signals.samples() ||
@@ -262,10 +143,19 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
   if (learn.size() != static_cast<std::size_t>(network.theta().size()) || std::count(learn.begin(), learn.end(), true) == 0) {
     throw std::invalid_argument("learn: expected one flag per parameter, at least one true");
   }
+}
+
+}  // namespace
+
+StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const StructuredNetwork& network,
+                                                                       const StructuredMeasurements& data,
+                                                                       const std::vector<bool>& learn) const {
+  check_lengths(network, data, learn);
+  const StructuredSignals& signals = data.signals;
   Result out{weights_first ? with_least_squares_weights(network, data, gauge, learn) : network, 0.0,
              FitStatus::iteration_limit, {}, {}, 0.0};
   const double n = static_cast<double>(signals.samples());
-  Problem here(data, learn, gauge), there(data, learn, gauge);
+  StructuredProblem here(data, learn, gauge), there(data, learn, gauge);
   double squares = here.evaluate(out.network);
   if (!std::isfinite(squares)) {
     throw std::invalid_argument("network: its plant has an eigenvalue on or outside the unit circle; start from a stable one");
@@ -305,19 +195,7 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
     }
   }
   out.slope = here.slope();
-  normal = Normal(here);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(normal.H);
-  const double most = spectrum.eigenvalues().tail(1)[0];
-  const double floor = 1e-15 * most;  // rounding hides what lies below
-  out.condition = std::sqrt(most / std::max(spectrum.eigenvalues()[0], floor));
-  out.deviation = Vector::Zero(network.theta().size());
-  const double variance = squares / std::max(1.0, n - static_cast<double>(here.which().size()));
-  const Vector weights = spectrum.eigenvalues().cwiseMax(floor).cwiseInverse();
-  for (std::size_t i = 0; i < here.which().size(); ++i) {
-    const auto row = spectrum.eigenvectors().row(static_cast<Eigen::Index>(i)).transpose();
-    const double inverse = row.cwiseAbs2().dot(weights);
-    out.deviation[here.which()[i]] = std::sqrt(variance * inverse) / normal.scale[static_cast<Eigen::Index>(i)];
-  }
+  add_uncertainty(out, here, squares, n);
   return out;
 }
 

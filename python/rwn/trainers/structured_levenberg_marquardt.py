@@ -47,6 +47,8 @@ class StructuredFit:
         torque = self.network.torque(y) - self.slope * y
         return _core.simulate_plant(self.network.core, u, torque, as_start(start))
 
+_DEFAULTS = _core.structured_trainer_defaults()["structured-levenberg-marquardt"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class StructuredLevenbergMarquardt:
@@ -61,11 +63,11 @@ class StructuredLevenbergMarquardt:
     """
 
     name: ClassVar[str] = "structured-levenberg-marquardt"
-    iterations: int = 60
-    damping: float = 1e-3
-    tolerance: float = 1e-12
-    gauge: bool = True
-    weights_first: bool = True
+    iterations: int = _DEFAULTS["iterations"]
+    damping: float = _DEFAULTS["damping"]
+    tolerance: float = _DEFAULTS["tolerance"]
+    gauge: bool = _DEFAULTS["gauge"]
+    weights_first: bool = _DEFAULTS["weights_first"]
 
     def fit(
         self,
