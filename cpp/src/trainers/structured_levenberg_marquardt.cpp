@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "rwn/plant_gain.hpp"
+#include "rwn/trainers/structured_feeds.hpp"
 
 namespace rwn {
 
@@ -36,6 +37,23 @@ std::string_view advice(FitStatus status) {
   return "The iterations were used up while the error still fell: allow more.";
 }
 
+Vector simulate_fed_back(const StructuredNetwork& network, double slope, const StructuredSignals& signals) {
+  check(signals);
+  const Eigen::Matrix2d a = network.plant();
+  const double v2 = network.theta()[1], v4 = network.theta()[3];
+  SimulatedFeed feed(network, slope);
+  Eigen::Vector2d x = signals.start;
+  Vector out(signals.samples());
+  out[0] = x[0];
+  for (Eigen::Index n = 1; n < out.size(); ++n) {
+    const double tau = feed(n - 1, x[0]).torque;
+    x = Eigen::Vector2d(a(0, 0) * x[0] + a(0, 1) * x[1] - v2 * tau,
+                        a(1, 0) * x[0] + a(1, 1) * x[1] + v4 * signals.input[n - 1]);
+    out[n] = x[0];
+  }
+  return out;
+}
+
 Vector simulate_plant(const StructuredNetwork& network, const StructuredSignals& signals, const VectorRef& torque) {
   check(signals);
   if (torque.size() != signals.samples()) {
@@ -56,60 +74,12 @@ Vector simulate_plant(const StructuredNetwork& network, const StructuredSignals&
 
 namespace {
 
-/// Friction torque of a network along a measured speed and its derivative by w, m, d, c (n, 4 N_w), by 3.16-3.18.
-struct Torque {
-  Vector value;
-  RowMatrix slope;
-
-  Torque(const StructuredNetwork& net, const VectorRef& speed)
-      : value(Vector::Zero(speed.size())), slope(speed.size(), 4 * net.wavelets()) {
-    net.wavelet().visit([&](const auto& kind) {
-      for (Eigen::Index j = 0; j < net.wavelets(); ++j) {
-        wavelet(kind, net, speed, j);
-      }
-    });
-  }
-
-  template <class W>
-  void wavelet(const W& kind, const StructuredNetwork& net, const VectorRef& speed, Eigen::Index j) {
-    const Eigen::Index count = net.wavelets();
-    const double w = net.group(kWeight)[j], m = net.group(kTranslation)[j];
-    const double d = net.group(kDilation)[j], c = net.group(kFeedback)[j];
-    double phi = 0.0, V1 = 0.0, V2 = 0.0, V3 = 0.0;
-    for (Eigen::Index n = 0; n < speed.size(); ++n) {
-      const double z = (speed[n] + c * phi - m) / d;
-      const double steep = kind.derivative(z) / d;
-      V1 = steep * (c * V1 - 1.0);
-      V2 = steep * (c * V2 - z);
-      V3 = steep * (c * V3 + phi);
-      phi = kind.value(z);
-      value[n] += w * phi;
-      slope(n, j) = phi;
-      slope(n, count + j) = w * V1;
-      slope(n, 2 * count + j) = w * V2;
-      slope(n, 3 * count + j) = w * V3;
-    }
-  }
-
-  /// Takes the part along the measured speed out of the torque and of its derivatives; returns the slope of the torque.
-  double project(const VectorRef& speed) {
-    const double square = speed.squaredNorm();
-    if (square == 0.0) {
-      return 0.0;
-    }
-    const double k = speed.dot(value) / square;
-    value -= k * speed;
-    const Eigen::RowVectorXd along = (speed.transpose() * slope) / square;
-    slope.noalias() -= speed * along;
-    return k;
-  }
-};
-
 /// Residual e = y - x1 and Jacobian dx1/dtheta (n, learning parameters) of a network.
 class Problem {
  public:
-  Problem(const StructuredMeasurements& data, const std::vector<bool>& learn, bool gauge)
-      : data_(data), signals_(data.signals), gauge_(gauge), outputs_(data.current.size() > 0 ? 2 : 1) {
+  Problem(const StructuredMeasurements& data, const std::vector<bool>& learn, bool gauge, double ridge)
+      : data_(data), signals_(data.signals), gauge_(gauge), outputs_(data.current.size() > 0 ? 2 : 1),
+        pull_(ridge * ridge) {
     for (std::size_t k = 0; k < learn.size(); ++k) {
       if (learn[k]) {
         which_.push_back(static_cast<Eigen::Index>(k));
@@ -122,27 +92,52 @@ class Problem {
   const RowMatrix& jacobian() const { return jacobian_; }
   const Vector& residual() const { return residual_; }
   double slope() const { return slope_; }
+  /// What the ridge adds to the normal equations: its curvature by every learning parameter, and its gradient.
+  const Vector& curvature() const { return curvature_; }
+  const Vector& gradient() const { return gradient_; }
 
   /// Takes over the residual and the Jacobian of another point.
   void take(Problem& other) {
     jacobian_.swap(other.jacobian_);
     residual_.swap(other.residual_);
+    curvature_.swap(other.curvature_);
+    gradient_.swap(other.gradient_);
     slope_ = other.slope_;
   }
-  /// Sum of squared errors, or infinity where the plant is not stable.
+  /// Sum of squared errors with the ridge, or infinity where the plant is not stable.
   double evaluate(const StructuredNetwork& net) {
     const Eigen::Matrix2d a = net.plant();
     if (!(plant_gain(a(0, 0), a(0, 1), a(1, 0), a(1, 1)).spectral_radius < 1.0)) {
       return std::numeric_limits<double>::infinity();
     }
-    Torque torque(net, data_.network_speed);
-    slope_ = gauge_ ? torque.project(data_.network_speed) : 0.0;
-    filter(net, torque, a);
-    return residual_.squaredNorm();
+    visit_feed(data_.feed, net, data_.network_speed, gauge_, [&](auto& feed) {
+      slope_ = feed.slope();
+      filter(net, feed, a);
+    });
+    const double squares = residual_.squaredNorm() + restrain(net);
+    return std::isfinite(squares) ? squares : std::numeric_limits<double>::infinity();
   }
 
  private:
-  void filter(const StructuredNetwork& net, const Torque& torque, const Eigen::Matrix2d& a) {
+  /// The ridge: pulls every w that learns to zero. Returns what it costs.
+  double restrain(const StructuredNetwork& net) {
+    curvature_.setZero(static_cast<Eigen::Index>(which_.size()));
+    gradient_ = curvature_;
+    double cost = 0.0;
+    for (Eigen::Index i = 0; i < curvature_.size(); ++i) {
+      const Eigen::Index k = which_[static_cast<std::size_t>(i)];
+      if (k >= net.offset(kWeight) && k < net.offset(kTranslation)) {
+        const double w = net.theta()[k];
+        curvature_[i] = pull_;
+        gradient_[i] = -pull_ * w;
+        cost += pull_ * w * w;
+      }
+    }
+    return cost;
+  }
+
+  template <class Feed>
+  void filter(const StructuredNetwork& net, Feed& feed, const Eigen::Matrix2d& a) {
     const double v1 = net.theta()[0], v2 = net.theta()[1], v3 = net.theta()[2], v4 = net.theta()[3];
     const auto p = static_cast<Eigen::Index>(which_.size());
     Eigen::RowVectorXd drive1(p), drive2(p), P = Eigen::RowVectorXd::Zero(p), Q = P, next(p);
@@ -151,15 +146,16 @@ class Problem {
     residual_.resize(outputs_ * signals_.samples());
     keep(0, x, P, Q);
     for (Eigen::Index n = 1; n < signals_.samples(); ++n) {
-      const double tau = torque.value[n - 1], u = signals_.input[n - 1];
+      const FrictionSample f = feed(n - 1, x[0]);
+      const double tau = f.torque, u = signals_.input[n - 1];
       first << -v2 * x[0], v3 * x[1] - v1 * x[0] - tau, v2 * x[1], 0.0, 0.0;
       second << 0.0, 0.0, -v4 * x[0], u - v3 * x[0], x[1];
       for (Eigen::Index i = 0; i < p; ++i) {
         const Eigen::Index k = which_[static_cast<std::size_t>(i)];
-        drive1[i] = k < 5 ? first[k] : -v2 * torque.slope(n - 1, k - 5);
+        drive1[i] = k < 5 ? first[k] : -v2 * f.by_parameter[k - 5];
         drive2[i] = k < 5 ? second[k] : 0.0;
       }
-      next = a(0, 0) * P + a(0, 1) * Q + drive1;
+      next = (a(0, 0) - v2 * f.by_speed) * P + a(0, 1) * Q + drive1;
       Q = a(1, 0) * P + a(1, 1) * Q + drive2;
       P = next;
       x = Eigen::Vector2d(a(0, 0) * x[0] + a(0, 1) * x[1] - v2 * tau, a(1, 0) * x[0] + a(1, 1) * x[1] + v4 * u);
@@ -185,6 +181,8 @@ class Problem {
   std::vector<Eigen::Index> which_;
   RowMatrix jacobian_;
   Vector residual_;
+  double pull_;
+  Vector curvature_, gradient_;
   double slope_ = 0.0;
 };
 
@@ -197,11 +195,12 @@ struct Normal {
     const RowMatrix& J = problem.jacobian();
     H.setZero(J.cols(), J.cols());
     H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+    H.diagonal() += problem.curvature();
     scale = H.diagonal().cwiseSqrt();
     scale = (scale.array() > 0.0).select(scale, 1.0);
     H = H.selfadjointView<Eigen::Lower>();
     H = (scale.cwiseInverse().asDiagonal() * H * scale.cwiseInverse().asDiagonal()).eval();
-    gradient = (J.transpose() * problem.residual()).cwiseQuotient(scale);
+    gradient = (J.transpose() * problem.residual() + problem.gradient()).cwiseQuotient(scale);
   }
   Vector step(double damping) const {
     Eigen::MatrixXd damped = H;
@@ -230,7 +229,9 @@ Vector moved(const StructuredNetwork& net, const std::vector<Eigen::Index>& whic
 
 /// The output is linear in w: one ridge least-squares step finds it.
 StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const StructuredMeasurements& data, bool gauge,
-                                             const std::vector<bool>& learn) {
+                                             double ridge, const std::vector<bool>& learn) {
+  StructuredMeasurements measured = data;
+  measured.feed = Feed::measured;  // fed with itself, the output would not be linear in w
   std::vector<bool> weights(learn.size(), false);
   bool any = false;
   for (Eigen::Index k = net.offset(kWeight); k < net.offset(kTranslation); ++k) {
@@ -240,12 +241,12 @@ StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const
   if (!any) {
     return net;
   }
-  Problem problem(data, weights, gauge);
+  Problem problem(measured, weights, gauge, ridge);
   if (!std::isfinite(problem.evaluate(net))) {
     return net;
   }
-  constexpr double ridge = 1e-8;
-  return {moved(net, problem.which(), Normal(problem).step(ridge)), net.wavelet()};
+  constexpr double least = 1e-8;  // damping: neighbours may be all but alike
+  return {moved(net, problem.which(), Normal(problem).step(least)), net.wavelet()};
 }
 
 }  // namespace
@@ -259,18 +260,21 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
       (data.current.size() > 0 && data.current.size() != signals.samples())) {
     throw std::invalid_argument("network_speed and current: expected one value per sample");
   }
+  if (data.feed == Feed::simulated && (network.group(kFeedback).array() != 0.0).any()) {
+    throw std::invalid_argument("feed: a network fed with its own speed must be static, c = 0");
+  }
   if (learn.size() != static_cast<std::size_t>(network.theta().size()) || std::count(learn.begin(), learn.end(), true) == 0) {
     throw std::invalid_argument("learn: expected one flag per parameter, at least one true");
   }
-  Result out{weights_first ? with_least_squares_weights(network, data, gauge, learn) : network, 0.0,
+  Result out{weights_first ? with_least_squares_weights(network, data, gauge, ridge, learn) : network, 0.0,
              FitStatus::iteration_limit, {}, {}, 0.0};
   const double n = static_cast<double>(signals.samples());
-  Problem here(data, learn, gauge), there(data, learn, gauge);
+  Problem here(data, learn, gauge, ridge), there(data, learn, gauge, ridge);
   double squares = here.evaluate(out.network);
   if (!std::isfinite(squares)) {
     throw std::invalid_argument("network: its plant has an eigenvalue on or outside the unit circle; start from a stable one");
   }
-  out.mse.push_back(squares / n);
+  out.mse.push_back(here.residual().squaredNorm() / n);
   double mu = damping, growth = 2.0;
   Normal normal(here);
   for (int k = 0; k < iterations;) {
@@ -287,7 +291,7 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
       squares = trial;
       out.network = StructuredNetwork(theta, network.wavelet());
       here.take(there);
-      out.mse.push_back(squares / n);
+      out.mse.push_back(here.residual().squaredNorm() / n);
       ++k;
       if (settled) {
         out.status = FitStatus::converged;
@@ -311,7 +315,8 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
   const double floor = 1e-15 * most;  // rounding hides what lies below
   out.condition = std::sqrt(most / std::max(spectrum.eigenvalues()[0], floor));
   out.deviation = Vector::Zero(network.theta().size());
-  const double variance = squares / std::max(1.0, n - static_cast<double>(here.which().size()));
+  const double rows = static_cast<double>(here.residual().size());  // twice the samples where the current is fitted too
+  const double variance = here.residual().squaredNorm() / std::max(1.0, rows - static_cast<double>(here.which().size()));
   const Vector weights = spectrum.eigenvalues().cwiseMax(floor).cwiseInverse();
   for (std::size_t i = 0; i < here.which().size(); ++i) {
     const auto row = spectrum.eigenvectors().row(static_cast<Eigen::Index>(i)).transpose();
