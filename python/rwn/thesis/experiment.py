@@ -17,7 +17,7 @@ class Row:
 
     where: "Table 1", "Figure 30".  case: what the line is about.
     thesis: the thesis's number, None where it gives none.
-    ours: our number (the median over seeds), None if the run diverged or could not be done.
+    ours: our number (the median over seeds), None if the run diverged or could not be done; `missing` says it.
     spread: smallest and largest over the seeds.
     count: iterations, cycles, seeds, in words.
     judge: how the word is computed, a name in `rwn.thesis.words`.
@@ -38,6 +38,7 @@ class Row:
     group: str = ""
     reason: str = ""
     unit: str = ""
+    missing: str = "diverged"
 
 
 @dataclass(frozen=True, kw_only=True)
