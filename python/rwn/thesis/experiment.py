@@ -33,7 +33,7 @@ class Row:
     ours: float | None
     spread: tuple[float, float] | None = None
     count: str = ""
-    judge: Literal["factor-2", "percentage-point", "wanted", "claim", "none"] = "factor-2"
+    judge: Literal["factor-2", "percentage-point", "wanted", "claim", "coverage", "none"] = "factor-2"
     wanted: float | None = None
     group: str = ""
     reason: str = ""

@@ -21,12 +21,13 @@ SYMBOLS = {"viscous_friction": "B", "inertia": "J", "torque_constant": "Kt"}
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """A start: the wrong values by motor parameter, the thesis's final errors [%], the true B."""
+    """A start: the wrong values by motor parameter, the thesis's final errors [%], the true B, the voltage."""
 
     label: str
     start: dict[str, float]
     thesis: dict[str, float | None]
     viscous: float = MOTOR.viscous_friction
+    volts: float = 1.0
 
     @property
     def learn(self) -> tuple[str, ...]:
@@ -38,8 +39,8 @@ class Case:
         return linear_network(**{"viscous_friction": self.viscous, **self.start})
 
     def recording(self) -> tuple[Array, Array]:
-        """Voltage (1 V chirp, 0-4 Hz, 1 s) and speed of the true motor."""
-        u = chirp(1.0, 0.0, 4.0)
+        """Voltage (chirp 0-4 Hz, 1 s, of `volts`) and speed of the true motor."""
+        u = chirp(self.volts, 0.0, 4.0)
         return u, linear_network(viscous_friction=self.viscous).simulate(u, 0 * u)
 
     def errors(self, network: rwn.StructuredNetwork) -> dict[str, float]:
