@@ -128,7 +128,7 @@ def one(kind: str, settings: Settings) -> tuple[list[Row], list[Figure]]:
 
     def first_rates(samples: int) -> Array:
         part = rwn.train_recurrent(net, x[:samples], target[:samples], rates=thesis_rule(0.05))
-        return part.rates[-1]
+        return part.rates
 
     first = first_cycle_panel(first_rates, len(target), SHAPES)
     figures = [

@@ -80,7 +80,9 @@ def run(settings: Settings) -> Outcome:
         missed = ~there["fixed rates"]
         count = f"{seeds} seeds, {cycles} cycles"
         for name, hits in there.items():
-            rows.append(Row(where=where, case=f"share that converges, {name}", ours=float(hits.mean()), judge="none", count=count))
+            share = float(hits.mean())
+            case_name = f"share that converges, {name}"
+            rows.append(Row(where=where, case=case_name, ours=share, judge="none", count=count))
         rows += [
             Row(
                 where=where,

@@ -2,8 +2,9 @@
 
 Cases and excitation of Tables 17 and 18: for every fraction of the bound and every initial error of J
 (the other parameter off by the same, the other way), 50 cycles of each rule; "converged" is within 1 %
-at the end, "stalled" finite but not there. The guarded trainer begins with the fraction and steers it. The recursive Gauss-Newton trainer has 5 cycles. Picture:
-log10 of the largest error at the end, in percent, cut to [-6, 3]; diverged is 3.
+at the end, "stalled" finite but not there. The guarded trainer begins with the fraction and steers it;
+recursive Gauss-Newton has 5 cycles. Picture: log10 of the largest error at the end, in percent, cut to
+[-6, 3]; diverged is 3.
 """
 
 from __future__ import annotations

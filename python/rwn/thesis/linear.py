@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-import numpy as np
-
 import rwn
 from rwn.arrays import Array
 from rwn.rates import RateRule, Thesis
@@ -104,7 +102,7 @@ def better(where: str, case: Case, *, wanted: float, recursive: RecursiveGaussNe
 def first_rates(case: Case, rule: Thesis, samples: int) -> Array:
     """Rates after so many samples of the first cycle."""
     u, y = (signal[:samples] for signal in case.recording())
-    return rwn.train_structured(case.network(), u, y, learn=case.learn, rates=rule).rates[-1]
+    return rwn.train_structured(case.network(), u, y, learn=case.learn, rates=rule).rates
 
 
 def figures(

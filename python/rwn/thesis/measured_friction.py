@@ -53,7 +53,7 @@ def first_cycle(wavelets: int, speed: Array) -> Panel:
     def train(samples: int) -> Array:
         x = speed[:samples]
         rule = thesis_rule(0.002)
-        return rwn.train_recurrent(start(speed, wavelets, 0), x, torque(x), rates=rule).rates[-1]
+        return rwn.train_recurrent(start(speed, wavelets, 0), x, torque(x), rates=rule).rates
 
     return first_cycle_panel(train, len(speed), SHAPES)
 

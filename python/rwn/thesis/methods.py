@@ -10,9 +10,9 @@ import numpy as np
 import rwn
 from rwn.arrays import Array
 from rwn.rates import ImpulseResponse, Normalised, RateRule, Thesis
+from rwn.thesis.drive import linear_network
 from rwn.thesis.experiment import Row
 from rwn.thesis.linear import Case, thesis_rule
-from rwn.thesis.drive import linear_network
 from rwn.trainers import GuardedDescent, RecursiveGaussNewton, StructuredLevenbergMarquardt
 
 Path = Callable[[Case, int], Array]  # v1..v5 after 0, 1, 2 ... passes (passes + 1, 5)

@@ -10,12 +10,14 @@ import numpy as np
 
 import rwn
 from rwn.arrays import Array
+from rwn.initialisation import StructuredSelection
 from rwn.thesis.drive import T
 from rwn.thesis.experiment import Row, median_row
 from rwn.trainers import StructuredFit, StructuredLevenbergMarquardt
 
 RATIOS = (60.0, 50.0, 40.0, 30.0, 20.0, 10.0)  # signal to noise [dB]
-WAVELETS, NARROWEST, SIZE = 31, 0.1, 0.1  # number; first translation [rad/s]; expected size of w [N m]
+FEWEST, MOST = 7, 31  # wavelets; the noise decides between them
+SIZE = 0.1  # expected of every w [N m]
 Feed = Literal["simulated", "smoothed", "measured"]
 
 
@@ -29,13 +31,6 @@ def smoothed(x: Array, width: int = 41) -> Array:
     """Moving average, centred."""
     padded = np.pad(x, width // 2, mode="edge")
     return np.convolve(padded, np.full(width, 1 / width), mode="valid")
-
-
-def shapes(fastest: float) -> tuple[Array, Array]:
-    """Translations and dilations that lie denser towards standstill, where friction changes fastest."""
-    half = np.geomspace(NARROWEST, fastest, WAVELETS // 2)
-    m = np.concatenate([-half[::-1], [0.0], half])
-    return m, np.gradient(m)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,29 +49,54 @@ class Noisy:
         return smoothed(self.speed)
 
     def fit(self, motor: rwn.MotorParameters, linear: tuple[str, ...], feed: Feed, steps: int) -> StructuredFit:
-        """Levenberg-Marquardt on the linear parameters and w; m and d are held.
+        """Levenberg-Marquardt from selected wavelets, as many as the noise lets one see.
 
         `simulated` first fits with the smoothed speed as the network's input, then with the speed that the model
-        itself simulates, which no noise of the measurement reaches.
+        itself simulates, which no noise of the measurement reaches; m and d move in the last stage.
         """
         source = self.speed if feed == "measured" else self.source
-        m, d = shapes(float(np.quantile(np.abs(self.source), 0.999)))
-        network = rwn.StructuredNetwork.from_motor(motor, sample_time=T, w=0 * m, m=m, d=d, c=0 * m)
+        network = self.select(motor, linear, source)
         trainer = StructuredLevenbergMarquardt(iterations=steps, tolerance=1e-8, ridge=self.noise / SIZE)
-        given = {"current": self.current, "current_weight": self.noise / self.noise_current}
         learn = (*linear, "w")
-        first = trainer.fit(network, self.voltage, self.speed, learn=learn, network_speed=source, **given)
-        if feed != "simulated":
-            return first
-        return replace(trainer, weights_first=False).fit(
-            first.network,
+        best = self.step(trainer, network, learn, source, "measured")
+        if feed == "simulated":
+            for moving in (learn, (*learn, "m", "d")):
+                further = replace(trainer, weights_first=False)
+                best = self.step(further, best.network, moving, source, "simulated")
+        return best
+
+    def step(
+        self,
+        trainer: StructuredLevenbergMarquardt,
+        network: rwn.StructuredNetwork,
+        learn: tuple[str, ...],
+        source: Array,
+        feed: Literal["measured", "simulated"],
+    ) -> StructuredFit:
+        """One fit of some groups."""
+        return trainer.fit(
+            network,
             self.voltage,
             self.speed,
             learn=learn,
             network_speed=source,
-            feed="simulated",
-            **given,
+            feed=feed,
+            current=self.current,
+            current_weight=self.noise / self.noise_current,
         )
+
+    def select(
+        self, motor: rwn.MotorParameters, linear: tuple[str, ...], source: Array
+    ) -> rwn.StructuredNetwork:
+        """The motor with wavelets selected until the next would explain no more than noise; at least FEWEST."""
+        wrong = rwn.StructuredNetwork.from_motor(motor, sample_time=T)
+        for way, most in ((StructuredSelection(noise=self.noise), MOST), (StructuredSelection(), FEWEST)):
+            network = way.start(
+                wrong, self.voltage, self.speed, wavelets=most, linear=linear, network_speed=source
+            )
+            if network.wavelets >= FEWEST:
+                break
+        return network
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,18 +113,21 @@ class Estimate:
 
 
 def rows_of(where: str, case: str, found: Sequence[Estimate], *, goal: float | None = None) -> list[Row]:
-    """Median error and, with a `goal`, bias (the mean error) of every parameter, and the share of intervals that hold."""
+    """Median error of every parameter (with a `goal` its bias, the mean error, too), and the share of intervals
+    that hold."""
     count = f"{len(found)} seeds"
     rows = []
     for name in found[0].error:
         values = [e.error[name] for e in found]
         sizes = [abs(v) for v in values]
-        rest = {"unit": "%", "count": count}
-        rows.append(median_row(where, f"{case}: error of {name}", None, sizes, judge="none", **rest))
+        title = f"{case}: error of {name}"
+        rows.append(median_row(where, title, None, sizes, judge="none", unit="%", count=count))
         if goal is not None:
             bias = abs(float(np.mean(values)))
             about = f"{case}: bias of {name}, to {1.96 * np.std(values) / np.sqrt(len(values)):.2g} %"
-            rows.append(Row(where=where, case=about, ours=bias, judge="wanted", wanted=goal, **rest))
+            rows.append(
+                Row(where=where, case=about, ours=bias, judge="wanted", wanted=goal, unit="%", count=count)
+            )
     intervals = [c for e in found for c in e.covered]
     share = float(np.mean(intervals))
     case = f"{case}: share of 95 % intervals that hold"

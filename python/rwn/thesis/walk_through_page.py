@@ -109,7 +109,7 @@ def table(fits: dict[str, Found]) -> str:
 
 def figures(walked: WalkThrough) -> list[Figure]:
     """The pictures of the page."""
-    speed, (recording, noisy_fit) = walked.speed, walked.noisy
+    speed, (_, noisy_fit) = walked.speed, walked.noisy
     time = T * np.arange(len(speed))
     w = np.linspace(float(speed.min()), float(speed.max()), 600)
     test_u, test = walked.test

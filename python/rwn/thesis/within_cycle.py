@@ -12,14 +12,14 @@ from rwn.thesis.drive import T
 from rwn.thesis.experiment import Figure, Panel, curve
 
 SHAPES = {"m = mu c": 3, "d": 4}  # groups of the recurrent network whose rates the thesis draws
-Training = Callable[[int], Array]  # rates (groups,) at the end of a cycle over the first n samples
+Training = Callable[[int], Array]  # rates (1, groups) of one cycle that stops after n samples
 
 
 def first_cycle_panel(train: Training, samples: int, groups: dict[str, int], title: str = "") -> Panel:
     """Rates of some groups (label, index) over the first cycle. The rates after n samples are those at the end
     of a cycle that stops there, so the cycle is begun once for every point of the curve."""
     ends = np.unique(np.geomspace(20, samples, 60).astype(int))
-    rates = np.array([train(int(n)) for n in ends])
+    rates = np.vstack([train(int(n)) for n in ends])
     name = "first cycle" if not title else f"{title}, first cycle"
     return Panel(
         xlabel="time [s]",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -56,7 +56,7 @@ class GuardedDescent:
     """
 
     name: ClassVar[str] = "guarded-descent"
-    rates: ImpulseResponse | Normalised | Thesis = ImpulseResponse()
+    rates: ImpulseResponse | Normalised | Thesis = field(default_factory=ImpulseResponse)
     grow: float = 2.0
     cut: float = 0.25
     cycles: int = 50
@@ -83,7 +83,9 @@ class GuardedDescent:
         """
         u, y = as_signals(voltage, speed)
         groups, fraction, mse = tuple(learn), self._first(network), [network.mse(u, y, start=start)]
-        linear, fractions, kept = [network.v], [], []
+        linear = [network.v]
+        fractions: list[float] = []
+        kept: list[bool] = []
         while len(kept) < self.cycles and fraction > 1e-12:
             run = train_structured(
                 network,
