@@ -10,7 +10,8 @@ import rwn
 from rwn.arrays import Array
 from rwn.initialisation import StructuredSelection
 from rwn.thesis.drive import MOTOR, chirp, error_percent, linear_network, sine, speed_with_friction
-from rwn.thesis.noisy import Noisy, noisy
+from rwn.thesis.noisy import Noisy
+from rwn.thesis.noisy import noisy as with_noise
 from rwn.thesis.simultaneous import WRONG, total_slope, true_torque
 from rwn.trainers import StructuredFit, StructuredLevenbergMarquardt
 
@@ -24,7 +25,8 @@ class WalkThrough:
     believed: rwn.StructuredNetwork
     selected: rwn.StructuredNetwork
     fit: StructuredFit
-    without_gauge: StructuredFit
+    linear: tuple[StructuredFit, StructuredFit]
+    loose: StructuredFit
     noisy: tuple[Noisy, StructuredFit]
     test: tuple[Array, Array]
 
@@ -45,17 +47,30 @@ def select(believed: rwn.StructuredNetwork, voltage: Array, speed: Array) -> rwn
     return StructuredSelection().start(believed, voltage, speed, wavelets=15, linear=("v1", "v2"))
 
 
-def fit(selected: rwn.StructuredNetwork, voltage: Array, speed: Array, *, gauge: bool = True) -> StructuredFit:
-    """B, J, weights, translations and dilations at once, in 60 iterations."""
+def weigh(
+    selected: rwn.StructuredNetwork, voltage: Array, speed: Array, *, gauge: bool
+) -> StructuredFit:
+    """Only B, J and the weights: what the linear part of the problem determines, with the gauge and without."""
     trainer = StructuredLevenbergMarquardt(iterations=60, gauge=gauge)
+    return trainer.fit(selected, voltage, speed, learn=("v1", "v2", "w"))
+
+
+def fit(selected: rwn.StructuredNetwork, voltage: Array, speed: Array) -> StructuredFit:
+    """B, J, weights, translations and dilations at once, in 60 iterations."""
+    trainer = StructuredLevenbergMarquardt(iterations=60)
     return trainer.fit(selected, voltage, speed, learn=("v1", "v2", "w", "m", "d"))
 
 
 def fit_noisy(voltage: Array, speed: Array, decibel: float = 40.0) -> tuple[Noisy, StructuredFit]:
     """The same from a noisy speed: the network is fed with the speed that the model simulates."""
-    measured, sigma = noisy(speed, decibel, np.random.default_rng(0))
+    measured, sigma = with_noise(speed, decibel, np.random.default_rng(0))
     recording = Noisy(voltage=voltage, speed=measured, noise=sigma)
     return recording, recording.fit(WRONG, ("v1", "v2"), "simulated", 60)
+
+
+def fit_loose(selected: rwn.StructuredNetwork, recording: Noisy) -> StructuredFit:
+    """What noise does without a gauge, the network fed with the measured speed, as in the thesis."""
+    return weigh(selected, recording.voltage, recording.speed, gauge=False)
 
 
 def walk() -> WalkThrough:
@@ -63,6 +78,7 @@ def walk() -> WalkThrough:
     voltage, speed = record()
     believed = believe()
     selected = select(believed, voltage, speed)
+    noisy = fit_noisy(voltage, speed)
     other = sine(1.0, 1.0)
     return WalkThrough(
         voltage=voltage,
@@ -70,8 +86,12 @@ def walk() -> WalkThrough:
         believed=believed,
         selected=selected,
         fit=fit(selected, voltage, speed),
-        without_gauge=fit(selected, voltage, speed, gauge=False),
-        noisy=fit_noisy(voltage, speed),
+        linear=(
+            weigh(selected, voltage, speed, gauge=False),
+            weigh(selected, voltage, speed, gauge=True),
+        ),
+        loose=fit_loose(selected, noisy[0]),
+        noisy=noisy,
         test=(other, speed_with_friction(other)),
     )
 
