@@ -86,7 +86,12 @@ def run(settings: Settings) -> Outcome:
                 ylabel="log10 fraction",
                 title=name,
                 surface=Surface(
-                    x=errors, y=np.log10(fractions).tolist(), z=z, flat=True, label="log10 error [%]"
+                    x=errors,
+                    y=np.log10(fractions).tolist(),
+                    z=z,
+                    flat=True,
+                    label="log10 error [%]",
+                    limits=(-6.0, 3.0),
                 ),
             )
             for name, z in maps.items()

@@ -53,7 +53,7 @@ class Curve:
 
 @dataclass(frozen=True, kw_only=True)
 class Surface:
-    """z (len(y), len(x)) over a grid; drawn as a surface or, flat, as a colour map."""
+    """z (len(y), len(x)) over a grid; drawn as a surface or, flat, as a colour map between `limits`."""
 
     x: list[float]
     y: list[float]
@@ -61,6 +61,7 @@ class Surface:
     label: str = ""
     flat: bool = False
     log: bool = False
+    limits: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
