@@ -130,7 +130,7 @@ def _same_constant(nominal: Nominal) -> bool:
 
 def _free_unknown(name: str) -> Unknown:
     parameter = motor_parameters()[name]
-    return Unknown(name=name, unit=parameter.unit, index=motor_index(name), lower=-1e9, upper=1e9)
+    return Unknown(name=name, unit=parameter.unit, index=motor_index(name), lower=-1e9, upper=1e9, nuisance=True)
 
 
 def _effect_unknown(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapping[str, float]) -> Unknown:

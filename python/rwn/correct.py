@@ -15,7 +15,7 @@ from rwn.model import Model
 from rwn.search import Fitted
 
 if TYPE_CHECKING:
-    from rwn.diagnose import Explanation
+    from rwn.explain import Explanation
 
 Array = NDArray[np.float64]
 
@@ -35,6 +35,8 @@ def estimates(fitted: Fitted, variance: float, correlation_time: float) -> dict[
     spread = deviations(fitted, variance, correlation_time)
     found = {}
     for u, value, std in zip(fitted.candidate.unknowns, fitted.minimum.values, spread, strict=True):
+        if u.nuisance:
+            continue
         if u.logarithmic and value > 0.0:
             factor = float(np.exp(min(1.96 * std / value, 50.0)))
             interval = (max(value / factor, u.lower), min(value * factor, u.upper))

@@ -17,7 +17,7 @@ from rwn.locate import Unknown, regions, unknown_inputs
 from rwn.output_error import OutputError
 
 if TYPE_CHECKING:
-    from rwn.diagnose import Explanation
+    from rwn.explain import Explanation
 
 Array = NDArray[np.float64]
 MOST_POINTS = 4000  # of one line

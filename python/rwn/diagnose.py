@@ -1,48 +1,32 @@
-"""The main job: refit, locate, name, model, show."""
+"""The main job: undo mistakes, refit, locate, name, model, show."""
 
 from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from rwn import curves, evidence
+from rwn import curves, excitation, mistakes
 from rwn._core import __version__
-from rwn.correct import corrected_model, found_effects, nominal_fit
-from rwn.diagnosis import Alternative, Diagnosis, HeldoutRow, Location, Verdict
+from rwn.correct import corrected_model, deviations, found_effects, nominal_fit
+from rwn.diagnosis import Alternative, Diagnosis, Estimate, FoundEffect, HeldoutRow, Location, Verdict
 from rwn.effects import table
-from rwn.evidence import Hypothesis, Statistics
+from rwn.evidence import Hypothesis
 from rwn.experiments import separated_by
-from rwn.heldout import Contender, heldout_rows
-from rwn.locate import Unknown, regions, unknown_inputs
+from rwn.explain import Explanation, Progress, explain
+from rwn.locate import regions, unknown_inputs
+from rwn.mistakes import Mistake
 from rwn.model import Model
-from rwn.output_error import Target
-from rwn.prepare import Setup, noise_levels, prepare, target
+from rwn.prepare import prepare, target
+from rwn.proof import hurts, proved
+from rwn.quantisation import speed_resolution
 from rwn.recording import Recording
-from rwn.search import Fitted, Search
-
-Array = NDArray[np.float64]
-Progress = Callable[[str, float], None]
 
 REMOVED = 0.85  # share of the removable squared error that a name has to remove
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
-WORTH = 0.2  # share of what is left that another effect has to remove
-MOST_EFFECTS = 3
-
-
-@dataclass(frozen=True, kw_only=True)
-class Explanation:
-    """What the search came to: every hypothesis with its probability, best first."""
-
-    setup: Setup
-    nominal: Fitted
-    hypotheses: tuple[Hypothesis, ...]
-    left: Statistics  # residual of the best
-    before: Statistics  # residual of the refitted nominal
+QUANTISATION = "sensor-quantization"
 
 
 def diagnose(
@@ -59,7 +43,7 @@ def diagnose(
     Args:
         recordings: runs to judge the model from, SI, time first.
         model: the nominal model with its declared uncertainty.
-        heldout: runs used for proof alone; without them nothing is proved, and a warning says so.
+        heldout: runs used for proof alone; without them every recording is judged by fits that did not see it.
         seed: of the block bootstrap; the result depends on input and seed alone.
         jobs: threads (default: all processors); the result does not depend on it.
         progress: called with what is being done and how far it is, 0 to 1.
@@ -69,120 +53,51 @@ def diagnose(
     """
     began = time.perf_counter()
     say = progress or _silent
-    say("refitting the nominal model", 0.0)
-    setup = prepare(recordings, model)
-    found = explain(setup, jobs=jobs or os.cpu_count() or 1, progress=say)
-    say("proving it on held-out data", 0.85)
+    jobs = jobs or os.cpu_count() or 1
+    say("looking for mistakes in the recordings", 0.0)
+    made, recordings = _undone(recordings, model)
+    say("refitting the nominal model", 0.05)
+    found = explain(prepare(recordings, model), jobs=jobs, progress=say)
+    late = _late(found, recordings, model)
+    if late:
+        made, recordings = [*made, late], [late.undo(r) for r in recordings]
+        found = explain(prepare(recordings, model), jobs=jobs, progress=say)
+    say("proving it on data that were not fitted", 0.85)
+    for mistake in made:
+        heldout = [mistake.undo(r) for r in heldout]
     proof = [target(r, model) for r in heldout]
     chosen = _choose(found)
     verdict = verdict_of(found, chosen)
-    rows = _prove(found, chosen, proof, model, seed)
-    if chosen.fitted.added and (verdict != "missing-physics" or _hurts(rows)):
+    rows = proved(found, chosen, proof, model, seed=seed)
+    if chosen.fitted.added and (verdict != "missing-physics" or hurts(rows)):
         # a name that is not given is not shown, proved or written to corrected.toml either
         chosen = next(h for h in found.hypotheses if not h.fitted.added)
         verdict = verdict if verdict == "unexplained" else _without_a_name(found)
-        rows = _prove(found, chosen, proof, model, seed)
+        rows = proved(found, chosen, proof, model, seed=seed)
     say("drawing", 0.95)
-    unknown = [unknown_inputs(found.setup.whole, found.nominal.vector, t) for t in found.setup.whole.targets]
-    return _report(found, chosen, verdict, rows, unknown, model, seed, time.perf_counter() - began)
-
-
-def _without_a_name(found: Explanation) -> Verdict:
-    """The verdict where held-out recordings refuse every name."""
-    return "adequate" if found.before.at_the_floor else "unexplained"
+    return _report(found, chosen, verdict, made, rows, model, seed, time.perf_counter() - began)
 
 
 def _silent(what: str, done: float) -> None:
     """Progress that nobody asked for."""
 
 
-def explain(
-    setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None
-) -> Explanation:
-    """Fits the nominal model, every single effect, and what still helps beside the best ones."""
-    search = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales, jobs=jobs)
-    search = _with_noise(search, search.fit_nominal())
-    nominal = search.fit_nominal()
-    wanted = [n for n in names or table() if _applies(n, setup)]
-    progress("trying every effect", 0.1)
-    fits = search.explain(nominal, wanted)
-    if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
-        offset = next(f for f in search.explain(nominal, ["constant-load"]))
-        fits = _distinct([*fits, *search.explain(offset, wanted)])
-    search, nominal, fits = _reweighted(search, nominal, fits)
-    before = evidence.statistics(search.problem, nominal)
-    best = min([nominal, *fits], key=lambda f: f.cost)
-    left = evidence.statistics(search.problem, best)
-    layer = fits[:3]
-    for size in range(2, MOST_EFFECTS + 1):
-        if left.at_the_floor or not layer:
-            break
-        progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
-        more = [f for base in layer for f in search.explain(base, wanted, keep=1)]
-        more = _distinct(more)
-        gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
-        if gained < WORTH * left.variance:
-            break
-        fits += more
-        best = min(fits, key=lambda f: f.cost)
-        left = evidence.statistics(search.problem, best)
-        layer = sorted(more, key=lambda f: f.cost)[:2]
-    search, nominal, fits = _reweighted(search, nominal, fits)
-    best = min([nominal, *fits], key=lambda f: f.cost)
-    left = evidence.statistics(search.problem, best)
-    hypotheses = evidence.weigh([nominal, *fits], left, rivals=len(wanted), prior=_prior(setup))
-    return Explanation(
-        setup=replace(setup, problem=search.problem, whole=replace(setup.whole, noise=search.problem.noise)),
-        nominal=nominal,
-        hypotheses=tuple(hypotheses),
-        left=left,
-        before=before,
-    )
+def _undone(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
+    """At most two gross mistakes, and the recordings without them."""
+    made: list[Mistake] = []
+    right = list(recordings)
+    while len(made) < 2 and (mistake := mistakes.gross(right, model)):
+        made.append(mistake)
+        right = [mistake.undo(r) for r in right]
+    return made, right
 
 
-def _applies(name: str, setup: Setup) -> bool:
-    """Whether an effect can be told at all from these signals and this model."""
-    effect = table()[name]
-    axis = setup.problem.kind == "axis"
-    if axis and effect.site in ("voltage", "flux"):
-        return False
-    if any(p.lattice for p in effect.parameters):
-        return False  # read off the values, not fitted
-    if name == "viscous-friction":
-        return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
-    signals = {s for t in setup.problem.targets for s in t.recorded}
-    return not (effect.site == "sensor" and "speed" not in signals)
-
-
-def _prior(setup: Setup) -> dict[str, float]:
-    """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis."""
-    return {"constant-load": np.log(len(table())) + 1.0 if setup.problem.kind == "axis" else -3.0}
-
-
-def _with_noise(search: Search, fitted: Fitted) -> Search:
-    problem = search.problem
-    levels = noise_levels(problem.targets, problem.residuals(fitted.vector, fitted.candidate.active))
-    return replace(search, problem=replace(problem, noise=levels))
-
-
-def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
-    """The same fits under the noise levels that the best one leaves, where they differ."""
-    best = min([nominal, *fits], key=lambda f: f.cost)
-    other = _with_noise(search, best)
-    change = max(abs(np.log(v / search.problem.noise[s])) for s, v in other.problem.noise.items())
-    if change < 0.03:
-        return search, nominal, fits
-    kept = fits[:12]
-    again = [other.refit(f, other.problem) for f in [nominal, *kept]]
-    return other, again[0], sorted(again[1:], key=lambda f: f.cost)
-
-
-def _distinct(fits: list[Fitted]) -> list[Fitted]:
-    """Each set of effects once."""
-    seen: dict[frozenset[str], Fitted] = {}
-    for f in sorted(fits, key=lambda f: f.cost):
-        seen.setdefault(frozenset(f.added), f)
-    return list(seen.values())
+def _late(found: Explanation, recordings: Sequence[Recording], model: Model) -> Mistake | None:
+    """A mistake that physics might explain as well, and does not."""
+    if found.nominal.cost < 1.1 * found.before.count:
+        return None
+    best = min(h.fitted.cost for h in found.hypotheses)
+    return mistakes.fine(recordings, model, noise=found.setup.problem.noise, rival=best)
 
 
 def _choose(found: Explanation) -> Hypothesis:
@@ -194,39 +109,28 @@ def _choose(found: Explanation) -> Hypothesis:
 
 
 def verdict_of(found: Explanation, chosen: Hypothesis) -> Verdict:
-    """Found, nothing missing, or something without a name."""
+    """Found, nothing missing, something without a name, or nothing to be learned from these recordings."""
     nominal = next(h for h in found.hypotheses if not h.fitted.added)
     count = max(found.left.count, 1)
     before, after = nominal.fitted.minimum.chi2 / count, chosen.fitted.minimum.chi2 / count
     left_over = not found.left.at_the_floor
     if not chosen.fitted.added:
-        return "unexplained" if left_over and after > 1.0 + 2.0 * MATERIAL else "adequate"
+        if left_over and after > 1.0 + 2.0 * MATERIAL:
+            return "unexplained"
+        return "insufficient-excitation" if _nothing_learned(found) else "adequate"
     removed = 1.0 - max(after - 1.0, 0.0) / max(before - 1.0, 1e-12)
     return "unexplained" if left_over and removed < REMOVED else "missing-physics"
 
 
-def _prove(
-    found: Explanation, chosen: Hypothesis, proof: Sequence[Target], model: Model, seed: int
-) -> tuple[HeldoutRow, ...]:
-    setup = found.setup
-    given = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales).fit_start()
-    nominal = Contender(vector=given.vector, active=tuple(given.active))
-    refitted = Contender(vector=found.nominal.vector, active=tuple(found.nominal.candidate.active))
-    corrected = None
-    if chosen.fitted.added:
-        corrected = Contender(vector=chosen.fitted.vector, active=tuple(chosen.fitted.candidate.active))
-    units = {
-        "current": "A",
-        "speed": "m/s" if model.linear else "rad/s",
-        "position": "m" if model.linear else "rad",
-    }
-    return heldout_rows(setup.whole, proof, nominal, refitted, corrected, units=units, seed=seed)
+def _without_a_name(found: Explanation) -> Verdict:
+    """The verdict where data that were not fitted refuse every name."""
+    return "adequate" if found.before.at_the_floor else "unexplained"
 
 
-def _hurts(rows: Sequence[HeldoutRow]) -> bool:
-    """Whether the correction makes held-out simulation certainly worse."""
-    main = [r for r in rows if r.region == "all" and r.gain_interval is not None]
-    return bool(main) and all(r.gain_interval[1] < 0.0 for r in main if r.gain_interval)
+def _nothing_learned(found: Explanation) -> bool:
+    fitted = found.nominal
+    spread = deviations(fitted, found.before.variance, found.before.correlation_time)
+    return excitation.learns_nothing(fitted.candidate, spread, fitted.minimum.values)
 
 
 def ambiguous(found: Explanation, chosen: Hypothesis) -> tuple[Hypothesis, ...]:
@@ -246,16 +150,23 @@ def _report(
     found: Explanation,
     chosen: Hypothesis,
     verdict: Verdict,
+    made: Sequence[Mistake],
     rows: tuple[HeldoutRow, ...],
-    unknown: list[Unknown],
     model: Model,
     seed: int,
     elapsed: float,
 ) -> Diagnosis:
+    unknown = [unknown_inputs(found.setup.whole, found.nominal.vector, t) for t in found.setup.whole.targets]
     named = verdict == "missing-physics"
     same = ambiguous(found, chosen) if named else ()
-    effects = found_effects(found, chosen) if chosen.fitted.added and named else ()
-    names = tuple(dict.fromkeys([e.name for e in effects[:1]] + [_lead(h, chosen) for h in same[1:]]))
+    physics = found_effects(found, chosen) if chosen.fitted.added and named else ()
+    steps = _coarse_speed(found, chosen)
+    if steps and verdict in ("adequate", "missing-physics"):
+        physics, verdict = (*physics, steps), "missing-physics"
+    names = tuple(dict.fromkeys([e.name for e in physics[:1]] + [_lead(h, chosen) for h in same[1:]]))
+    effects = (*(m.found(0.99) for m in made), *physics)
+    if made:
+        verdict, names = "recording-mistake", tuple(m.name for m in made)
     equation = effects[0].equation if effects else ""
     where = regions(unknown, linear=model.linear)
     nominal = next(h for h in found.hypotheses if not h.fitted.added)
@@ -277,8 +188,8 @@ def _report(
         nominal_fit=nominal_fit(found, chosen, model),
         heldout=rows,
         curves=curves.plots(found, chosen, unknown, linear=model.linear),
-        warnings=_warnings(found, chosen, verdict, proved=bool(rows)),
-        next_experiment=separated_by(names) if len(names) > 1 else "",
+        warnings=_warnings(found, chosen, verdict, rows),
+        next_experiment=_next_experiment(found, verdict, names),
         adequate_probability=nominal.probability,
         seed=seed,
         version=__version__,
@@ -293,10 +204,39 @@ def _lead(h: Hypothesis, chosen: Hypothesis) -> str:
     return own[0] if own else h.fitted.added[0]
 
 
-def _warnings(found: Explanation, chosen: Hypothesis, verdict: Verdict, *, proved: bool) -> tuple[str, ...]:
+def _coarse_speed(found: Explanation, chosen: Hypothesis) -> FoundEffect | None:
+    """A speed signal that is rounded to steps, read off its values."""
+    problem = found.setup.problem
+    residuals = problem.residuals(chosen.fitted.vector, chosen.fitted.candidate.active)
+    steps = [
+        speed_resolution(t, r["speed"]) if "speed" in r else 0.0
+        for t, r in zip(problem.targets, residuals, strict=True)
+    ]
+    if not steps or min(steps) == 0.0:
+        return None
+    effect, step = table()[QUANTISATION], float(np.median(steps))
+    unit, interval = effect.parameters[0].unit, (min(steps) * 0.9999, max(steps) * 1.0001)
+    resolution = Estimate(value=step, unit=unit, interval=interval)
+    return FoundEffect(
+        name=QUANTISATION, equation=effect.mismatch, probability=0.99, formula=effect.equation, meaning=effect.meaning,
+        parameters={effect.parameters[0].name: resolution},
+    )  # fmt: skip
+
+
+def _next_experiment(found: Explanation, verdict: Verdict, names: Sequence[str]) -> str:
+    if verdict == "insufficient-excitation":
+        return excitation.advice(found.setup.whole.targets)
+    return separated_by(names) if len(names) > 1 else ""
+
+
+def _warnings(
+    found: Explanation, chosen: Hypothesis, verdict: Verdict, rows: Sequence[HeldoutRow]
+) -> tuple[str, ...]:
     texts = []
-    if verdict == "missing-physics" and not proved:
-        texts.append("no held-out recording was given: that the corrected model simulates better is not proved")
+    if verdict == "missing-physics" and rows and all("(left out)" in r.recording for r in rows):
+        texts.append(
+            "no held-out recording was given: the proof is by cross-validation, each part simulated by fits without it"
+        )
     if verdict == "missing-physics" and not found.left.at_the_floor:
         texts.append(
             f"something smaller is left over: the residual of the corrected model is coloured "

@@ -34,23 +34,28 @@ def heldout_rows(
     *,
     units: dict[str, str],
     seed: int,
+    first: int = 0,
 ) -> tuple[HeldoutRow, ...]:
-    """Rms free-run error of each recorded signal, whole and at low speed; block-bootstrap interval on the gain."""
+    """Rms free-run error of each recorded signal, whole and at low speed; block-bootstrap interval on the gain.
+
+    Samples before `first` are simulated but not judged: they were fitted.
+    """
     rows = []
     for target in targets:
         runs = [_errors(problem, target, c) for c in (nominal, refitted, corrected) if c is not None]
-        slow = _slow(target)
+        late = np.arange(target.time.size) >= first
+        slow = _slow(target) & late
         best = runs[-1]
         floor = noise_levels([target], [best])
         for signal in target.recorded:
-            for region, chosen in (("all", np.ones(slow.size, dtype=bool)), ("low speed", slow)):
+            for region, chosen in (("all", late), ("low speed", slow)):
                 if chosen.sum() < 20:
                     continue
                 parts = [run[signal][chosen] for run in runs]
                 rows.append(
                     _row(target, region, signal, units, parts, floor[signal], corrected is not None, seed)
                 )
-        if problem.kind == "axis":
+        if problem.kind == "axis" and first == 0:
             rows += _force_row(
                 problem, target, [c for c in (nominal, refitted, corrected) if c is not None], seed
             )

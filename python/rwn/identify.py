@@ -56,6 +56,6 @@ def _unseen(fitted: Fitted, variance: float, correlation_time: float) -> tuple[s
     rows = []
     for u, value, std in zip(fitted.candidate.unknowns, fitted.minimum.values, spread, strict=True):
         declared = u.prior_std * abs(u.prior) if u.prior else float("inf")
-        if std > 0.9 * declared or std > abs(value) > 0.0:
+        if not u.nuisance and (std > 0.9 * declared or std > abs(value) > 0.0):
             rows.append(u.name)
     return tuple(rows)

@@ -35,6 +35,7 @@ class Unknown:
     prior_std: float = np.inf  # relative where logarithmic or `prior` is not 0
     tied_to: str = ""  # another logarithmic unknown that has about the same value
     tie_std: float = np.inf  # relative standard deviation of their ratio
+    nuisance: bool = False  # of the recording, not of the drive: fitted, not reported
 
     def coordinate(self, value: float) -> float:
         """Search coordinate of a value."""

@@ -13,6 +13,7 @@ from rwn.effects import motor_index, motor_parameters
 from rwn.errors import InputError
 from rwn.model import Model
 from rwn.output_error import OutputError, Target
+from rwn.quantisation import counted, lattice, quantisation
 from rwn.recording import Recording
 from rwn.scales import scales
 
@@ -40,6 +41,9 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     _refuse_what_cannot_run(model)
     targets = tuple(target(r, model) for r in recordings)
     nominal = nominal_of(model)
+    if any(lattice(t.position) > 0.0 for t in targets) and model.recording.initial == "rest":
+        # a counter that was zeroed anywhere within a count: else the free run is off by up to one count for ever
+        nominal = replace(nominal, free={"initial_position": 0.0})
     whole = OutputError(
         kind=model.kind,
         targets=targets,
@@ -107,24 +111,11 @@ def target(recording: Recording, model: Model) -> Target:
         current=signals.get("current", empty) if model.kind == "dc" else empty,
         speed=speed,
         position=position,
-        speed_is_difference=lattice(speed) > 0.0,
+        speed_is_difference=counted(time, speed),
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
         angle=position if position.size else _integral(time, speed),
     )
-
-
-def lattice(signal: Array) -> float:
-    """The step of the lattice that the values lie on, as encoder counts and their differences do; 0: none."""
-    if signal.size < 20:
-        return 0.0
-    values = np.unique(np.round(signal, 9))
-    if values.size > signal.size / 3 or values.size < 3:
-        return 0.0
-    gaps = np.diff(values)
-    step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 30)]))
-    off = np.abs(values / step - np.round(values / step))
-    return step if np.percentile(off, 90) < 0.1 else 0.0
 
 
 def windowed(whole: Target, length: int = WINDOW) -> Target:
@@ -162,19 +153,12 @@ def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Arr
     """
     levels = {}
     for signal in residuals[0]:
-        counted = float(np.median([quantisation(t, signal) for t in targets]))
+        steps = float(np.median([quantisation(t, signal) for t in targets]))
         found = [_noise(r[signal]) for r in residuals if r[signal].size > 8]
-        levels[signal] = counted or max(float(np.median(found)) if found else 1.0, 1e-12)
+        rough = max(float(np.median(found)) if found else 1.0, 1e-12)
+        encoder = signal == "position" or any(t.speed_is_difference for t in targets)
+        levels[signal] = steps if steps and encoder else max(steps, rough)
     return levels
-
-
-def quantisation(target: Target, signal: str) -> float:
-    """Standard deviation of the quantisation of a counted signal; 0 where it is not counted.
-
-    q / sqrt(12) for counts; a central difference of counts has steps of q / 2T, and q / sqrt(24) / T.
-    """
-    step = lattice(target.signal(signal))
-    return float(step / np.sqrt(6.0 if signal == "speed" else 12.0))
 
 
 def _noise(residual: Array) -> float:

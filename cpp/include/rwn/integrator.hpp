@@ -273,7 +273,7 @@ class Integrator {
         rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration));
       }
     }
-    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 16);
+    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 32);
   }
 
   State step(const State& s, const S& h) { return varies_ ? nonlinear_step(s, h) : linear_step(s, h); }

@@ -1,0 +1,127 @@
+"""Fits the nominal model, every effect alone, and what still helps beside the best: hypotheses with probabilities."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rwn import evidence
+from rwn.effects import table
+from rwn.evidence import Hypothesis, Statistics
+from rwn.prepare import Setup, noise_levels
+from rwn.search import Fitted, Search
+
+Progress = Callable[[str, float], None]
+
+WORTH = 0.2  # share of what is left that another effect has to remove
+MOST_EFFECTS = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class Explanation:
+    """What the search came to: every hypothesis with its probability, best first."""
+
+    setup: Setup
+    nominal: Fitted
+    hypotheses: tuple[Hypothesis, ...]
+    left: Statistics  # residual of the best
+    before: Statistics  # residual of the refitted nominal
+
+
+def explain(
+    setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None
+) -> Explanation:
+    """Fits the nominal model, every single effect, and what still helps beside the best ones."""
+    search = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales, jobs=jobs)
+    search = _with_noise(search, search.fit_nominal())
+    nominal = search.fit_nominal()
+    wanted = [n for n in names or table() if _applies(n, setup)]
+    progress("trying every effect", 0.1)
+    fits = search.explain(nominal, wanted)
+    if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
+        offset = next(f for f in search.explain(nominal, ["constant-load"]))
+        fits = _distinct([*fits, *search.explain(offset, wanted)])
+    search, nominal, fits = _reweighted(search, nominal, fits)
+    before = evidence.statistics(search.problem, nominal)
+    best = min([nominal, *fits], key=lambda f: f.cost)
+    left = evidence.statistics(search.problem, best)
+    layer = fits[:3]
+    for size in range(2, MOST_EFFECTS + 1):
+        if left.at_the_floor or not layer:
+            break
+        progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
+        more = [f for base in layer for f in search.explain(base, wanted, keep=1)]
+        more = _distinct(more)
+        gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
+        if gained < WORTH * left.variance:
+            break
+        fits += more
+        best = min(fits, key=lambda f: f.cost)
+        left = evidence.statistics(search.problem, best)
+        layer = sorted(more, key=lambda f: f.cost)[:2]
+    search, nominal, fits = _reweighted(search, nominal, fits)
+    best = min([nominal, *fits], key=lambda f: f.cost)
+    left = evidence.statistics(search.problem, best)
+    hypotheses = evidence.weigh([nominal, *fits], left, rivals=len(wanted), prior=_prior(setup))
+    return Explanation(
+        setup=replace(setup, problem=search.problem, whole=replace(setup.whole, noise=search.problem.noise)),
+        nominal=nominal,
+        hypotheses=tuple(hypotheses),
+        left=left,
+        before=before,
+    )
+
+
+def _applies(name: str, setup: Setup) -> bool:
+    """Whether an effect can be told at all from these signals and this model."""
+    effect = table()[name]
+    axis = setup.problem.kind == "axis"
+    if axis and effect.site in ("voltage", "flux"):
+        return False
+    if any(p.lattice for p in effect.parameters):
+        return False  # read off the values, not fitted
+    if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
+        return _revolutions(setup) > 0.75  # what comes back once a revolution has to have come back
+    if name == "viscous-friction":
+        return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
+    signals = {s for t in setup.problem.targets for s in t.recorded}
+    return not (effect.site == "sensor" and "speed" not in signals)
+
+
+def _revolutions(setup: Setup) -> float:
+    """The longest travel of a recording in revolutions (metres on a linear axis)."""
+    spans = [float(np.ptp(t.angle)) for t in setup.problem.targets if t.angle.size]
+    return max(spans, default=np.inf) * setup.problem.angle_per_position / (2.0 * np.pi)
+
+
+def _prior(setup: Setup) -> dict[str, float]:
+    """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis."""
+    return {"constant-load": np.log(len(table())) + 1.0 if setup.problem.kind == "axis" else -3.0}
+
+
+def _with_noise(search: Search, fitted: Fitted) -> Search:
+    problem = search.problem
+    levels = noise_levels(problem.targets, problem.residuals(fitted.vector, fitted.candidate.active))
+    return replace(search, problem=replace(problem, noise=levels))
+
+
+def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
+    """The same fits under the noise levels that the best one leaves, where they differ."""
+    best = min([nominal, *fits], key=lambda f: f.cost)
+    other = _with_noise(search, best)
+    change = max(abs(np.log(v / search.problem.noise[s])) for s, v in other.problem.noise.items())
+    if change < 0.03:
+        return search, nominal, fits
+    kept = fits[:12]
+    again = [other.refit(f, other.problem) for f in [nominal, *kept]]
+    return other, again[0], sorted(again[1:], key=lambda f: f.cost)
+
+
+def _distinct(fits: list[Fitted]) -> list[Fitted]:
+    """Each set of effects once."""
+    seen: dict[frozenset[str], Fitted] = {}
+    for f in sorted(fits, key=lambda f: f.cost):
+        seen.setdefault(frozenset(f.added), f)
+    return list(seen.values())

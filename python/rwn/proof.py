@@ -1,0 +1,84 @@
+"""The proof of a correction: on held-out recordings, or where there are none on what each fit did not see."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from rwn.diagnosis import HeldoutRow
+from rwn.evidence import Hypothesis
+from rwn.explain import Explanation
+from rwn.heldout import Contender, heldout_rows
+from rwn.model import Model
+from rwn.output_error import OutputError, Target
+from rwn.search import Fitted, Search
+
+FITTED_PART = 0.7  # of a lone recording, when its rest has to serve as proof
+
+
+def proved(
+    found: Explanation, chosen: Hypothesis, heldout: Sequence[Target], model: Model, *, seed: int
+) -> tuple[HeldoutRow, ...]:
+    """Rows on the held-out recordings; without any, every recording is judged by fits that did not see it."""
+    if heldout:
+        return _rows(found, found.nominal, chosen.fitted, heldout, model, seed=seed)
+    rows: list[HeldoutRow] = []
+    for problem, target, first in _folds(found):
+        search = Search(problem=problem, nominal=found.setup.nominal, scales=found.setup.scales)
+        nominal = search.refit(found.nominal, problem)
+        fitted = search.refit(chosen.fitted, problem) if chosen.fitted.added else chosen.fitted
+        rows += _rows(found, nominal, fitted, [target], model, seed=seed, first=first)
+    return tuple(rows)
+
+
+def hurts(rows: Sequence[HeldoutRow]) -> bool:
+    """Whether the correction makes held-out simulation certainly worse."""
+    main = [r for r in rows if r.region == "all" and r.gain_interval is not None]
+    return bool(main) and all(r.gain_interval[1] < 0.0 for r in main if r.gain_interval)
+
+
+def _rows(
+    found: Explanation, refitted: Fitted, fitted: Fitted, targets: Sequence[Target], model: Model, *, seed: int,
+    first: int = 0,
+) -> tuple[HeldoutRow, ...]:  # fmt: skip
+    setup = found.setup
+    given = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales).fit_start()
+    units = {
+        "current": "A",
+        "speed": "m/s" if model.linear else "rad/s",
+        "position": "m" if model.linear else "rad",
+    }
+    return heldout_rows(
+        setup.whole,
+        targets,
+        Contender(vector=given.vector, active=tuple(given.active)),
+        _contender(refitted),
+        _contender(fitted) if fitted.added else None,
+        units=units,
+        seed=seed,
+        first=first,
+    )
+
+
+def _contender(fitted: Fitted) -> Contender:
+    return Contender(vector=fitted.vector, active=tuple(fitted.candidate.active))
+
+
+def _folds(found: Explanation) -> Iterator[tuple[OutputError, Target, int]]:
+    """(what is fitted, what is simulated, first sample that was not fitted), one recording left out at a time."""
+    problem, whole = found.setup.problem, found.setup.whole
+    if len(whole.targets) > 1:
+        for k, target in enumerate(whole.targets):
+            others = tuple(t for j, t in enumerate(problem.targets) if j != k)
+            yield replace(problem, targets=others), replace(target, name=f"{target.name} (left out)"), 0
+        return
+    first = int(FITTED_PART * whole.targets[0].time.size)
+    begin = whole.targets[0].time[first]
+    late = replace(whole.targets[0], name=f"{whole.targets[0].name} from {begin:.3g} s (left out)")
+    yield replace(problem, targets=(_until(problem.targets[0], first),)), late, first
+
+
+def _until(target: Target, end: int) -> Target:
+    """The first `end` samples."""
+    arrays = ("time", "input", "current", "speed", "position", "angle", "restart_speed", "restart_position")
+    return replace(target, **{name: getattr(target, name)[:end] for name in arrays})
