@@ -63,3 +63,11 @@ def test_too_small_a_library_is_named() -> None:
         StructuredSelection(levels=1).start(motor, u, y, wavelets=15)
     few = StructuredSelection(levels=6, noise=0.1).start(motor, u, y, wavelets=15)
     assert 0 < few.wavelets < 15
+
+
+def test_nothing_but_noise_selects_nothing() -> None:
+    rng = np.random.default_rng(3)
+    assert select(rng.normal(size=(500, 5)), rng.normal(size=500), np.empty((500, 0)), 5, noise=3.0) == []
+    u, y = drive(500)
+    motor = rwn.StructuredNetwork.from_motor(MOTOR, sample_time=SAMPLE_TIME)
+    assert StructuredSelection(noise=100.0).start(motor, u, y, wavelets=5).wavelets == 0

@@ -63,7 +63,7 @@ class StructuredSelection:
                 f"only {len(chosen)} of {wavelets} wavelets are independent on this recording: "
                 "take fewer wavelets or more levels"
             )
-        kept = np.array(chosen)
+        kept = np.array(chosen, dtype=np.intp)
         return StructuredNetwork(
             v=motor.v, w=0 * m[kept], m=m[kept], d=d[kept], c=0 * m[kept], wavelet=kind
         )

@@ -81,7 +81,7 @@ def run(settings: Settings) -> Outcome:
     """With and without the current, at 60 to 10 dB."""
     u = chirp(12.0, 0.1, 60.0)
     speed, current = simulate(u)
-    seeds, steps = settings.pick(24, 1), settings.pick(60, 2)
+    seeds, steps = settings.pick(12, 1), settings.pick(60, 2)
     rows: list[Row] = []
     cases: list[tuple[str, Feed, float]] = [("voltage, speed, current", "simulated", d) for d in RATIOS]
     cases += [("voltage, speed, current", "measured", 40.0), ("voltage, speed", "simulated", 40.0)]
