@@ -4,7 +4,7 @@ export PATH := $(CURDIR)/.venv/bin:$(PATH)
 JOBS ?= $(shell nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: demo demo-real test test-cpp test-python lint bench install install-test stubs develop clean
+.PHONY: demo demo-real test test-cpp test-sanitize test-python lint bench install install-test stubs develop clean
 
 install:
 	@./tools/setup.sh
@@ -32,6 +32,12 @@ test-cpp: install-test
 	cmake -S . -B build/test -DCMAKE_BUILD_TYPE=Release -DRWN_WERROR=ON -DRWN_BUILD_TESTS=ON >/dev/null
 	cmake --build build/test -j $(JOBS)
 	ctest --test-dir build/test --output-on-failure -j $(JOBS)
+
+# The C++ tests with the address and undefined-behaviour sanitizers. ISA: on any processor also the kernels of lesser ones.
+test-sanitize: install-test
+	cmake -S . -B build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DRWN_SANITIZE=ON -DRWN_BUILD_TESTS=ON >/dev/null
+	cmake --build build/sanitize -j $(JOBS)
+	for isa in baseline avx2 avx512; do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
 
 test-python: install-test
 	$(PY) -m pytest

@@ -157,7 +157,7 @@ def main() -> None:
 
     networks = [network(seed, span) for seed in range(SEEDS)]
     theta, many = np.array([n.theta for n in networks]), np.tile(rates, (SEEDS, 1))
-    together, _ = _core.train_side_by_side(theta, net.wavelet.core, many, u, y, start, cycles=1)
+    together, *_ = _core.train_side_by_side(theta, net.wavelet.core, many, u, y, start, cycles=1)
     for k, one in enumerate(networks):
         alone = core_cycle(one, u, y, rule)
         if not np.allclose(together[k], alone, rtol=1e-11):

@@ -5,7 +5,7 @@ if(NOT Eigen3_FOUND)
   foreach(_path IN LISTS CMAKE_PREFIX_PATH)
     list(APPEND _hints "${_path}/cmeel.prefix")
   endforeach()
-  find_package(Python QUIET COMPONENTS Interpreter)
+  find_package(Python QUIET COMPONENTS Interpreter Development.Module)  # both: pybind11 does not look again
   if(Python_Interpreter_FOUND)
     execute_process(
       COMMAND "${Python_EXECUTABLE}" -c "import sysconfig; print(sysconfig.get_path('purelib'))"

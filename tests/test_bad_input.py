@@ -338,6 +338,34 @@ def test_a_file_where_the_output_folder_goes(refuse: Callable[..., str], tmp_pat
     assert "this is a file" in refuse(_csv())
 
 
+def test_a_folder_that_takes_no_files(refuse: Callable[..., str], monkeypatch: pytest.MonkeyPatch) -> None:
+    def deny(**_: object) -> None:
+        raise OSError(30, "Read-only file system")
+
+    monkeypatch.setattr("rwn.output.tempfile.TemporaryFile", deny)
+    line = refuse(_csv())
+    assert "cannot be written" in line
+    assert "choose another --out" in line
+
+
+def test_a_disk_that_fills_while_writing(refuse: Callable[..., str], monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device", "diagnosis.json")
+
+    monkeypatch.setattr("rwn.diagnose", full)
+    line = refuse(_csv())
+    assert "diagnosis.json: No space left on device" in line
+    assert "; fix: " in line
+
+
+def test_no_command_shows_the_help(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(sys, "argv", ["rwn"])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    assert end.value.code == 2
+    assert "\n  diagnose " in capsys.readouterr().err
+
+
 def test_judging_by_the_fitted_recording(refuse: Callable[..., str]) -> None:
     assert "given twice" in refuse(_csv(), extra=("--heldout", "TMP/run.csv"))
 

@@ -31,7 +31,7 @@ def example(shared: Path, number: int) -> tuple[Diagnosis, dict[str, object]]:
 @pytest.fixture(scope="module")
 def demo() -> Diagnosis:
     model = rwn.read_model(DEMO / "model.toml")
-    return rwn.diagnose(read(DEMO, model, "train.csv"), model, heldout=read(DEMO, model, "heldout.csv"))
+    return rwn.diagnose(read(DEMO, model, "train.csv"), model, heldout=read(DEMO, model, "heldout.csv"), jobs=3)
 
 
 def test_the_demo_lacks_coulomb_friction_and_its_correction_predicts(demo: Diagnosis) -> None:

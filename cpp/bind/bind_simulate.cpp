@@ -78,7 +78,13 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
                             restart_every,
                             view(restart_speed),
                             view(restart_position)};
-  const SimulationOutput output{view(out[0]), view(out[1]), view(out[2]), view(out[3]), view(out[4]), view(out[5])};
+  const bool electrical = task.kind == Kind::dc;
+  if (!electrical) {  // an axis has no current: untouched zeros
+    const py::object zeros = py::module_::import("numpy").attr("zeros");
+    out[0] = zeros(n);
+    out[3] = zeros(py::make_tuple(n, p));
+  }
+  const SimulationOutput output{electrical ? view(out[0]) : std::span<double>{}, view(out[1]), view(out[2]), electrical ? view(out[3]) : std::span<double>{}, view(out[4]), view(out[5])};
   SimulationStatus status;
   {
     py::gil_scoped_release release;

@@ -39,8 +39,14 @@ std::string_view advice(OnlineStatus status) {
   return "Every cycle was run; judge the network by its frozen error, not by the error while learning.";
 }
 
+double divergence_limit(double mean_square, double first_mse) { return 1e6 * (mean_square + first_mse); }
+
+bool stands_still(const VectorRef& before, const VectorRef& after) {
+  return ((after - before).array().abs() <= 1e-12 * before.array().abs()).all();
+}
+
 OnlineWatch::OnlineWatch(OnlineHistory& history, double mean_square, double first_mse)
-    : history_(history), limit_(1e6 * (mean_square + first_mse)) {}
+    : history_(history), limit_(divergence_limit(mean_square, first_mse)) {}
 
 bool OnlineWatch::diverged(double mse, const Vector& theta) {
   history_.mse_learning.push_back(mse);
@@ -74,10 +80,6 @@ std::vector<double> as_vector(const std::array<double, N>& a) {
   return {a.begin(), a.end()};
 }
 
-bool stands_still(const Vector& before, const Vector& after) {
-  return ((after - before).array().abs() <= 1e-12 * before.array().abs()).all();
-}
-
 void reserve(OnlineHistory& history, int cycles) {
   const auto n = static_cast<std::size_t>(cycles);
   history.mse_learning.reserve(n);
@@ -85,13 +87,18 @@ void reserve(OnlineHistory& history, int cycles) {
   history.rates.reserve(n);
 }
 
-OnlineStatus judge(const OnlineHistory& history, bool still, double mean_square) {
-  return still && history.mse_frozen.back() > 1e-12 * mean_square ? OnlineStatus::stalled : OnlineStatus::completed;
+OnlineStatus judge(bool still, double mse_frozen, double mean_square) {
+  return still && mse_frozen > 1e-12 * mean_square ? OnlineStatus::stalled : OnlineStatus::completed;
 }
 
 PlantGain gain_of(const Eigen::Matrix2d& a) { return plant_gain(a(0, 0), a(0, 1), a(1, 0), a(1, 1)); }
 
 }  // namespace
+
+OnlineStatus judge(const StructuredNetwork& network, bool still, double mse_frozen, double mean_square) {
+  return gain_of(network.plant()).spectral_radius >= 1.0 ? OnlineStatus::unstable
+                                                         : judge(still, mse_frozen, mean_square);
+}
 
 StructuredTraining train(const StructuredNetwork& network, const StructuredSignals& signals, StructuredRates& rates,
                          const StructuredMask& learn, const OnlineOptions& options) {
@@ -132,8 +139,7 @@ StructuredTraining train(const StructuredNetwork& network, const StructuredSigna
   if (history.status == OnlineStatus::diverged) {
     keep_frozen(history, static_cast<int>(history.parameters.size()), mean_squared_error(out.network, signals));
   } else {
-    history.status = gain_of(out.network.plant()).spectral_radius >= 1.0 ? OnlineStatus::unstable
-                                                                         : judge(history, still, mean_square);
+    history.status = judge(out.network, still, history.mse_frozen.back(), mean_square);
   }
   return out;
 }
@@ -179,7 +185,7 @@ RecurrentTraining train(const RecurrentNetwork& network, const RecurrentSignals&
   if (history.status == OnlineStatus::diverged) {
     keep_frozen(history, static_cast<int>(history.rates.size()), mean_squared_error(out.network, signals));
   } else {
-    history.status = judge(history, still, mean_square);
+    history.status = judge(still, history.mse_frozen.back(), mean_square);
   }
   return out;
 }

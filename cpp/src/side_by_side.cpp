@@ -1,5 +1,6 @@
 // Several runs in the lanes of the vectors: the latency of one run's chain is hidden behind the others.
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "rwn/online_training.hpp"
@@ -35,12 +36,12 @@ class Batch {
   }
 
   double squares(Eigen::Index lane) const { return squares_[static_cast<std::size_t>(lane)]; }
-  void get(Eigen::Ref<RowMatrix> theta, Eigen::Index row, Eigen::Index lane) const {
+  void get(Eigen::Index lane, Vector& theta) const {
     for (Eigen::Index k = 0; k < StructuredNetwork::linear; ++k) {
-      theta(row, k) = linear_[static_cast<std::size_t>(k * width_ + lane)];
+      theta[k] = linear_[static_cast<std::size_t>(k * width_ + lane)];
     }
     for (Eigen::Index k = 0; k < 4 * wavelets_; ++k) {
-      theta(row, StructuredNetwork::linear + k) = network_[at(k, lane)];
+      theta[StructuredNetwork::linear + k] = network_[at(k, lane)];
     }
   }
 
@@ -68,30 +69,68 @@ class Batch {
   StructuredBlock block_;
 };
 
+/// What a lane has reached; a diverged one runs on in its lane, unheard.
+struct Lane {
+  Vector theta, next;
+  double limit, mse = std::numeric_limits<double>::infinity();
+  bool still = false, diverged = false;
+
+  void see(double new_mse) {
+    diverged = !(new_mse <= limit && next.allFinite() && usable());
+    if (diverged) return;
+    mse = new_mse;
+    still = stands_still(theta, next);
+    theta = next;
+  }
+  bool usable() const {
+    const Eigen::Index wavelets = (next.size() - StructuredNetwork::linear) / 4;
+    return (next.segment(StructuredNetwork::linear + 2 * wavelets, wavelets).array() != 0.0).all();
+  }
+};
+
+void check_sizes(const Eigen::Ref<const RowMatrix>& theta, const Eigen::Ref<const RowMatrix>& rates, int cycles) {
+  if (theta.rows() < 1 || rates.rows() != theta.rows() || rates.cols() != kStructuredGroups || cycles < 1) {
+    throw std::invalid_argument("theta (N, 5 + 4 N_w), rates (N, 9) and cycles >= 1 are expected");
+  }
+}
+
 }  // namespace
 
 SideBySide train_side_by_side(const Eigen::Ref<const RowMatrix>& theta, const Wavelet& wavelet,
                               const Eigen::Ref<const RowMatrix>& rates, const StructuredSignals& signals, int cycles) {
   check(signals);
-  if (theta.rows() < 1 || rates.rows() != theta.rows() || rates.cols() != kStructuredGroups || cycles < 1) {
-    throw std::invalid_argument("theta (N, 5 + 4 N_w), rates (N, 9) and cycles >= 1 are expected");
-  }
+  check_sizes(theta, rates, cycles);
+  const double samples = static_cast<double>(signals.samples());
+  const double mean_square = signals.speed.squaredNorm() / samples;
+  std::vector<Lane> runs;
   for (Eigen::Index row = 0; row < theta.rows(); ++row) {
-    StructuredNetwork(theta.row(row), wavelet);  // checks the parameters
+    const Vector start = theta.row(row);
+    const double first_mse = mean_squared_error({start, wavelet}, signals);
+    runs.push_back({start, start, divergence_limit(mean_square, first_mse)});
   }
-  SideBySide out{RowMatrix(theta.rows(), theta.cols()), Vector(theta.rows())};
   const double first_error = signals.speed[0] - signals.start[0];
   const Eigen::Index width = structured_kernels().width;
   for (Eigen::Index first = 0; first < theta.rows(); first += width) {
     Batch batch(theta, rates, wavelet, first);
     for (int n = 0; n < cycles; ++n) {
       batch.train(signals);
+      for (Eigen::Index row = first; row < std::min(first + width, theta.rows()); ++row) {
+        Lane& lane = runs[static_cast<std::size_t>(row)];
+        if (lane.diverged) continue;
+        batch.get(row - first, lane.next);
+        lane.see((batch.squares(row - first) + first_error * first_error) / samples);
+      }
     }
-    for (Eigen::Index row = first; row < std::min(first + width, theta.rows()); ++row) {
-      batch.get(out.theta, row, row - first);
-      out.mse_learning[row] =
-          (batch.squares(row - first) + first_error * first_error) / static_cast<double>(signals.samples());
-    }
+  }
+  SideBySide out{RowMatrix(theta.rows(), theta.cols()), Vector(theta.rows()), Vector(theta.rows()), {}};
+  for (Eigen::Index row = 0; row < theta.rows(); ++row) {
+    const Lane& lane = runs[static_cast<std::size_t>(row)];
+    const StructuredNetwork network(lane.theta, wavelet);
+    out.theta.row(row) = lane.theta;
+    out.mse_learning[row] = lane.mse;
+    out.mse_frozen[row] = mean_squared_error(network, signals);
+    out.status.push_back(lane.diverged ? OnlineStatus::diverged
+                                       : judge(network, lane.still, out.mse_frozen[row], mean_square));
   }
   return out;
 }

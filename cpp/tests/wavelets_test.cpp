@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <stdexcept>
+#include <string>
 
 namespace {
 
@@ -48,7 +50,13 @@ TEST_P(EveryWavelet, BoundsAreTightAndNeverExceeded) {
   EXPECT_PRED2(tight, w.max_scaled_derivative(), scaled);
 }
 
-INSTANTIATE_TEST_SUITE_P(Wavelets, EveryWavelet, ::testing::ValuesIn(all_wavelets()));
+std::string name_of(const ::testing::TestParamInfo<Wavelet>& each) {
+  std::string name = rwn::wavelet_names()[static_cast<std::size_t>(each.param.index())] + std::to_string(each.index);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Wavelets, EveryWavelet, ::testing::ValuesIn(all_wavelets()), name_of);
 
 TEST(Wavelet, UnknownNameIsRefusedWithTheKnownOnes) {
   try {

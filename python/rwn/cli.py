@@ -229,8 +229,13 @@ def _refuse(error: Exception) -> None:
     if os.environ.get("RWN_TRACEBACK"):
         raise error
     if hasattr(error, "format_message"):
+        if error.format_message().startswith("Usage:"):  # a group called without a command: its help, as it is
+            print(error.format_message(), file=sys.stderr)
+            sys.exit(2)
         usage = getattr(getattr(error, "ctx", None), "command_path", "rwn")
         text = f"{error.format_message()} fix: see {usage} --help"
+    elif isinstance(error, OSError) and error.filename is not None:
+        text = f"{error.filename}: {error.strerror}; expected a file in reach; fix: check path, permissions, disk space"
     else:
         text = str(error)
     print("rwn: " + " ".join(text.split()), file=sys.stderr)

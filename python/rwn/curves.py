@@ -15,6 +15,7 @@ from rwn.effects import motor_index
 from rwn.evidence import Hypothesis
 from rwn.locate import Unknown, regions, unknown_inputs
 from rwn.output_error import OutputError
+from rwn.unknown_law import CLEAR, Law
 
 if TYPE_CHECKING:
     from rwn.explain import Explanation
@@ -23,20 +24,22 @@ Array = NDArray[np.float64]
 MOST_POINTS = 4000  # of one line
 
 
-def describe(where: Sequence[Region]) -> str:
-    """The located regions in words."""
+def describe(where: Sequence[Region], laws: Sequence[Law], *, linear: bool) -> str:
+    """The located regions, and what the unknown torque depends on, in words."""
+    law = [laws[0].words(linear=linear)] if laws and laws[0].share > CLEAR else []
     strong = [r for r in where if r.share - r.samples_share > 0.1][:2]
-    return "; ".join(
+    places = [
         f"{r.share:.0%} of the mismatch's energy in {r.samples_share:.0%} of the samples, at "
         + (r.name or f"{r.coordinate} {r.low:.3g} to {r.high:.3g} {r.unit}".rstrip())
         for r in strong
-    )
+    ]
+    return "; ".join(law + places)
 
 
 def plots(
-    found: Explanation, chosen: Hypothesis, unknown: Sequence[Unknown], *, linear: bool
+    found: Explanation, chosen: Hypothesis, unknown: Sequence[Unknown], laws: Sequence[Law], *, linear: bool
 ) -> tuple[Plot, ...]:
-    """Response, residuals over time and speed, torque over speed, spectrum over angle."""
+    """Response, residuals over time and speed, torque over speed, what it depends on, spectrum over angle."""
     whole = found.setup.whole
     free = replace(whole, targets=tuple(replace(t, angle=np.empty(0)) for t in whole.targets))
     speed_unit, torque_unit = ("m/s", "N") if linear else ("rad/s", "N m")
@@ -48,6 +51,7 @@ def plots(
         made += _response(free, found, chosen, k, signal, unit)
     made.append(_residual_speed(unknown, speed_unit, torque_unit))
     made.append(_torque_speed(found, chosen, speed_unit, torque_unit))
+    made += [_law(law, torque_unit) for law in laws[:1] if law.share > CLEAR]
     spectrum = _spectrum(found, linear)
     return (*made, spectrum) if spectrum else tuple(made)
 
@@ -136,6 +140,15 @@ def _torque_speed(found: Explanation, chosen: Hypothesis, speed_unit: str, torqu
         traces=(Trace(name="along the recording", role="measured", x=x, y=y, points=True),
                 _mean_curve(speed, torque, "mean", "reference")),
         note="Driving torque minus acceleration torque along the recorded motion, smoothed.",
+    )  # fmt: skip
+
+
+def _law(law: Law, torque_unit: str) -> Plot:
+    return Plot(
+        slot="other", title=f"Unknown torque over {law.coordinate}, as a wavelet network draws it",
+        x_label=law.coordinate, x_unit=law.unit, y_label="unknown torque", y_unit=torque_unit,
+        traces=(Trace(name="wavelet network", role="reference", x=law.x, y=law.torque),),
+        note=f"It explains {law.share:.0%} of the refitted nominal model's error on samples that it was not fitted to.",
     )  # fmt: skip
 
 

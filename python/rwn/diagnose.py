@@ -23,6 +23,7 @@ from rwn.prepare import prepare, target
 from rwn.proof import hurts, proved
 from rwn.quantisation import speed_resolution
 from rwn.recording import Recording
+from rwn.unknown_law import laws
 
 REMOVED = 0.85  # share of the removable squared error that a name has to remove
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
@@ -169,7 +170,9 @@ def _report(
         verdict, names = "recording-mistake", tuple(m.name for m in made)
     equation = effects[0].equation if effects else ""
     where = regions(unknown, linear=model.linear)
+    depends = laws(found.setup.whole, found.nominal, unknown, linear=model.linear) if verdict != "adequate" else ()
     nominal = next(h for h in found.hypotheses if not h.fitted.added)
+    place = curves.describe(where, depends, linear=model.linear)
     return Diagnosis(
         verdict=verdict,
         equation=equation,
@@ -184,10 +187,10 @@ def _report(
             for h in found.hypotheses[:6]
             if h is not chosen and h.fitted.added and h.probability > 1e-3
         ),
-        location=Location(equation=equation, regions=where, description=curves.describe(where)),
+        location=Location(equation=equation, regions=where, description=place),
         nominal_fit=nominal_fit(found, chosen, model),
         heldout=rows,
-        curves=curves.plots(found, chosen, unknown, linear=model.linear),
+        curves=curves.plots(found, chosen, unknown, depends, linear=model.linear),
         warnings=_warnings(found, chosen, verdict, rows),
         next_experiment=_next_experiment(found, verdict, names),
         adequate_probability=nominal.probability,

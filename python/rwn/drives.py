@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rwn import _core
+
 
 @dataclass(frozen=True, kw_only=True)
 class Nominal:
@@ -27,34 +29,38 @@ class Drive:
     parameters: tuple[Nominal, ...]
 
 
-_RESISTANCE = Nominal(name="resistance", unit="ohm", meaning="terminal resistance", positive=True)
-_INDUCTANCE = Nominal(name="inductance", unit="H", meaning="winding inductance")
-_TORQUE_CONSTANT = Nominal(name="torque_constant", unit="N m/A", meaning="torque per ampere", positive=True)
-_BACK_EMF = Nominal(name="back_emf_constant", unit="V s/rad", meaning="voltage per speed", positive=True)
-_INERTIA = Nominal(
-    name="inertia",
-    unit="kg m^2",
-    linear_unit="kg",
-    meaning="inertia, or mass of a linear axis",
-    positive=True,
+_TABLE = {row["name"]: row for row in _core.motor_parameter_table()}  # units and meanings: cpp/include/rwn/drive.hpp
+
+
+def _nominal(name: str, *, linear_unit: str = "", positive: bool = False, required: bool = True) -> Nominal:
+    row = _TABLE[name]
+    return Nominal(
+        name=name,
+        unit=row["unit"],
+        meaning=row["meaning"],
+        linear_unit=linear_unit,
+        positive=positive,
+        required=required,
+    )
+
+
+_ELECTRICS = (
+    _nominal("resistance", positive=True),
+    _nominal("inductance"),
+    _nominal("torque_constant", positive=True),
+    _nominal("back_emf_constant", positive=True),
 )
-_VISCOUS = Nominal(
-    name="viscous_friction", unit="N m s/rad", linear_unit="N s/m", meaning="friction proportional to speed"
+_MECHANICS = (
+    _nominal("inertia", linear_unit="kg", positive=True),
+    _nominal("viscous_friction", linear_unit="N s/m"),
+    _nominal("coulomb_friction", linear_unit="N", required=False),
 )
-_COULOMB = Nominal(
-    name="coulomb_friction",
-    unit="N m",
-    linear_unit="N",
-    meaning="dry friction of constant level",
-    required=False,
-)
-_MECHANICS = (_INERTIA, _VISCOUS, _COULOMB)
 
 DC = Drive(
     kind="dc",
     input="voltage",
     outputs=("speed", "position", "current"),
-    parameters=(_RESISTANCE, _INDUCTANCE, _TORQUE_CONSTANT, _BACK_EMF, *_MECHANICS),
+    parameters=(*_ELECTRICS, *_MECHANICS),
 )
 AXIS = Drive(kind="axis", input="torque", outputs=("speed", "position"), parameters=_MECHANICS)
 LINEAR_AXIS = Drive(kind="axis", input="force", outputs=("speed", "position"), parameters=_MECHANICS)

@@ -60,10 +60,15 @@ def output_file(path: Path, *, overwrite: bool = False) -> Iterator[Path]:
 
 def _check_writable(path: Path) -> None:
     there = next(p for p in (path, *path.absolute().parents) if p.exists())
-    if not os.access(there, os.W_OK) or (there != path and not there.is_dir()):
+    try:
+        if there.is_dir():
+            tempfile.TemporaryFile(dir=there).close()  # permissions alone do not tell (root, /proc, full disk)
+        elif there != path or not os.access(there, os.W_OK):
+            raise NotADirectoryError
+    except OSError as error:
         raise InputError(
             f"{there} cannot be written",
             where=path,
             expected="a place to write to",
             fix="choose another --out",
-        )
+        ) from error

@@ -21,6 +21,9 @@ Start = Mapping[str, float]
 Row = tuple[str, Candidate, Minimum]
 
 
+RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
+
+
 @dataclass(frozen=True, kw_only=True)
 class Fitted:
     """A candidate and where its fit ended."""
@@ -87,7 +90,9 @@ class Search:
 
     def _race(self, racers: Sequence[tuple[str, Candidate]], *, iterations: int) -> list[Row]:
         """Some iterations of every racer; each row starts the next leg where this one ended."""
-        ends = self.map(lambda c: fit(self.problem, c, max_iterations=iterations), [c for _, c in racers])
+        ends = self.map(
+            lambda c: fit(self.problem, c, max_iterations=iterations, tolerance=RESOLUTION), [c for _, c in racers]
+        )
         return [(name, c.starting_at(m.values), m) for (name, c), m in zip(racers, ends, strict=True)]
 
     def refit(self, this: Fitted, problem: OutputError) -> Fitted:

@@ -3,15 +3,25 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 
 namespace rwn {
+
+/// No derivatives at all; takes no room (an empty std::array does).
+struct NoSlopes {
+  double& operator[](std::size_t) { __builtin_unreachable(); }
+  double operator[](std::size_t) const { __builtin_unreachable(); }
+  const double* begin() const { return nullptr; }
+  const double* end() const { return nullptr; }
+};
 
 /// Value `v` and partial derivatives `d[0..N)`. `Isa` is a tag that keeps instantiations of different instruction sets
 /// apart, so that the linker never merges them; N = 0 is a plain number at no cost.
 template <int N, class Isa>
 struct Dual {
   double v = 0.0;
-  std::array<double, N> d{};
+  [[no_unique_address]] std::conditional_t<N == 0, NoSlopes, std::array<double, N>> d{};
 
   Dual() = default;
   Dual(double value) : v(value) {}  // NOLINT: constants mix with duals in the equations
@@ -104,5 +114,14 @@ double value_of(const Dual<N, Isa>& x) {
   return x.v;
 }
 inline double value_of(double x) { return x; }
+
+/// True where no derivative is carried.
+template <int N, class Isa>
+bool is_constant(const Dual<N, Isa>& x) {
+  for (double slope : x.d) {
+    if (slope != 0.0) return false;
+  }
+  return true;
+}
 
 }  // namespace rwn

@@ -32,6 +32,14 @@ struct OnlineHistory {
   RateReport report;
 };
 
+/// Largest MSE of a run that has not diverged.
+double divergence_limit(double mean_square, double first_mse);
+
+/// Status of a run that reached its end: `still` where its last cycle moved no parameter.
+OnlineStatus judge(const StructuredNetwork& network, bool still, double mse_frozen, double mean_square);
+/// True where no parameter moved by more than rounding.
+bool stands_still(const VectorRef& before, const VectorRef& after);
+
 /// Decides after each cycle whether to go on; keeps the histories. Called once per cycle, not per sample.
 class OnlineWatch {
  public:
@@ -61,11 +69,14 @@ RecurrentTraining train(const RecurrentNetwork& network, const RecurrentSignals&
                         const OnlineOptions& options);
 
 /// Several networks (seeds) on one recording, `width` of them side by side in the lanes of a vector, rates held.
-/// rates is (N, groups). Returns the trained parameters (N, 5 + 4 N_w) and the MSE of the last cycle while learning (N).
 struct SideBySide {
-  RowMatrix theta;
-  Vector mse_learning;
+  RowMatrix theta;                   // (N, 5 + 4 N_w); of a diverged run before the cycle that diverged
+  Vector mse_learning;               // (N) of the last cycle that did not diverge; infinite where the first did
+  Vector mse_frozen;                 // (N) of theta
+  std::vector<OnlineStatus> status;  // (N) as each run alone would have
 };
+
+/// rates is (N, groups). \throws std::invalid_argument for arrays that do not fit or cycles < 1.
 SideBySide train_side_by_side(const Eigen::Ref<const RowMatrix>& theta, const Wavelet& wavelet,
                               const Eigen::Ref<const RowMatrix>& rates, const StructuredSignals& signals, int cycles);
 

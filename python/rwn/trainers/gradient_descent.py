@@ -12,6 +12,8 @@ from rwn.arrays import as_pairs
 from rwn.conventional_network import ConventionalNetwork
 from rwn.training import Training, check_options
 
+_DEFAULTS = _core.trainer_defaults()["gradient-descent"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class GradientDescent:
@@ -26,11 +28,11 @@ class GradientDescent:
     """
 
     name: ClassVar[str] = "gradient-descent"
-    rate: float = 0.1
-    momentum: float = 0.6
-    iterations: int = 10_000
-    target: float = 0.0
-    stall: float = 1e-12
+    rate: float = _DEFAULTS["rate"]
+    momentum: float = _DEFAULTS["momentum"]
+    iterations: int = _DEFAULTS["iterations"]
+    target: float = _DEFAULTS["target"]
+    stall: float = _DEFAULTS["stall"]
 
     def __post_init__(self) -> None:
         check_options(

@@ -12,6 +12,8 @@ from rwn.arrays import as_pairs
 from rwn.conventional_network import ConventionalNetwork
 from rwn.training import Training, check_options
 
+_DEFAULTS = _core.trainer_defaults()["levenberg-marquardt"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class LevenbergMarquardt:
@@ -26,11 +28,11 @@ class LevenbergMarquardt:
     """
 
     name: ClassVar[str] = "levenberg-marquardt"
-    mu: float = 0.1
-    beta: float = 2.0
-    iterations: int = 100
-    target: float = 0.0
-    stall: float = 1e-12
+    mu: float = _DEFAULTS["mu"]
+    beta: float = _DEFAULTS["beta"]
+    iterations: int = _DEFAULTS["iterations"]
+    target: float = _DEFAULTS["target"]
+    stall: float = _DEFAULTS["stall"]
 
     def __post_init__(self) -> None:
         check_options(iterations=self.iterations, positive={"mu": self.mu}, beta=self.beta)

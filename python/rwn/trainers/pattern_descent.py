@@ -12,6 +12,8 @@ from rwn.arrays import as_pairs
 from rwn.conventional_network import ConventionalNetwork
 from rwn.training import Training, check_options
 
+_DEFAULTS = _core.trainer_defaults()["pattern-descent"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class PatternDescent:
@@ -27,12 +29,12 @@ class PatternDescent:
     """
 
     name: ClassVar[str] = "pattern-descent"
-    rate: float = 0.1
-    momentum: float = 0.6
-    shape_momentum: float = 0.6
-    iterations: int = 1000
-    target: float = 0.0
-    stall: float = 1e-12
+    rate: float = _DEFAULTS["rate"]
+    momentum: float = _DEFAULTS["momentum"]
+    shape_momentum: float = _DEFAULTS["shape_momentum"]
+    iterations: int = _DEFAULTS["iterations"]
+    target: float = _DEFAULTS["target"]
+    stall: float = _DEFAULTS["stall"]
 
     def __post_init__(self) -> None:
         fractions = {"momentum": self.momentum, "shape_momentum": self.shape_momentum}

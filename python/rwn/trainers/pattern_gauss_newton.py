@@ -12,6 +12,8 @@ from rwn.arrays import as_pairs
 from rwn.conventional_network import ConventionalNetwork
 from rwn.training import Training, check_options
 
+_DEFAULTS = _core.trainer_defaults()["pattern-gauss-newton"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class PatternGaussNewton:
@@ -29,13 +31,13 @@ class PatternGaussNewton:
     """
 
     name: ClassVar[str] = "pattern-gauss-newton"
-    noise: float = 1e-2
-    weight_prior: float = 1.0
-    shape_prior: float = 0.1
-    forgetting: float = 0.999
-    iterations: int = 20
-    target: float = 0.0
-    stall: float = 1e-12
+    noise: float = _DEFAULTS["noise"]
+    weight_prior: float = _DEFAULTS["weight_prior"]
+    shape_prior: float = _DEFAULTS["shape_prior"]
+    forgetting: float = _DEFAULTS["forgetting"]
+    iterations: int = _DEFAULTS["iterations"]
+    target: float = _DEFAULTS["target"]
+    stall: float = _DEFAULTS["stall"]
 
     def __post_init__(self) -> None:
         positive = {"noise": self.noise, "weight_prior": self.weight_prior, "shape_prior": self.shape_prior}

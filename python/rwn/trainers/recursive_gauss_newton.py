@@ -30,6 +30,8 @@ class RecursiveFit:
         """The trained network."""
         return self.training.network
 
+_DEFAULTS = _core.structured_trainer_defaults()["recursive-gauss-newton"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class RecursiveGaussNewton:
@@ -49,14 +51,14 @@ class RecursiveGaussNewton:
     """
 
     name: ClassVar[str] = "recursive-gauss-newton"
-    noise: float = 1e-3
-    forgetting: float = 0.999
-    settle: float = 0.3
-    cycles: int = 5
-    caution: float = 0.5
-    follow_state: bool = True
+    noise: float = _DEFAULTS["noise"]
+    forgetting: float = _DEFAULTS["forgetting"]
+    settle: float = _DEFAULTS["settle"]
+    cycles: int = _DEFAULTS["cycles"]
+    caution: float = _DEFAULTS["caution"]
+    follow_state: bool = _DEFAULTS["follow_state"]
     spread: Mapping[str, float] | None = None
-    frozen_every: int = 0
+    frozen_every: int = _DEFAULTS["frozen_every"]
 
     def train(
         self,

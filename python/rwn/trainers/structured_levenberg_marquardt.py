@@ -52,6 +52,8 @@ class StructuredFit:
         torque = self.network.torque(y) - self.slope * y
         return _core.simulate_plant(self.network.core, u, torque, as_start(start))
 
+_DEFAULTS = _core.structured_trainer_defaults()["structured-levenberg-marquardt"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class StructuredLevenbergMarquardt:
@@ -68,12 +70,12 @@ class StructuredLevenbergMarquardt:
     """
 
     name: ClassVar[str] = "structured-levenberg-marquardt"
-    iterations: int = 60
-    damping: float = 1e-3
-    tolerance: float = 1e-12
-    gauge: bool = True
-    weights_first: bool = True
-    ridge: float = 0.0
+    iterations: int = _DEFAULTS["iterations"]
+    damping: float = _DEFAULTS["damping"]
+    tolerance: float = _DEFAULTS["tolerance"]
+    gauge: bool = _DEFAULTS["gauge"]
+    weights_first: bool = _DEFAULTS["weights_first"]
+    ridge: float = _DEFAULTS["ridge"]
 
     def fit(
         self,

@@ -12,6 +12,8 @@ from rwn.arrays import as_pairs
 from rwn.conventional_network import ConventionalNetwork
 from rwn.training import Training, check_options
 
+_DEFAULTS = _core.trainer_defaults()["variable-projection"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class VariableProjection:
@@ -29,12 +31,12 @@ class VariableProjection:
     """
 
     name: ClassVar[str] = "variable-projection"
-    mu: float = 1e-3
-    beta: float = 4.0
-    resolution: float = 1.0
-    iterations: int = 100
-    target: float = 0.0
-    stall: float = 1e-12
+    mu: float = _DEFAULTS["mu"]
+    beta: float = _DEFAULTS["beta"]
+    resolution: float = _DEFAULTS["resolution"]
+    iterations: int = _DEFAULTS["iterations"]
+    target: float = _DEFAULTS["target"]
+    stall: float = _DEFAULTS["stall"]
 
     def __post_init__(self) -> None:
         check_options(iterations=self.iterations, positive={"mu": self.mu}, beta=self.beta)

@@ -79,5 +79,5 @@ def _progress(done: int, count: int, name: str) -> None:
 
 
 def _stop(error: Exception) -> NoReturn:
-    typer.echo(f"error: {error}", err=True)
+    typer.echo("rwn: " + " ".join(str(error).split()), err=True)
     raise typer.Exit(2) from None

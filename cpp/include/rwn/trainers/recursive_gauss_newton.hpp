@@ -15,7 +15,7 @@ struct RecursiveGaussNewton {
   double settle = 0.3;        // 1 - lambda is multiplied by this after every cycle, so that estimates come to rest
   double caution = 0.5;       // of the first cycle, shrinking with `settle`: r + caution f^T f stands for r (underweighting)
   bool follow_state = true;
-  int cycles = 1;
+  int cycles = 5;
   int frozen_every = 0;
 
   struct Result {

@@ -1,0 +1,256 @@
+// The drive equations of drive.hpp as functions of the state, with whatever effects are switched on.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "rwn/active_effects.hpp"
+#include "rwn/exponential.hpp"
+
+namespace rwn {
+
+template <class S, Kind kind>
+struct DriveState {
+  static constexpr int n = kind == Kind::dc ? 2 : 1;
+  SmallVector<S, n> x{};  // current (dc only), speed
+  S position{};
+  std::array<S, 2> hidden{};
+  std::array<S, max_memories> memory{};
+  double direction = 0.0;  // of sliding; 0 sticks
+};
+
+template <class S, Kind kind>
+class Equations {
+ public:
+  using State = DriveState<S, kind>;
+  static constexpr int n = State::n;
+  static constexpr std::size_t w = n - 1;  // index of speed in x
+  using Vector = SmallVector<S, n>;
+  using Matrix = SmallMatrix<S, n>;
+
+  Equations(const Motor<S>& motor, const ActiveEffect<S>* effects, int count, double angle_per_position)
+      : motor_(motor), effects_(effects), count_(count), angle_per_position_(angle_per_position) {
+    bool replaced = false;
+    for (int k = 0; k < count_; ++k) {
+      const auto& call = effects_[k].call;
+      varies_ = varies_ || call.varies;
+      dry_ = dry_ || call.dry;
+      electrical_ = electrical_ || call.electrical;
+      rates_ = rates_ || call.rate != nullptr;
+      timed_ = timed_ || call.breaks != nullptr;
+      replaced = replaced || call.replaces;
+      hiddens_ = hiddens_ || call.hiddens > 0;
+      finishes_ = finishes_ || call.finish != nullptr;
+    }
+    base_friction_ = replaced ? S(0.0) : motor_[coulomb_friction];
+    dry_ = dry_ || (!replaced && is_used(motor_[coulomb_friction]));
+    pendulum_ = is_used(motor_[pendulum_torque]);
+    varies_ = varies_ || pendulum_;
+    inverse_inertia_ = 1.0 / motor_[inertia];
+    if constexpr (kind == Kind::dc) inverse_inductance_ = 1.0 / motor_[inductance];
+  }
+
+  bool varies() const { return varies_; }      // within a step, other than with the direction of sliding
+  bool dry() const { return dry_; }            // there is friction that holds
+  bool hiddens() const { return hiddens_; }    // effects have differential states
+  bool finishes() const { return finishes_; }  // effects have memories that follow the motion
+
+  /// Input and time (middle of the interval) of what is integrated next.
+  void begin(const S& input, double time) {
+    input_ = input;
+    time_ = time;
+    if (timed_) constants_known_ = {};
+  }
+
+  /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
+  void follow(double offset) { offset_ = offset; }
+
+  /// A of the linear part, the winding linearised at R 2^level; a stuck shaft has no equation of motion.
+  Matrix system_matrix(int level, bool stick) const {
+    Matrix a{};
+    if constexpr (kind == Kind::dc) {
+      a[0] = -(std::ldexp(1.0, level) * motor_[resistance] * inverse_inductance_);
+      a[1] = -(motor_[back_emf_constant] * inverse_inductance_);
+      if (!stick) a[2] = motor_[torque_constant] * inverse_inertia_;
+    }
+    if (!stick) a[n * n - 1] = -(motor_[viscous_friction] * inverse_inertia_);
+    return a;
+  }
+
+  /// A winding that has become faster than R/L (saturation, brush contact) is linearised at R 2^level, which keeps the
+  /// remainder stable.
+  int choose_level(const State& s) const {
+    if (kind == Kind::axis || !electrical_) return 0;
+    const Terms<S> t = terms_of(s, s.position);
+    const double ratio =
+        (value_of(t.resistance) + t.drop_slope / value_of(motor_[resistance])) / value_of(t.inductance);
+    return ratio > 1.3 ? std::min(12, static_cast<int>(std::ceil(std::log2(ratio)))) : 0;
+  }
+
+  /// Steps that the fastest effect asks for over h.
+  int step_count(const State& s, double h) const {
+    if (!rates_) return 1;
+    Terms<S> t;
+    const Vector f = nonlinear(s, s.position, 0, t);
+    const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
+    double rate = 0.0;
+    const Motion<S> x = motion_of(s, s.position);
+    for (int k = 0; k < count_; ++k) {
+      if (effects_[k].call.rate != nullptr) {
+        rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration));
+      }
+    }
+    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 32);
+  }
+
+  /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step.
+  Vector nonlinear(const State& s, const S& start, int level, Terms<S>& t) const {
+    t = terms_of(s, start);
+    Vector f;
+    if constexpr (kind == Kind::dc) {
+      const S back_emf = motor_[back_emf_constant] * s.x[1];
+      S rate = (input_ - motor_[resistance] * t.resistance * s.x[0] - back_emf * t.flux - t.drop) * inverse_inductance_;
+      if (value_of(t.inductance) != 1.0) rate /= t.inductance;
+      f[0] = rate + (std::ldexp(1.0, level) * motor_[resistance] * s.x[0] + back_emf) * inverse_inductance_;
+    }
+    if (s.direction == 0.0 && dry_) {
+      f[w] = S(0.0);
+      return f;
+    }
+    S torque = drive_torque(s, t) + t.torque - motor_[viscous_friction] * s.x[w];
+    if (dry_) torque -= s.direction * t.friction;
+    if (value_of(t.inertia_slope) != 0.0) torque -= 0.5 * t.inertia_slope * s.x[w] * s.x[w];
+    const S linear_rate = linear_acceleration(s);
+    f[w] = value_of(t.inertia) == 0.0 ? torque * inverse_inertia_ : torque / (motor_[inertia] + t.inertia);
+    f[w] -= linear_rate;
+    return f;
+  }
+
+  /// The same where no effect varies within a step: the terms depend on direction alone.
+  Vector constant_part(const State& s) {
+    const bool stick = dry_ && s.direction == 0.0;
+    Vector f;
+    f[w] = stick ? S(0.0) : constants(s, s.direction).acceleration;
+    if constexpr (kind == Kind::dc) {
+      f[0] = input_ * inverse_inductance_;
+    } else if (!stick) {
+      f[w] += input_ * inverse_inertia_;
+    }
+    return f;
+  }
+
+  double acceleration(const State& s) const {
+    Terms<S> t;
+    const Vector f = nonlinear(s, s.position, 0, t);
+    return value_of(f[w]) + value_of(linear_acceleration(s));
+  }
+
+  /// Torque on the shaft beyond the friction level in `direction`, were it to slide that way.
+  S excess_torque(const State& s, double direction) {
+    if (!varies_) {
+      const Constants& c = constants(s, direction);
+      if constexpr (kind == Kind::dc) return direction * (motor_[torque_constant] * s.x[0] + c.torque) - c.friction;
+      return direction * (input_ + c.torque) - c.friction;
+    }
+    State sliding = s;
+    sliding.direction = direction;
+    const Terms<S> t = terms_of(sliding, s.position);
+    return direction * (drive_torque(sliding, t) + t.torque) - t.friction;
+  }
+
+  /// Sliding direction that the torque on a standing shaft leads to; 0 while friction holds.
+  double breaking(const State& s) {
+    for (double direction : {1.0, -1.0}) {
+      if (value_of(excess_torque(s, direction)) > 0.0) return direction;
+    }
+    return 0.0;
+  }
+
+  /// Lets the memories of effects follow a step of length h.
+  void finish(const State& before, State& after, const S& h) const {
+    const Motion<S> x0 = motion_of(before, before.position);
+    const Motion<S> x1 = motion_of(after, before.position);
+    for (int k = 0; k < count_; ++k) {
+      if (effects_[k].call.finish != nullptr) {
+        effects_[k].call.finish(effects_[k].p, motor_, h, x0, x1, after.memory.data() + effects_[k].memory);
+      }
+    }
+  }
+
+ private:
+  struct Constants {
+    S torque{}, friction{}, acceleration{};
+  };
+
+  static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
+
+  Motion<S> motion_of(const State& s, const S& start) const {
+    Motion<S> x;
+    x.time = time_;
+    x.direction = s.direction;
+    x.input = input_;
+    if constexpr (kind == Kind::dc) x.current = s.x[0];
+    x.speed = s.x[w];
+    x.position = s.position;
+    x.angle = angle_per_position_ * (s.position + offset_);
+    x.angle_per_position = angle_per_position_;
+    x.travel = s.position - start;
+    x.hidden = s.hidden.data();
+    x.drive_torque = kind == Kind::dc ? motor_[torque_constant] * x.current : input_;
+    return x;
+  }
+
+  Terms<S> terms_of(const State& s, const S& start) const {
+    Terms<S> t;
+    t.friction = base_friction_;
+    Motion<S> x = motion_of(s, start);
+    for (int k = 0; k < count_; ++k) {
+      if (effects_[k].call.apply == nullptr) continue;
+      x.memory = s.memory.data() + effects_[k].memory;
+      effects_[k].call.apply(effects_[k].p, motor_, x, t);
+    }
+    if (pendulum_) {
+      using std::sin;
+      t.torque -= motor_[pendulum_torque] * sin(s.position);
+    }
+    return t;
+  }
+
+  /// Terms of sliding in `direction` where they depend on nothing else; made once.
+  const Constants& constants(const State& s, double direction) {
+    const std::size_t place = direction > 0.0 ? 2 : direction < 0.0 ? 0 : 1;
+    Constants& c = constants_[place];
+    if (constants_known_[place]) return c;
+    State sliding = s;
+    sliding.direction = direction;
+    const Terms<S> t = terms_of(sliding, s.position);
+    c = {t.torque, t.friction, (t.torque - direction * t.friction) * inverse_inertia_};
+    constants_known_[place] = true;
+    return c;
+  }
+
+  S drive_torque(const State& s, const Terms<S>& t) const {
+    if constexpr (kind == Kind::dc) return motor_[torque_constant] * t.flux * s.x[0];
+    return input_ * t.flux;
+  }
+
+  S linear_acceleration(const State& s) const {
+    S torque = -(motor_[viscous_friction] * s.x[w]);
+    if constexpr (kind == Kind::dc) torque += motor_[torque_constant] * s.x[0];
+    return torque * inverse_inertia_;
+  }
+
+  const Motor<S>& motor_;
+  const ActiveEffect<S>* effects_;
+  int count_;
+  double angle_per_position_;
+  bool varies_ = false, dry_ = false, hiddens_ = false, finishes_ = false, pendulum_ = false, electrical_ = false,
+       rates_ = false, timed_ = false;
+  S base_friction_{}, inverse_inertia_{}, inverse_inductance_{};
+  S input_{};
+  double time_ = 0.0, offset_ = 0.0;
+  std::array<Constants, 3> constants_{};  // sliding back, standing, sliding forth
+  std::array<bool, 3> constants_known_{};
+};
+
+}  // namespace rwn
