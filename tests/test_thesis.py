@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import inspect
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from rwn.thesis.comparison import markdown_table, number, tally
 from rwn.thesis.experiment import Experiment, Outcome, Row, Settings, curve, median_row
 from rwn.thesis.registry import EXPERIMENTS, select
 from rwn.thesis.runner import run
+from rwn.thesis.summary import causes, wanted_table
 from rwn.thesis.words import word
 
 
@@ -65,6 +67,9 @@ def row(thesis: float | None, ours: float | None, **rest: object) -> Row:
         ([row(None, 0.96, judge="claim", wanted=0.95)], "holds"),
         ([row(None, 0.7, judge="claim", wanted=0.95)], "holds in part"),
         ([row(None, 0.4, judge="claim", wanted=0.95)], "does not hold"),
+        ([row(None, 0.95, judge="coverage")], "reached"),
+        ([row(None, 0.89, judge="coverage")], "not reached"),
+        ([row(None, 0.99, judge="coverage")], "not reached"),
     ],
 )
 def test_words_are_computed(rows: list[Row], want: str) -> None:
@@ -145,6 +150,36 @@ def test_the_command_refuses_what_it_cannot_run(options: list[str], tmp_path: Pa
     answer = CliRunner().invoke(app, ["run", *options, "--out", str(tmp_path / "new")])
     assert answer.exit_code == 2
     assert not (tmp_path / "new").exists()
+
+
+def test_the_walk_through_is_written_and_the_repositorys_shows_the_code_as_it_is(tmp_path: Path) -> None:
+    """`rwn thesis table-20 --page docs/table_20.md` writes it."""
+    pytest.importorskip("matplotlib")
+    page = tmp_path / "table_20.md"
+    answer = CliRunner().invoke(app, ["table-20", "--page", str(page)])
+    assert answer.exit_code == 0, answer.output
+    kept = PAGE.with_name("table_20.md").read_text(encoding="utf-8")
+    codes = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    assert len(codes) == 6
+    assert all(code in kept for code in codes)
+    pictures = re.findall(r"\((table_20/.*?png)\)", kept)
+    assert len(pictures) == 6
+    assert all((tmp_path / name).is_file() and (PAGE.parent / name).is_file() for name in pictures)
+
+
+def test_the_summary_names_what_was_not_reached_and_what_was_not_reproduced(tmp_path: Path) -> None:
+    def run_it(_: Settings) -> Outcome:
+        rows = [
+            row(None, 2.0, judge="wanted", wanted=1.0),
+            row(1.0, 9.0, reason="because"),
+            row(1.0, 1.0, reason="fine"),
+        ]
+        return Outcome(rows=rows)
+
+    results = run([Experiment(name="one", title="One", run=run_it)], tmp_path)
+    assert "at most 1 | 2 | not reached" in wanted_table(results)
+    assert "| 1 | 9 | not reproducible | because |" in causes(results)
+    assert "fine" not in causes(results)
 
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "thesis.md"

@@ -20,7 +20,8 @@ void bind_structured_trainers(py::module_& m) {
         std::pair{"damping", &StructuredLevenbergMarquardt::damping},
         std::pair{"tolerance", &StructuredLevenbergMarquardt::tolerance},
         std::pair{"gauge", &StructuredLevenbergMarquardt::gauge},
-        std::pair{"weights_first", &StructuredLevenbergMarquardt::weights_first});
+        std::pair{"weights_first", &StructuredLevenbergMarquardt::weights_first},
+        std::pair{"ridge", &StructuredLevenbergMarquardt::ridge});
     return all;
   });
   m.def("recursive_gauss_newton",
@@ -45,13 +46,20 @@ void bind_structured_trainers(py::module_& m) {
       .def_readonly("condition", &Fit::condition);
   m.def("structured_levenberg_marquardt",
         [](const StructuredNetwork& network, const VectorRef& input, const VectorRef& speed, const Eigen::Vector2d& start,
-           const VectorRef& network_speed, const VectorRef& current, double current_weight, const std::vector<bool>& learn, int iterations, double damping, double tolerance, bool gauge, bool weights_first) {
-          const StructuredLevenbergMarquardt trainer{iterations, damping, tolerance, gauge, weights_first};
-          return trainer.fit(network, {{input, speed, start}, network_speed, current, current_weight}, learn);
+           const VectorRef& network_speed, const std::string& feed, const VectorRef& current, double current_weight,
+           const std::vector<bool>& learn, int iterations, double damping, double tolerance, bool gauge, bool weights_first,
+           double ridge) {
+          const StructuredLevenbergMarquardt trainer{iterations, damping, tolerance, gauge, weights_first, ridge};
+          return trainer.fit(network, {{input, speed, start}, network_speed, current, current_weight, feed_by_name(feed)}, learn);
         },
         "network"_a, "input"_a.noconvert(), "speed"_a.noconvert(), "start"_a, py::kw_only(), "network_speed"_a.noconvert(),
-        "current"_a.noconvert(), "current_weight"_a, "learn"_a, "iterations"_a,
-        "damping"_a, "tolerance"_a, "gauge"_a, "weights_first"_a, release);
+        "feed"_a, "current"_a.noconvert(), "current_weight"_a, "learn"_a, "iterations"_a,
+        "damping"_a, "tolerance"_a, "gauge"_a, "weights_first"_a, "ridge"_a, release);
+  m.def("simulate_fed_back",
+        [](const StructuredNetwork& network, double slope, const VectorRef& input, const Eigen::Vector2d& start) {
+          return simulate_fed_back(network, slope, {input, input, start});
+        },
+        "network"_a, "slope"_a, "input"_a.noconvert(), "start"_a, release, "Speed of a free run.");
   m.def("simulate_plant",
         [](const StructuredNetwork& network, const VectorRef& input, const VectorRef& torque, const Eigen::Vector2d& start) {
           return simulate_plant(network, {input, input, start}, torque);

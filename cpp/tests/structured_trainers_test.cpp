@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "allocations.hpp"
 #include "rwn/plant_analysis.hpp"
 #include "rwn/trainers/recursive_gauss_newton.hpp"
+#include "rwn/trainers/structured_feeds.hpp"
 #include "rwn/trainers/structured_levenberg_marquardt.hpp"
 
 namespace rwn {
@@ -80,6 +82,72 @@ TEST(StructuredLevenbergMarquardt, TheGaugeTakesTheSlopeOutOfTheNetwork) {
   const auto fit = StructuredLevenbergMarquardt{}.fit(motor(1.8e-4, 0.03, 7), {r.signals(), r.speed, none, 1.0}, learn);
   EXPECT_NEAR(fit.network.theta()[0] / 0.06, 1.0, 1e-6);
   EXPECT_LT(fit.mse.back(), 1e-12 * fit.mse.front());
+}
+
+StructuredNetwork with_friction() {
+  StructuredNetwork plain = motor(1.8e-4, 0.06, 7);
+  Vector theta = plain.theta();
+  for (Eigen::Index j = 0; j < 7; ++j) {
+    theta[5 + j] = 0.01 * static_cast<double>(j - 2);
+  }
+  return {theta, plain.wavelet()};
+}
+
+TEST(SimulatedFeed, DerivativesAgreeWithDifferences) {
+  const StructuredNetwork net = with_friction();
+  const Vector reference = Vector::LinSpaced(200, -1.2, 1.4);
+  SimulatedFeed feed(net, reference, true);
+  const double speed = 0.37, step = 1e-6;
+  const FrictionSample at = feed(0, speed);
+  const Eigen::RowVectorXd by_parameter = Eigen::Map<const Eigen::RowVectorXd>(at.by_parameter, 28);
+  EXPECT_NEAR(at.by_speed, (feed(0, speed + step).torque - feed(0, speed - step).torque) / (2 * step), 1e-8);
+  for (Eigen::Index k = 0; k < 21; ++k) {  // c stays 0
+    Vector up = net.theta(), down = net.theta();
+    up[5 + k] += step;
+    down[5 + k] -= step;
+    const StructuredNetwork above(up, net.wavelet()), below(down, net.wavelet());
+    const double difference = SimulatedFeed(above, reference, true)(0, speed).torque -
+                              SimulatedFeed(below, reference, true)(0, speed).torque;
+    EXPECT_NEAR(by_parameter[k], difference / (2 * step), 1e-8) << k;
+  }
+}
+
+TEST(SimulatedFeed, AgreesWithTheMeasuredFeedAlongTheSameSpeed) {
+  const StructuredNetwork net = with_friction();
+  const Vector speed = Vector::LinSpaced(300, -1.5, 1.5);
+  const MeasuredFeed measured(net, speed, true);
+  SimulatedFeed simulated(net, speed, true);
+  EXPECT_NEAR(measured.slope(), simulated.slope(), 1e-15);
+  for (Eigen::Index n = 0; n < speed.size(); n += 37) {
+    const FrictionSample one = measured(n, 0.0), other = simulated(n, speed[n]);
+    EXPECT_NEAR(one.torque, other.torque, 1e-14);
+    for (Eigen::Index k = 0; k < 21; ++k) {
+      EXPECT_NEAR(one.by_parameter[k], other.by_parameter[k], 1e-13);
+    }
+  }
+}
+
+TEST(SimulatedFeed, AllocatesNothingPerSample) {
+  const StructuredNetwork net = with_friction();
+  SimulatedFeed feed(net, Vector::LinSpaced(50, -1.0, 1.0), true);
+  const long before = testing::allocations();
+  double sum = 0.0;
+  for (Eigen::Index n = 0; n < 1000; ++n) {
+    sum += feed(n, 1e-3 * static_cast<double>(n)).torque;
+  }
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_TRUE(std::isfinite(sum));
+}
+
+TEST(StructuredLevenbergMarquardt, RefusesToFeedBackANetworkWithMemory) {
+  const Recording r(motor(1.8e-4, 0.06));
+  Vector theta = with_friction().theta();
+  theta[5 + 21] = 0.1;
+  const Vector none;
+  EXPECT_THROW(StructuredLevenbergMarquardt{}.fit({theta, Wavelet()}, {r.signals(), r.speed, none, 1.0, Feed::simulated},
+                                                  std::vector<bool>(33, true)),
+               std::invalid_argument);
+  EXPECT_THROW(feed_by_name("other"), std::invalid_argument);
 }
 
 TEST(ImpulseSums, AreInfiniteForAnUnstablePlant) {

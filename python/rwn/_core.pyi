@@ -245,13 +245,17 @@ def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.
     """
     Returns status, current, speed, position (n) and their derivatives (n, p).
     """
+def simulate_fed_back(network: StructuredNetwork, slope: typing.SupportsFloat | typing.SupportsIndex, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    Speed of a free run.
+    """
 def simulate_plant(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], torque: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
     """
     Speed for the input and a given friction torque.
     """
 def simulation_advice(arg0: str) -> str:
     ...
-def structured_levenberg_marquardt(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, network_speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], current: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], current_weight: typing.SupportsFloat | typing.SupportsIndex, learn: collections.abc.Sequence[bool], iterations: typing.SupportsInt | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex, tolerance: typing.SupportsFloat | typing.SupportsIndex, gauge: bool, weights_first: bool) -> StructuredFit:
+def structured_levenberg_marquardt(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, network_speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], feed: str, current: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], current_weight: typing.SupportsFloat | typing.SupportsIndex, learn: collections.abc.Sequence[bool], iterations: typing.SupportsInt | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex, tolerance: typing.SupportsFloat | typing.SupportsIndex, gauge: bool, weights_first: bool, ridge: typing.SupportsFloat | typing.SupportsIndex) -> StructuredFit:
     ...
 def structured_trainer_defaults() -> dict:
     ...

@@ -100,7 +100,7 @@ class Equations {
         rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration));
       }
     }
-    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 32);
+    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 16);
   }
 
   /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "rwn/trainers/structured_feeds.hpp"
 #include "rwn/trainers/structured_problem.hpp"
 
 namespace rwn {
@@ -34,6 +35,23 @@ std::string_view advice(FitStatus status) {
       break;
   }
   return "The iterations were used up while the error still fell: allow more.";
+}
+
+Vector simulate_fed_back(const StructuredNetwork& network, double slope, const StructuredSignals& signals) {
+  check(signals);
+  const Eigen::Matrix2d a = network.plant();
+  const double v2 = network.theta()[1], v4 = network.theta()[3];
+  SimulatedFeed feed(network, slope);
+  Eigen::Vector2d x = signals.start;
+  Vector out(signals.samples());
+  out[0] = x[0];
+  for (Eigen::Index n = 1; n < out.size(); ++n) {
+    const double tau = feed(n - 1, x[0]).torque;
+    x = Eigen::Vector2d(a(0, 0) * x[0] + a(0, 1) * x[1] - v2 * tau,
+                        a(1, 0) * x[0] + a(1, 1) * x[1] + v4 * signals.input[n - 1]);
+    out[n] = x[0];
+  }
+  return out;
 }
 
 Vector simulate_plant(const StructuredNetwork& network, const StructuredSignals& signals, const VectorRef& torque) {
@@ -65,11 +83,12 @@ struct Normal {
     const RowMatrix& J = problem.jacobian();
     H.setZero(J.cols(), J.cols());
     H.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+    H.diagonal() += problem.curvature();
     scale = H.diagonal().cwiseSqrt();
     scale = (scale.array() > 0.0).select(scale, 1.0);
     H = H.selfadjointView<Eigen::Lower>();
     H = (scale.cwiseInverse().asDiagonal() * H * scale.cwiseInverse().asDiagonal()).eval();
-    gradient = (J.transpose() * problem.residual()).cwiseQuotient(scale);
+    gradient = (J.transpose() * problem.residual() + problem.gradient()).cwiseQuotient(scale);
   }
   Vector step(double damping) const {
     Eigen::MatrixXd damped = H;
@@ -98,7 +117,9 @@ Vector moved(const StructuredNetwork& net, const std::vector<Eigen::Index>& whic
 
 /// The output is linear in w: one ridge least-squares step finds it.
 StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const StructuredMeasurements& data, bool gauge,
-                                             const std::vector<bool>& learn) {
+                                             double ridge, const std::vector<bool>& learn) {
+  StructuredMeasurements measured = data;
+  measured.feed = Feed::measured;  // fed with itself, the output would not be linear in w
   std::vector<bool> weights(learn.size(), false);
   bool any = false;
   for (Eigen::Index k = net.offset(kWeight); k < net.offset(kTranslation); ++k) {
@@ -108,23 +129,24 @@ StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const
   if (!any) {
     return net;
   }
-  StructuredProblem problem(data, weights, gauge);
+  StructuredProblem problem(measured, weights, gauge, ridge);
   if (!std::isfinite(problem.evaluate(net))) {
     return net;
   }
-  constexpr double ridge = 1e-8;
-  return {moved(net, problem.which(), Normal(problem).step(ridge)), net.wavelet()};
+  constexpr double least = 1e-8;  // damping: neighbours may be all but alike
+  return {moved(net, problem.which(), Normal(problem).step(least)), net.wavelet()};
 }
 
 /// Condition of the scaled Jacobian and standard deviations, residuals taken as white.
-void add_uncertainty(StructuredLevenbergMarquardt::Result& out, const StructuredProblem& problem, double squares, double n) {
+void add_uncertainty(StructuredLevenbergMarquardt::Result& out, const StructuredProblem& problem) {
   const Normal normal(problem);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(normal.H);
   const double most = spectrum.eigenvalues().tail(1)[0];
   const double floor = 1e-15 * most;  // rounding hides what lies below
   out.condition = std::sqrt(most / std::max(spectrum.eigenvalues()[0], floor));
   out.deviation = Vector::Zero(out.network.theta().size());
-  const double variance = squares / std::max(1.0, n - static_cast<double>(problem.which().size()));
+  const double rows = static_cast<double>(problem.residual().size());  // two for a sample where the current is fitted
+  const double variance = problem.residual().squaredNorm() / std::max(1.0, rows - static_cast<double>(problem.which().size()));
   const Vector weights = spectrum.eigenvalues().cwiseMax(floor).cwiseInverse();
   for (std::size_t i = 0; i < problem.which().size(); ++i) {
     const auto row = spectrum.eigenvectors().row(static_cast<Eigen::Index>(i)).transpose();
@@ -140,6 +162,9 @@ void check_lengths(const StructuredNetwork& network, const StructuredMeasurement
       (data.current.size() > 0 && data.current.size() != signals.samples())) {
     throw std::invalid_argument("network_speed and current: expected one value per sample");
   }
+  if (data.feed == Feed::simulated && (network.group(kFeedback).array() != 0.0).any()) {
+    throw std::invalid_argument("feed: a network fed with its own speed must be static, c = 0");
+  }
   if (learn.size() != static_cast<std::size_t>(network.theta().size()) || std::count(learn.begin(), learn.end(), true) == 0) {
     throw std::invalid_argument("learn: expected one flag per parameter, at least one true");
   }
@@ -152,15 +177,15 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
                                                                        const std::vector<bool>& learn) const {
   check_lengths(network, data, learn);
   const StructuredSignals& signals = data.signals;
-  Result out{weights_first ? with_least_squares_weights(network, data, gauge, learn) : network, 0.0,
+  Result out{weights_first ? with_least_squares_weights(network, data, gauge, ridge, learn) : network, 0.0,
              FitStatus::iteration_limit, {}, {}, 0.0};
   const double n = static_cast<double>(signals.samples());
-  StructuredProblem here(data, learn, gauge), there(data, learn, gauge);
+  StructuredProblem here(data, learn, gauge, ridge), there(data, learn, gauge, ridge);
   double squares = here.evaluate(out.network);
   if (!std::isfinite(squares)) {
     throw std::invalid_argument("network: its plant has an eigenvalue on or outside the unit circle; start from a stable one");
   }
-  out.mse.push_back(squares / n);
+  out.mse.push_back(here.residual().squaredNorm() / n);
   double mu = damping, growth = 2.0;
   Normal normal(here);
   for (int k = 0; k < iterations;) {
@@ -177,7 +202,7 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
       squares = trial;
       out.network = StructuredNetwork(theta, network.wavelet());
       here.take(there);
-      out.mse.push_back(squares / n);
+      out.mse.push_back(here.residual().squaredNorm() / n);
       ++k;
       if (settled) {
         out.status = FitStatus::converged;
@@ -195,7 +220,7 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
     }
   }
   out.slope = here.slope();
-  add_uncertainty(out, here, squares, n);
+  add_uncertainty(out, here);
   return out;
 }
 

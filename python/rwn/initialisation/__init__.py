@@ -1,5 +1,5 @@
-"""How a conventional network starts (thesis section 2.2.2); a new way is a file here and one entry in a
-registry."""
+"""How a network starts (thesis section 2.2.2); a new way is a file here, and for the conventional network one
+entry in a registry."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from rwn.initialisation.least_squares import LeastSquares
 from rwn.initialisation.selection import Selection
 from rwn.initialisation.small_random import SmallRandom
 from rwn.initialisation.start import Initialiser, LinearStart
+from rwn.initialisation.structured_selection import StructuredSelection
 
 INITIALISERS: dict[str, type[Initialiser]] = {way.name: way for way in (Heuristic, DyadicGrid, Selection)}
 LINEAR_STARTS: dict[str, type[LinearStart]] = {way.name: way for way in (LeastSquares, SmallRandom)}
@@ -23,4 +24,5 @@ __all__ = [
     "LinearStart",
     "Selection",
     "SmallRandom",
+    "StructuredSelection",
 ]

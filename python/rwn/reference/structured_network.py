@@ -104,3 +104,14 @@ def sensitivities(
         speed[n] = run.advance(u[n - 1], y[n - 1])
         jacobian[n] = run.R[0]
     return speed, jacobian
+
+
+def free_run(network: StructuredNetwork, slope: float, voltage: Array) -> Array:
+    """Speed (n,) of the network fed with its own speed, from standstill; friction is torque(x) - slope x."""
+    state, (_, v2, _, v4, _), out = np.zeros(2), network.v, np.empty(len(voltage))
+    for n, volts in enumerate(voltage):
+        out[n] = state[0]
+        z = (state[0] - network.m) / network.d
+        torque = network.w @ WAVELETS[network.wavelet.name](z, network.wavelet.omega0)[0] - slope * state[0]
+        state = network.plant @ state + np.array([-v2 * torque, v4 * volts])
+    return out

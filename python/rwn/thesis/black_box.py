@@ -19,6 +19,7 @@ from rwn.arrays import Array
 from rwn.thesis.drive import MOTOR, SAMPLES, T, chirp, sine
 from rwn.thesis.experiment import Experiment, Figure, Outcome, Panel, Row, Settings, curve
 from rwn.thesis.linear import thesis_rule
+from rwn.thesis.within_cycle import SHAPES, first_cycle_panel, rates_figure
 
 PAGES = {"bilinear": (6.4572e-6, 1.2912e-5), "euler": (6.8587e-6, 1.6747e-5)}
 FIGURES = {"bilinear": (46, 47, 49), "euler": (51, 52, 54)}
@@ -124,18 +125,19 @@ def one(kind: str, settings: Settings) -> tuple[list[Row], list[Figure]]:
         curve(test, t, label="motor", style="k-"),
         curve(run.network.simulate(test_x), t, label="network", style="--"),
     ]
-    rates = [curve(run.rates[:, k], label=label) for k, label in ((3, "mu m = mu c"), (4, "mu d"))]
+
+    def first_rates(samples: int) -> Array:
+        part = rwn.train_recurrent(net, x[:samples], target[:samples], rates=thesis_rule(0.05))
+        return part.rates
+
+    first = first_cycle_panel(first_rates, len(target), SHAPES)
     figures = [
         Figure(
             number=number,
             title=f"MSE, {kind}",
             panels=[Panel(xlabel="cycle", curves=[curve(run.mse_learning)], log_y=True)],
         ),
-        Figure(
-            number=rate_number,
-            title=f"Learning rates, {kind}",
-            panels=[Panel(xlabel="cycle", curves=rates, log_y=True)],
-        ),
+        rates_figure(rate_number, f"Learning rates, {kind}", run, first),
         Figure(
             number=test_number,
             title=f"Test, {kind}, frozen weights",

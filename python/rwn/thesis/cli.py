@@ -59,6 +59,17 @@ def run(
     _run(experiments, out, reduced=reduced, jobs=jobs, page=page or out / "thesis.md")
 
 
+@app.command("table-20")
+def table_20(
+    *, page: Annotated[Path, typer.Option(help="The page to write.")] = Path("table_20.md")
+) -> None:
+    """Writes a page that walks through Table 20, from the recording to the friction curve."""
+    from rwn.thesis.walk_through_page import write_walk_through
+
+    write_walk_through(page)
+    typer.echo(f"page: {page}")
+
+
 def _run(experiments: Sequence[Experiment], out: Path, *, reduced: bool, jobs: int, page: Path) -> None:
     from rich.console import Console
     from rich.progress import Progress

@@ -36,7 +36,7 @@ def cells(row: Row, rows: Sequence[Row]) -> tuple[str, ...]:
         row.where,
         row.case,
         thesis + goal,
-        number(row.ours, row.unit),
+        row.missing if row.ours is None else number(row.ours, row.unit),
         spread,
         row.count,
         word(row, rows),

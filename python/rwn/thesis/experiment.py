@@ -17,7 +17,7 @@ class Row:
 
     where: "Table 1", "Figure 30".  case: what the line is about.
     thesis: the thesis's number, None where it gives none.
-    ours: our number (the median over seeds), None if the run diverged or could not be done.
+    ours: our number (the median over seeds), None if the run diverged or could not be done; `missing` says it.
     spread: smallest and largest over the seeds.
     count: iterations, cycles, seeds, in words.
     judge: how the word is computed, a name in `rwn.thesis.words`.
@@ -33,11 +33,12 @@ class Row:
     ours: float | None
     spread: tuple[float, float] | None = None
     count: str = ""
-    judge: Literal["factor-2", "percentage-point", "wanted", "claim", "none"] = "factor-2"
+    judge: Literal["factor-2", "percentage-point", "wanted", "claim", "coverage", "none"] = "factor-2"
     wanted: float | None = None
     group: str = ""
     reason: str = ""
     unit: str = ""
+    missing: str = "diverged"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +53,7 @@ class Curve:
 
 @dataclass(frozen=True, kw_only=True)
 class Surface:
-    """z (len(y), len(x)) over a grid; drawn as a surface or, flat, as a colour map."""
+    """z (len(y), len(x)) over a grid; drawn as a surface or, flat, as a colour map between `limits`."""
 
     x: list[float]
     y: list[float]
@@ -60,6 +61,7 @@ class Surface:
     label: str = ""
     flat: bool = False
     log: bool = False
+    limits: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

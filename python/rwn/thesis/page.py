@@ -9,6 +9,7 @@ from pathlib import Path
 from rwn.thesis.comparison import markdown_table, tally
 from rwn.thesis.pictures import draw
 from rwn.thesis.runner import Finished
+from rwn.thesis.summary import causes, wanted_table
 
 INTRODUCTION = """\
 # The thesis beside this package
@@ -20,7 +21,8 @@ Identification of Nonlinear DC Motor Drive Systems Using Recurrent Wavelet Netwo
 `reproduced`, within a factor of 2 in a mean squared error or 1 percentage point in a parameter error;
 `trend`, the order of the group is that of the thesis, the numbers are not; `not reproducible`, neither;
 `reached` or `not reached` where a better value was wanted; `holds`, `holds in part` or `does not hold` for
-a claim, whose number is the share of cases in which it is true.
+a claim, whose number is the share of cases in which it is true. [table_20.md](table_20.md) walks through one
+case.
 """
 
 
@@ -28,7 +30,14 @@ def write_page(results: Sequence[Finished], page: Path) -> None:
     """Writes the page, and its pictures into the folder beside it that has the page's name."""
     pictures = page.with_suffix("")
     page.parent.mkdir(parents=True, exist_ok=True)
-    parts = [INTRODUCTION, "Words: " + ", ".join(f"{w} {n}" for w, n in tally(results).items()) + "."]
+    parts = [
+        INTRODUCTION,
+        "Words: " + ", ".join(f"{w} {n}" for w, n in tally(results).items()) + ".",
+        "## What was wanted beyond the thesis",
+        wanted_table(results),
+        "## What is not reproduced",
+        causes(results),
+    ]
     for result in results:
         parts.append(f"## {result.title}")
         parts.append(inspect.cleandoc(result.choices))

@@ -58,7 +58,10 @@ def _fill(axes: Any, panel: Panel) -> None:
 def _fill_surface(axes: Any, surface: Surface) -> None:
     x, y, z = np.array(surface.x), np.array(surface.y), np.array(surface.z)
     if surface.flat:
-        image = axes.pcolormesh(x, y, np.log10(z) if surface.log else z, shading="nearest", cmap="viridis")
+        low, high = surface.limits or (None, None)
+        image = axes.pcolormesh(
+            x, y, np.log10(z) if surface.log else z, shading="nearest", cmap="viridis", vmin=low, vmax=high
+        )
         axes.figure.colorbar(image, ax=axes, label=surface.label)
     else:
         axes.plot_surface(*np.meshgrid(x, y), z, cmap="viridis", linewidth=0)

@@ -6,6 +6,7 @@ from rwn.thesis import (
     better_offline,
     black_box,
     claims,
+    claims_rates,
     convergence_map,
     electrical,
     frictionless,
@@ -14,6 +15,7 @@ from rwn.thesis import (
     miso_size,
     miso_trainers,
     miso_wavelets,
+    noise,
     online_miso,
     online_siso,
     simultaneous,
@@ -49,7 +51,9 @@ EXPERIMENTS: tuple[Experiment, ...] = tuple(
         viscous,
         three_parameters,
         simultaneous,
+        claims_rates,
         convergence_map,
+        noise,
         electrical,
     )
 )

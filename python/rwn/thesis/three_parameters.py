@@ -14,7 +14,7 @@ from rwn.rates import Thesis
 from rwn.thesis.drive import chirp, linear_network
 from rwn.thesis.experiment import Experiment, Outcome, Row, Settings
 from rwn.thesis.linear import GROUPS, SYMBOLS, Case, as_printed, better, figures
-from rwn.trainers import StructuredLevenbergMarquardt
+from rwn.trainers import RecursiveGaussNewton, StructuredLevenbergMarquardt
 
 CASES = [
     Case(
@@ -30,6 +30,8 @@ CASES = [
 ]
 REASON = "J, Kt and B scaled together hardly change the speed: one e-fold along that valley takes 5e6 cycles"
 NOISE = 0.01
+# the valley takes many passes: the trainer must not come to rest early
+SLOW = RecursiveGaussNewton(cycles=50, forgetting=0.9995, settle=0.9)
 
 
 def with_noise(label: str, amplitude: float, high: float) -> list[Row]:
@@ -65,10 +67,10 @@ def run(settings: Settings) -> Outcome:
         runs[case.label] = (case, training)
     settings.progress(0.4)
     for case in CASES:
-        rows += better("Table 19", case, cycles=50, wanted=0.1)
+        rows += better("Table 19", case, wanted=0.1, recursive=SLOW)
     settings.progress(0.7)
     rows += with_noise("1 V, 0-4 Hz", 1.0, 4.0) + with_noise("12 V, 0-200 Hz", 12.0, 200.0)
-    return Outcome(rows=rows, figures=figures((93, 94, 95), runs, "three parameters"))
+    return Outcome(rows=rows, figures=figures((93, 94, 95), runs, "three parameters", rule))
 
 
 EXPERIMENT = Experiment(

@@ -37,6 +37,11 @@ def claim(row: Row, group: Sequence[Row]) -> str:  # noqa: ARG001
     return "holds" if row.ours >= row.wanted else "holds in part" if row.ours > 0.5 else "does not hold"
 
 
+def coverage(row: Row, group: Sequence[Row]) -> str:  # noqa: ARG001
+    """Reached if the share of 95 % intervals that hold the truth is 90 to 98 %."""
+    return "reached" if row.ours is not None and 0.90 <= row.ours <= 0.98 else "not reached"
+
+
 def none(row: Row, group: Sequence[Row]) -> str:  # noqa: ARG001
     """A number beside the comparison."""
     return ""
@@ -47,6 +52,7 @@ JUDGES: dict[str, Callable[[Row, Sequence[Row]], str]] = {
     "percentage-point": percentage_point,
     "wanted": wanted,
     "claim": claim,
+    "coverage": coverage,
     "none": none,
 }
 

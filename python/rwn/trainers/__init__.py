@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rwn.trainers.gradient_descent import GradientDescent
+from rwn.trainers.guarded_descent import GuardedDescent, GuardedTraining
 from rwn.trainers.levenberg_marquardt import LevenbergMarquardt
 from rwn.trainers.pattern_descent import PatternDescent
 from rwn.trainers.pattern_gauss_newton import PatternGaussNewton
@@ -23,13 +24,16 @@ TRAINERS: dict[str, type[Trainer]] = {
 }
 
 STRUCTURED_TRAINERS = {
-    trainer.name: trainer for trainer in (RecursiveGaussNewton, StructuredLevenbergMarquardt)
+    trainer.name: trainer
+    for trainer in (GuardedDescent, RecursiveGaussNewton, StructuredLevenbergMarquardt)
 }
 
 __all__ = [
     "STRUCTURED_TRAINERS",
     "TRAINERS",
     "GradientDescent",
+    "GuardedDescent",
+    "GuardedTraining",
     "LevenbergMarquardt",
     "PatternDescent",
     "PatternGaussNewton",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -41,6 +41,11 @@ class StructuredFit:
         slope = float(self.network.v[0]) - self.slope
         return np.asarray(self.network.torque(u) + slope * u, dtype=np.float64)
 
+    def free_run(self, voltage: ArrayLike, *, start: ArrayLike = (0.0, 0.0)) -> Array:
+        """Speed (n,) for the voltage (n,), the network fed with the speed that it simulates (c must be 0)."""
+        u = as_float_array("voltage", voltage, 1)
+        return _core.simulate_fed_back(self.network.core, self.slope, u, as_start(start))
+
     def simulate(self, voltage: ArrayLike, speed: ArrayLike, *, start: ArrayLike = (0.0, 0.0)) -> Array:
         """Speed (n,) for the voltage (n,), the network fed with the measured `speed` (n,)."""
         u, y = as_signals(voltage, speed)
@@ -59,7 +64,9 @@ class StructuredLevenbergMarquardt:
     tolerance: relative fall of the squared error below which it has converged.
     gauge: tau_perp = tau - <tau, speed>/<speed, speed> speed replaces the network's torque, so that v1 is the
         whole viscous slope. Without it v1 and the network share the slope: v1 - B is an observer gain.
-    weights_first: finds w by ridge least squares before the first step (the output is linear in w).
+    weights_first: finds w by least squares before the first step (the output is linear in w).
+    ridge: noise deviation of the speed [rad/s] over the size expected of every w [N m]: a prior around zero, which
+        keeps wavelets narrower than the noise from swinging; 0 for none.
     """
 
     name: ClassVar[str] = "structured-levenberg-marquardt"
@@ -68,6 +75,7 @@ class StructuredLevenbergMarquardt:
     tolerance: float = _DEFAULTS["tolerance"]
     gauge: bool = _DEFAULTS["gauge"]
     weights_first: bool = _DEFAULTS["weights_first"]
+    ridge: float = _DEFAULTS["ridge"]
 
     def fit(
         self,
@@ -78,12 +86,15 @@ class StructuredLevenbergMarquardt:
         learn: Iterable[str],
         start: ArrayLike = (0.0, 0.0),
         network_speed: ArrayLike | None = None,
+        feed: Literal["measured", "simulated"] = "measured",
         current: ArrayLike | None = None,
         current_weight: float = 1.0,
     ) -> StructuredFit:
         """Fits the groups `learn` (of v1..v5, w, m, d, c) to voltage (n,) [V] and speed (n,) [rad/s].
 
         network_speed: (n,) speed that feeds the network; None is the measured one, whose noise biases.
+        feed: `simulated` feeds the network with the speed that the model itself simulates (output error), which
+            takes that bias away; `network_speed` is then only what the gauge weighs speeds by. Needs c = 0.
         current: (n,) measured current [A], fitted too; `current_weight` is the deviation of the speed's noise
             over that of the current's.
         Raises ValueError for arrays that do not fit, an unknown group, or an unstable start.
@@ -96,6 +107,7 @@ class StructuredLevenbergMarquardt:
             y,
             as_start(start),
             network_speed=y if network_speed is None else as_float_array("network_speed", network_speed, 1),
+            feed=feed,
             current=np.empty(0) if current is None else as_float_array("current", current, 1),
             current_weight=current_weight,
             learn=np.repeat(as_mask(learn, network.groups), sizes).tolist(),
@@ -104,6 +116,7 @@ class StructuredLevenbergMarquardt:
             tolerance=self.tolerance,
             gauge=self.gauge,
             weights_first=self.weights_first,
+            ridge=self.ridge,
         )
         return StructuredFit(
             network=network.with_theta(fit.theta),

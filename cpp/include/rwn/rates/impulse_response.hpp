@@ -13,7 +13,8 @@ struct ImpulseResponseRates {
   static constexpr std::string_view guarantee =
       "sum_g mu_g ||dy/dtheta_g||^2 <= 2 fraction along the recording while the parameters stay near those of the "
       "pre-pass. With the default fraction (1 - rho)/4 the sum stays below (1 - rho)/2, half of the delay limit "
-      "1 - rho of the slowest mode; not proved, and not safe from a start whose plant is faster than the truth (Table 18 case 3 diverges).";
+      "1 - rho of the slowest mode; not proved, and not safe by itself from a start whose plant is faster than the truth "
+      "(Table 18 case 3 diverges): guarded-descent makes it safe.";
   double fraction = 0.0;  // 0: (1 - rho)/4
   bool shared = true;
 
