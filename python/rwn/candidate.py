@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ class Nominal:
     uncertainty: Mapping[str, float]
     effects: Mapping[str, Mapping[str, float]]  # already part of the nominal model
     free: Mapping[str, float]  # unknown without a prior (coefficients), with their first guess
+    reach: Mapping[str, float] = field(default_factory=dict)  # how far from 0 what is free may go
     starts: tuple[Mapping[str, float], ...] = ()  # other first guesses of what is free, worth a try
 
 
@@ -73,7 +74,7 @@ def candidate(
     replaced = {p.replaces for name in active for p in table()[name].parameters} - {None}
     motor_now = {**nominal.motor, **nominal.free, **(motor or {})}
     unknowns = [_motor_unknown(name, nominal) for name in nominal.uncertainty if name not in replaced]
-    unknowns += [_free_unknown(name) for name in nominal.free]
+    unknowns += [_free_unknown(name, nominal.reach.get(name, 1e9)) for name in nominal.free]
     values: dict[str, dict[str, float]] = {}
     for name in active:
         effect = table()[name]
@@ -134,18 +135,19 @@ def _same_constant(nominal: Nominal) -> bool:
     return bool(ratio < 3.0 * np.hypot(nominal.uncertainty[pair[0]], nominal.uncertainty[pair[1]]))
 
 
-def _free_unknown(name: str) -> Unknown:
+def _free_unknown(name: str, reach: float = 1e9) -> Unknown:
     if name not in motor_parameters():  # a coefficient of a transfer function
         return Unknown(name=name, unit="", index=motor_index(name), lower=-np.inf, upper=np.inf)
     parameter = motor_parameters()[name]
-    return Unknown(name=name, unit=parameter.unit, index=motor_index(name), lower=-1e9, upper=1e9, nuisance=True)
+    return Unknown(name=name, unit=parameter.unit, index=motor_index(name), lower=-reach, upper=reach, nuisance=True)
 
 
 def _effect_unknown(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapping[str, float]) -> Unknown:
     unit = scales[p.scale]
     known = nominal.motor.get(p.replaces, 0.0) if p.replaces else 0.0
     uncertain = nominal.uncertainty.get(p.replaces, 0.0) if p.replaces else 0.0
-    has_prior = known > 0.0 and effect.name not in nominal.effects
+    alone = sum(q.replaces == p.replaces for q in effect.parameters) == 1  # two levels for one: neither is known
+    has_prior = known > 0.0 and alone and effect.name not in nominal.effects
     return Unknown(
         name=f"{effect.name}.{p.name}",
         unit=p.unit,

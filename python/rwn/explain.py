@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rwn import evidence
+from rwn.candidate import candidate, fit
 from rwn.effects import table
 from rwn.evidence import Hypothesis, Statistics
 from rwn.prepare import Setup, noise_levels
@@ -18,6 +19,7 @@ Progress = Callable[[str, float], None]
 
 WORTH = 0.2  # share of what is left that another effect has to remove
 MOST_EFFECTS = 3
+MOST_TRACKS = 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +49,7 @@ def explain(
     if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
         offset = next(f for f in search.explain(nominal, ["constant-load"]))
         fits = _distinct([*fits, *search.explain(offset, wanted)])
-    search, nominal, fits = _reweighted(search, nominal, fits)
+    search, nominal, fits = _retracked(*_reweighted(search, nominal, fits))
     before = evidence.statistics(search.problem, nominal)
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
@@ -65,8 +67,9 @@ def explain(
         best = min(fits, key=lambda f: f.cost)
         left = evidence.statistics(search.problem, best)
         layer = sorted(more, key=lambda f: f.cost)[:2]
-    search, nominal, fits = _reweighted(search, nominal, fits)
+    search, nominal, fits = _retracked(*_reweighted(search, nominal, fits))
     best = min([nominal, *fits], key=lambda f: f.cost)
+    fits = _distinct([*fits, *_simpler(search, best)])
     left = evidence.statistics(search.problem, best)
     hypotheses = evidence.weigh([nominal, *fits], left, rivals=len(wanted), prior=_prior(setup))
     return Explanation(
@@ -112,7 +115,7 @@ def _revolutions(setup: Setup) -> float:
 
 def _prior(setup: Setup) -> dict[str, float]:
     """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis."""
-    return {"constant-load": np.log(len(table())) + 1.0 if setup.problem.kind == "axis" else -3.0}
+    return {"constant-load": np.log(len(table())) + 1.0 if setup.problem.kind == "axis" else -5.0}
 
 
 def _with_noise(search: Search, fitted: Fitted) -> Search:
@@ -132,6 +135,83 @@ def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Se
     kept = fits[:12]
     again = [other.refit(f, other.problem) for f in [nominal, *kept]]
     return other, again[0], sorted(again[1:], key=lambda f: f.cost)
+
+
+def _simpler(search: Search, best: Fitted) -> list[Fitted]:
+    """The best explanation with each of several effects left out, and with plain friction for each of its elaborations.
+
+    The search adds what gains most, so that it may never have met the plain law beside the second effect.
+    """
+    if len(best.added) < 2:
+        return []
+    found = []
+    for name in best.added:
+        rest = tuple(n for n in best.added if n != name)
+        starts = {n: _values(best, n) for n in rest}
+        less = candidate(search.nominal, rest, search.scales, starts, _motor(best))
+        without = Fitted(added=rest, candidate=less, minimum=fit(search.problem, less))
+        found.append(without)
+        if PLAIN not in rest and name != PLAIN and _replaces(name) == _replaces(PLAIN):
+            found += search.explain(without, [PLAIN], keep=1)
+    return found
+
+
+PLAIN = "coulomb-friction"
+
+
+def _replaces(name: str) -> set[str]:
+    """Nominal parameters that an effect takes over."""
+    return {p.replaces for p in table()[name].parameters if p.replaces}
+
+
+def _values(fitted: Fitted, name: str) -> dict[str, float]:
+    """Parameters of one effect as fitted."""
+    effect = table()[name]
+    return {p.name: float(fitted.vector[effect.at(p.name)]) for p in effect.parameters}
+
+
+def _motor(fitted: Fitted) -> dict[str, float]:
+    """The motor as fitted."""
+    pairs = zip(fitted.candidate.unknowns, fitted.minimum.values, strict=True)
+    return {u.name: float(v) for u, v in pairs if "." not in u.name}
+
+
+def _retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
+    """The same fits with the angle that the best one simulates, where no angle was recorded and that is the better one.
+
+    The integral of a noisy speed wanders; thirty periods a revolution further on, it has lost the phase.
+    """
+    best = min([nominal, *fits], key=lambda f: f.cost)
+    if not _turns(best) or any(t.position.size for t in search.problem.targets):
+        return search, nominal, fits
+    other, again = search, best
+    for _ in range(MOST_TRACKS):
+        tried = _tracked(other, again)
+        refitted = tried.refit(again, tried.problem)
+        if refitted.cost > again.cost - 2.0:
+            break
+        other, again = tried, refitted
+    if other is search:
+        return search, nominal, fits
+    first = other.refit(nominal, other.problem)
+    rest = [again if f is best else other.refit(f, other.problem) for f in fits[:12]]
+    return other, first, sorted(rest, key=lambda f: f.cost)
+
+
+def _turns(fitted: Fitted) -> bool:
+    """Whether an effect of this explanation depends on the angle."""
+    return any(p.order or p.cyclic for name in fitted.added for p in table()[name].parameters)
+
+
+def _tracked(search: Search, fitted: Fitted) -> Search:
+    """The search on targets whose angle is the one that `fitted` simulates."""
+    problem = search.problem
+    active = fitted.candidate.active
+    angles = [problem.simulate(t, fitted.vector, active).signals["position"] for t in problem.targets]
+    targets = tuple(
+        replace(t, angle=np.ascontiguousarray(a)) for t, a in zip(problem.targets, angles, strict=True)
+    )
+    return replace(search, problem=replace(problem, targets=targets))
 
 
 def _distinct(fits: list[Fitted]) -> list[Fitted]:

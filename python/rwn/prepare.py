@@ -46,9 +46,10 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     whole = _whole(targets, model)
     if model.kind == "lti" and not model.parameters:
         nominal = _started(whole, nominal, first_guesses(targets, model.order))
-    if any(lattice(t.position) > 0.0 for t in targets) and model.recording.initial == "rest":
+    count = max((lattice(t.position) for t in targets), default=0.0)
+    if count > 0.0 and model.recording.initial == "rest":
         # a counter that was zeroed anywhere within a count: else the free run is off by up to one count for ever
-        nominal = replace(nominal, free={"initial_position": 0.0})
+        nominal = replace(nominal, free={"initial_position": 0.0}, reach={"initial_position": 1.5 * count})
     vector = candidate(nominal, (), {}).vector
     outputs = [_with_motion(t, whole.simulate(t, vector, []).signals) for t in targets]
     problem = whole

@@ -15,6 +15,7 @@ from rwn.model import Model
 from rwn.output_error import OutputError, Target
 from rwn.search import Fitted, Search
 
+LEFT_OUT = "(left out)"  # marks what a fold did not fit
 FITTED_PART = 0.7  # of a lone recording, when its rest has to serve as proof
 
 
@@ -74,11 +75,11 @@ def _folds(found: Explanation) -> Iterator[tuple[OutputError, Target, int]]:
     if len(whole.targets) > 1:
         for k, target in enumerate(whole.targets):
             others = tuple(t for j, t in enumerate(problem.targets) if j != k)
-            yield replace(problem, targets=others), replace(target, name=f"{target.name} (left out)"), 0
+            yield replace(problem, targets=others), replace(target, name=f"{target.name} {LEFT_OUT}"), 0
         return
     first = int(FITTED_PART * whole.targets[0].time.size)
     begin = whole.targets[0].time[first]
-    late = replace(whole.targets[0], name=f"{whole.targets[0].name} from {begin:.3g} s (left out)")
+    late = replace(whole.targets[0], name=f"{whole.targets[0].name} from {begin:.3g} s {LEFT_OUT}")
     yield replace(problem, targets=(_until(problem.targets[0], first),)), late, first
 
 

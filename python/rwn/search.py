@@ -120,7 +120,7 @@ class Search:
         axes: list[list[Start]] = []
         for p in effect.parameters:
             if p.order:
-                axes.append([{p.name: order} for order in self._orders(base, effect)])
+                axes.append([{p.name: order} for order in self._orders(base, effect, p.lower)])
             elif p.window:
                 continue
             elif p.scan:
@@ -130,10 +130,11 @@ class Search:
             axes.append([{first: a, last: b} for a, b in self._windows(base)])
         return [{k: v for part in combination for k, v in part.items()} for combination in product(*axes)]
 
-    def _orders(self, base: Fitted, effect: Effect) -> list[float]:
+    def _orders(self, base: Fitted, effect: Effect, lowest: float) -> list[float]:
         if not any(t.angle.size for t in self.problem.targets):
             return []
         grid = hints.order_grid(self.problem)
+        grid = grid[grid >= lowest]  # once per revolution is an unbalance
         if not any(t.speed.size for t in self.problem.targets):
             spectrum = hints.torque_spectrum(self.problem, base.vector, base.candidate.active, grid)
             return hints.orders_of(spectrum, grid)

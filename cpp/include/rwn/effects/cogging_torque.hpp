@@ -19,7 +19,7 @@ struct CoggingTorque {
                                          Parameter{.name = "periods_per_rev",
                                                    .unit = "1",
                                                    .meaning = "periods per revolution (per metre on a linear axis)",
-                                                   .lower = 0.5,
+                                                   .lower = 1.5,
                                                    .upper = 1000.0,
                                                    .start = 12.0,
                                                    .order = true},

@@ -30,6 +30,17 @@ struct ResistanceHeating {
                                                    .upper = 0.02,
                                                    .start = 0.00393,
                                                    .fixed = true}};
+  /// Mean of i^2 over a step in which the current goes from `a` to `b` as the winding does, exponentially.
+  template <class S>
+  static S mean_square(const Motor<S>& m, const S& h, const S& a, const S& b) {
+    using std::exp;
+    const S rate = h * m[resistance] / m[inductance];
+    if (value_of(rate) < 0.05) return (a * a + a * b + b * b) / 3.0;
+    const S left = exp(-rate);
+    const S end = (b - a * left) / (1.0 - left);
+    const S gap = a - end;
+    return end * end + 2.0 * end * gap * (1.0 - left) / rate + gap * gap * (1.0 - left * left) / (2.0 * rate);
+  }
   static constexpr int memories = 1;  // winding temperature above ambient [K]
 
   template <class S>
@@ -40,8 +51,7 @@ struct ResistanceHeating {
   static void finish(const S* p, const Motor<S>& m, const S& h, const Motion<S>& before, const Motion<S>& after,
                      S* memory) {
     using std::exp;
-    const S current = 0.5 * (before.current + after.current);
-    const S settled = p[0] * m[resistance] * (1.0 + p[2] * memory[0]) * current * current;
+    const S settled = p[0] * m[resistance] * (1.0 + p[2] * memory[0]) * mean_square(m, h, before.current, after.current);
     memory[0] = settled + (memory[0] - settled) * exp(-(h / (p[0] * p[1])));
   }
 };
