@@ -16,7 +16,7 @@ from rwn.diagnosis import Alternative, Diagnosis, Estimate, FoundEffect, Heldout
 from rwn.effects import table
 from rwn.evidence import Hypothesis, join
 from rwn.experiments import separated_by
-from rwn.explain import Explanation, Progress, explain
+from rwn.explain import Explanation, Progress, explain, plainer
 from rwn.locate import regions, unknown_inputs
 from rwn.mistakes import Mistake
 from rwn.model import Model
@@ -30,6 +30,7 @@ from rwn.unknown_law import laws
 REMOVED = 0.98  # share of the removable squared error that a name has to remove where more than noise is left
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
 HALF_TRUE = 0.02  # share of the removable squared error left by a name that is as likely wrong as right
+ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
 DOUBTFUL = 2.0  # squared error of a signal, in units of its noise, from which it is off at all
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
 QUANTISATION = "sensor-quantization"
@@ -113,9 +114,13 @@ def _late(found: Explanation, recordings: Sequence[Recording], model: Model) -> 
 
 
 def _choose(found: Explanation) -> Hypothesis:
-    """The most probable explanation; the nominal model where the gain is not material."""
+    """The most probable explanation, with plain friction where its elaboration is hardly more so; nothing where the
+    gain is not material."""
     first = found.hypotheses[0]
     nominal = next(h for h in found.hypotheses if not h.fitted.added)
+    plain = [h for h in found.hypotheses if set(h.fitted.added) == plainer(first.fitted.added)]
+    if plain and plain[0].probability > first.probability / ELABORATE:
+        first = plain[0]
     gain = 1.0 - first.fitted.minimum.chi2 / nominal.fitted.minimum.chi2
     return nominal if gain < MATERIAL else first
 

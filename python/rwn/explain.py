@@ -144,15 +144,13 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
     """
     if len(best.added) < 2:
         return []
+    sets = [best.added, *(tuple(n for n in best.added if n != name) for name in best.added)]
+    plain = [tuple(sorted(plainer(names))) for names in sets]
     found = []
-    for name in best.added:
-        rest = tuple(n for n in best.added if n != name)
-        starts = {n: _values(best, n) for n in rest}
-        less = candidate(search.nominal, rest, search.scales, starts, _motor(best))
-        without = Fitted(added=rest, candidate=less, minimum=fit(search.problem, less))
-        found.append(without)
-        if PLAIN not in rest and name != PLAIN and _replaces(name) == _replaces(PLAIN):
-            found += search.explain(without, [PLAIN], keep=1)
+    for names in dict.fromkeys([*sets[1:], *plain]):
+        starts = {n: _values(best, n) for n in names if n in best.added}
+        less = candidate(search.nominal, names, search.scales, starts, _motor(best))
+        found.append(Fitted(added=names, candidate=less, minimum=fit(search.problem, less)))
     return found
 
 
@@ -162,6 +160,11 @@ PLAIN = "coulomb-friction"
 def _replaces(name: str) -> set[str]:
     """Nominal parameters that an effect takes over."""
     return {p.replaces for p in table()[name].parameters if p.replaces}
+
+
+def plainer(names: Sequence[str]) -> set[str]:
+    """The same explanation with plain friction for its elaborations."""
+    return {PLAIN if _replaces(n) and _replaces(n) == _replaces(PLAIN) else n for n in names}
 
 
 def _values(fitted: Fitted, name: str) -> dict[str, float]:
