@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rwn.explain import Explanation
 
 Array = NDArray[np.float64]
-AGREEMENT = 1e-3  # relative standard deviation that stays when the noise is averaged out
+AGREEMENT = 1e-3  # relative standard deviation that stays when the noise is averaged out; set on development trials
 
 
 def deviations(fitted: Fitted, variance: float, correlation_time: float) -> Array:
@@ -50,7 +50,7 @@ def estimates(fitted: Fitted, variance: float, correlation_time: float) -> dict[
 
 
 def _systematic(fitted: Fitted) -> Array:
-    """What no interval is narrower than: two simulators of the same drive agree to this part, in angles to a mrad."""
+    """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians."""
     angles = {f"{name}.{p.name}" for name in fitted.added for p in table()[name].parameters if p.cyclic}
     pairs = zip(fitted.candidate.unknowns, fitted.minimum.values, strict=True)
     return np.array([AGREEMENT * (1.0 if u.name in angles else abs(v)) for u, v in pairs])

@@ -11,12 +11,12 @@ import numpy as np
 
 from rwn import curves, excitation, mistakes
 from rwn._core import __version__
-from rwn.correct import corrected_model, deviations, found_effects, nominal_fit
+from rwn.correct import corrected_model, found_effects, nominal_fit
 from rwn.diagnosis import Alternative, Diagnosis, Estimate, FoundEffect, HeldoutRow, Location, Verdict
 from rwn.effects import table
-from rwn.evidence import Hypothesis, join
+from rwn.evidence import Hypothesis
 from rwn.experiments import separated_by
-from rwn.explain import Explanation, Progress, explain, plainer
+from rwn.explain import Explanation, Progress, explain
 from rwn.locate import regions, unknown_inputs
 from rwn.mistakes import Mistake
 from rwn.model import Model
@@ -24,15 +24,10 @@ from rwn.prepare import prepare, proof_target
 from rwn.proof import LEFT_OUT, hurts, proved
 from rwn.quantisation import speed_resolution
 from rwn.recording import Recording
-from rwn.refuse import PROVED, removed_certainly, without_what_hurts
+from rwn.refuse import without_what_hurts
 from rwn.unknown_law import laws
+from rwn.verdict import choose, is_certain, verdict_of, verdict_without_a_name, whole
 
-REMOVED = 0.98  # share of the removable squared error that a name has to remove where more than noise is left
-PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
-HALF_TRUE = 0.02  # share of the removable squared error left by a name that is as likely wrong as right
-ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
-DOUBTFUL = 2.0  # squared error of a signal, in units of its noise, from which it is off at all
-MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
 QUANTISATION = "sensor-quantization"
 
 
@@ -73,17 +68,17 @@ def diagnose(
     for mistake in made:
         heldout = [mistake.undo(r) for r in heldout]
     proof = [proof_target(r, model) for r in heldout]
-    chosen = _choose(found)
+    chosen = choose(found)
     if proof:
         chosen = without_what_hurts(
             found.hypotheses, chosen, lambda h: proved(found, h, proof, model, seed=seed)
         )
     rows = proved(found, chosen, proof, model, seed=seed)
-    verdict = verdict_of(found, chosen, certain=bool(proof) and removed_certainly(rows) > PROVED)
+    verdict = verdict_of(found, chosen, certain=is_certain(rows))
     if chosen.fitted.added and (verdict != "missing-physics" or hurts(rows)):
         # a name that is not given is not shown, proved or written to corrected.toml either
-        chosen = next(h for h in found.hypotheses if not h.fitted.added)
-        verdict = verdict if verdict == "unexplained" else _without_a_name(found)
+        chosen = found.nothing_missing
+        verdict = verdict if verdict == "unexplained" else verdict_without_a_name(found)
         rows = proved(found, chosen, proof, model, seed=seed)
     say("drawing", 0.95)
     return _report(found, chosen, verdict, made, rows, model, seed, time.perf_counter() - began)
@@ -113,74 +108,6 @@ def _late(found: Explanation, recordings: Sequence[Recording], model: Model) -> 
     return mistakes.fine(recordings, model, noise=found.setup.problem.noise, rival=best)
 
 
-def _choose(found: Explanation) -> Hypothesis:
-    """The most probable explanation, with plain friction where its elaboration is hardly more so; nothing where the
-    gain is not material."""
-    first = found.hypotheses[0]
-    nominal = next(h for h in found.hypotheses if not h.fitted.added)
-    plain = [h for h in found.hypotheses if set(h.fitted.added) == plainer(first.fitted.added)]
-    if plain and plain[0].probability > first.probability / ELABORATE:
-        first = plain[0]
-    gain = 1.0 - first.fitted.minimum.chi2 / nominal.fitted.minimum.chi2
-    return nominal if gain < MATERIAL else first
-
-
-def verdict_of(found: Explanation, chosen: Hypothesis, *, certain: bool = False) -> Verdict:
-    """Found, nothing missing, something without a name, or nothing to be learned from these recordings.
-
-    `certain`: held-out recordings prove the explanation, so that it need not remove all.
-    """
-    nominal = next(h for h in found.hypotheses if not h.fitted.added)
-    after = chosen.fitted.minimum.chi2 / max(found.left.count, 1)
-    left_over = not found.left.at_the_floor
-    if not chosen.fitted.added:
-        if left_over and after > 1.0 + 2.0 * MATERIAL:
-            return "unexplained"
-        return "insufficient-excitation" if _nothing_learned(found) else "adequate"
-    removed = _removed(found, nominal, chosen)
-    enough = PARTLY if certain else REMOVED
-    return "unexplained" if left_over and removed < enough else "missing-physics"
-
-
-def _removed(found: Explanation, nominal: Hypothesis, chosen: Hypothesis) -> float:
-    """Share of the removable squared error that is removed, of the signal where it is least.
-
-    A free-running position is an integral: what merely stops its drift may leave the speed as wrong as before.
-    """
-    before, after = (_variances(found, h) for h in (nominal, chosen))
-    off = [s for s in before if before[s] > DOUBTFUL] or list(before)
-    return min(1.0 - max(after[s] - 1.0, 0.0) / max(before[s] - 1.0, 1e-12) for s in off)
-
-
-def _whole(found: Explanation, nominal: Hypothesis, chosen: Hypothesis) -> float:
-    """How probable it is that what was found is the whole of what is missing, from the share that it leaves.
-
-    A right name leaves noise; a cubic drag called quadratic leaves some per cent of the mismatch. Fitted to neither
-    trials nor recordings: half at 2 %, which lies between the two.
-    """
-    if found.left.at_the_floor:
-        return 1.0
-    return 1.0 / (1.0 + ((1.0 - _removed(found, nominal, chosen)) / HALF_TRUE) ** 2)
-
-
-def _variances(found: Explanation, h: Hypothesis) -> dict[str, float]:
-    """Mean squared error of each signal in units of its noise."""
-    problem = found.setup.problem
-    residuals = problem.residuals(h.fitted.vector, h.fitted.candidate.active)
-    return {s: float(np.nanmean(r**2)) for s, r in join(problem, residuals).items()}
-
-
-def _without_a_name(found: Explanation) -> Verdict:
-    """The verdict where data that were not fitted refuse every name."""
-    return "adequate" if found.before.at_the_floor else "unexplained"
-
-
-def _nothing_learned(found: Explanation) -> bool:
-    fitted = found.nominal
-    spread = deviations(fitted, found.before.variance, found.before.correlation_time)
-    return excitation.learns_nothing(fitted.candidate, spread, fitted.minimum.values)
-
-
 def ambiguous(found: Explanation, chosen: Hypothesis) -> tuple[Hypothesis, ...]:
     """The explanations that these recordings do not tell from the chosen one, itself first."""
     same = [
@@ -206,13 +133,12 @@ def _report(
 ) -> Diagnosis:
     before = found.nominal.candidate.active
     unknown = [unknown_inputs(found.setup.whole, found.nominal.vector, t, before) for t in found.setup.whole.targets]
-    nominal = next(h for h in found.hypotheses if not h.fitted.added)
     named = verdict == "missing-physics"
     same = ambiguous(found, chosen) if named else ()
     physics = found_effects(found, chosen) if chosen.fitted.added and named else ()
-    if not (rows and removed_certainly(rows) > PROVED and not any(LEFT_OUT in r.recording for r in rows)):
-        whole = _whole(found, nominal, chosen)
-        physics = tuple(replace(e, probability=whole * e.probability) for e in physics)
+    if not is_certain(rows):
+        share = whole(found, chosen)
+        physics = tuple(replace(e, probability=share * e.probability) for e in physics)
     steps = _coarse_speed(found, chosen)
     if steps and verdict in ("adequate", "missing-physics"):
         physics, verdict = (*physics, steps), "missing-physics"
@@ -245,7 +171,7 @@ def _report(
         curves=curves.plots(found, chosen, unknown, depends, linear=model.linear),
         warnings=_warnings(found, chosen, verdict, rows),
         next_experiment=_next_experiment(found, verdict, names),
-        adequate_probability=nominal.probability,
+        adequate_probability=found.nothing_missing.probability,
         seed=seed,
         version=__version__,
         elapsed=elapsed,

@@ -19,7 +19,8 @@ Progress = Callable[[str, float], None]
 
 WORTH = 0.2  # share of what is left that another effect has to remove
 MOST_EFFECTS = 3
-MOST_TRACKS = 4
+MOST_TRACKS = 4  # times that the angle is simulated anew
+PLAIN = "coulomb-friction"  # what the other laws of dry friction elaborate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +32,11 @@ class Explanation:
     hypotheses: tuple[Hypothesis, ...]
     left: Statistics  # residual of the best
     before: Statistics  # residual of the refitted nominal
+
+    @property
+    def nothing_missing(self) -> Hypothesis:
+        """The refitted nominal model among the hypotheses."""
+        return next(h for h in self.hypotheses if not h.fitted.added)
 
 
 def explain(
@@ -152,9 +158,6 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
         less = candidate(search.nominal, names, search.scales, starts, _motor(best))
         found.append(Fitted(added=names, candidate=less, minimum=fit(search.problem, less)))
     return found
-
-
-PLAIN = "coulomb-friction"
 
 
 def _replaces(name: str) -> set[str]:

@@ -1,7 +1,7 @@
 """Mistakes in the recordings themselves, the commonest mismatch of all: unit, sign, gear ratio, channels out of step.
 
-They are looked for before any physics. What a mistake explains is measured as everything else is: the nominal model is
-refitted to the recordings with the mistake undone, and its error counted in units of the measurement noise.
+They are looked for before any physics. A unit or a sign is judged by the model as given, since a refit would absorb it;
+a gear ratio or a shift, which physics might explain too, by the refitted model and in units of the measurement noise.
 """
 
 from __future__ import annotations
@@ -268,7 +268,7 @@ def _out_of_step(recordings: Sequence[Recording], model: Model) -> Iterator[Mist
 
 
 def _lag(problem: OutputError, vector: Array, active: Sequence[int], signal: str) -> int:
-    """Samples by which a recorded signal follows its simulation, from the least squared difference of changes."""
+    """Samples by which a recorded signal follows its simulation, from the correlation of their changes."""
     shifts = np.arange(-LONGEST_SHIFT, LONGEST_SHIFT + 1)
     score = np.zeros(shifts.size)
     for target in problem.targets:

@@ -20,14 +20,19 @@ def without_what_hurts(hypotheses: Sequence[Hypothesis], chosen: Hypothesis, pro
 
     An effect that is real helps on every recording; one that has absorbed an accident of the fitted ones need not.
     """
-    errors = {h.fitted.added: heldout_error(prove(h)) for h in _contenders(hypotheses, chosen)}
-    rivals = [h for h in _contenders(hypotheses, chosen) if len(h.fitted.added) == len(chosen.fitted.added)]
-    first = min(rivals, key=lambda h: errors[h.fitted.added])
+    first, error = _best(_contenders(hypotheses, chosen), prove)
     parts = [h for h in hypotheses if h.fitted.added and set(h.fitted.added) < set(first.fitted.added)]
     if not parts:
         return first
-    best = min(parts, key=lambda h: heldout_error(prove(h)))
-    return best if heldout_error(prove(best)) < errors[first.fitted.added] else first
+    part, part_error = _best(parts, prove)
+    return part if part_error < error else first
+
+
+def _best(rivals: Sequence[Hypothesis], prove: Prove) -> tuple[Hypothesis, float]:
+    """The one that predicts held-out recordings best, and its error."""
+    errors = [heldout_error(prove(h)) for h in rivals]
+    least = int(np.argmin(errors))
+    return rivals[least], errors[least]
 
 
 def _contenders(hypotheses: Sequence[Hypothesis], chosen: Hypothesis) -> list[Hypothesis]:

@@ -15,12 +15,15 @@ import numpy as np
 import rwn
 from rwn.arrays import Array
 from rwn.initialisation import Selection
+from rwn.online_training import OnlineTraining
 from rwn.thesis.drive import MOTOR, chirp, coulomb, dyadic_shapes, sine, speed_with_friction
 from rwn.thesis.experiment import Curve, Experiment, Figure, Outcome, Panel, Row, Settings, curve, median_row
 from rwn.thesis.linear import thesis_rule
 from rwn.thesis.structured_friction import signal_panel
 from rwn.thesis.within_cycle import SHAPES, first_cycle_panel, rates_figure
 from rwn.trainers import VariableProjection
+
+Run = OnlineTraining[rwn.RecurrentNetwork]
 
 SIZES = {3: (8.2753e-10, 1.3724e-4), 7: (2.7731e-10, 1.4662e-5), 15: (3.7961e-11, 4.9190e-7)}
 REASON = "the thesis's training error is a tracking error; fewer cycles"
@@ -62,57 +65,61 @@ def run(settings: Settings) -> Outcome:
     """Trains every size and tests it with frozen weights."""
     u, test_u = sine(1.0, 1.0), chirp(0.75, 0.1, 4.0)
     speed, test = speed_with_friction(u), speed_with_friction(test_u)
-    cycles, rows, runs = settings.pick(1_000, 3), [], {}
-    for k, (wavelets, (trained, tested)) in enumerate(SIZES.items()):
-        found = [
-            rwn.train_recurrent(
-                start(speed, wavelets, seed),
-                speed,
-                torque(speed),
-                rates=thesis_rule(0.002),
-                cycles=cycles,
-                frozen_every=max(cycles // 20, 1),
-            )
-            for seed in range(settings.pick(3, 1))
-        ]
-        rest = {"count": f"{cycles} cycles, {len(found)} seeds", "reason": REASON}
-        case = f"Nw {wavelets}"
-        rows += [
-            median_row(
-                "Table 11",
-                f"{case}, while learning",
-                trained,
-                [r.mse_learning[-1] for r in found],
-                group="learning",
-                **rest,
-            ),
-            median_row(
-                "Table 11",
-                f"{case}, frozen",
-                trained,
-                [r.mse_frozen[-1] for r in found],
-                group="frozen",
-                **rest,
-            ),
-            median_row(
-                "Table 12",
-                case,
-                tested,
-                [r.network.mse(test, torque(test)) for r in found],
-                group="test",
-                **rest,
-            ),
-            Row(
-                where="Table 12",
-                case=f"{case}, selection + variable projection",
-                judge="wanted",
-                wanted=tested / 10,
-                ours=static_fit(speed, test, wavelets, settings.pick(200, 5)),
-                count="at most 200 iterations",
-            ),
-        ]
+    rows: list[Row] = []
+    runs: dict[int, Run] = {}
+    for k, wavelets in enumerate(SIZES):
+        found = trained_runs(speed, wavelets, settings)
+        rows += size_rows(wavelets, found, speed, test, settings)
         runs[wavelets] = found[0]
         settings.progress((k + 1) / len(SIZES))
+    return Outcome(rows=rows, figures=figures(runs, (u, speed), (test_u, test)))
+
+
+def trained_runs(speed: Array, wavelets: int, settings: Settings) -> list[Run]:
+    """Online runs of one size, one a seed."""
+    cycles = settings.pick(1_000, 3)
+    return [
+        rwn.train_recurrent(
+            start(speed, wavelets, seed),
+            speed,
+            torque(speed),
+            rates=thesis_rule(0.002),
+            cycles=cycles,
+            frozen_every=max(cycles // 20, 1),
+        )
+        for seed in range(settings.pick(3, 1))
+    ]
+
+
+def size_rows(
+    wavelets: int, found: list[Run], speed: Array, test: Array, settings: Settings
+) -> list[Row]:
+    """Tables 11 and 12 for one size."""
+    trained, tested = SIZES[wavelets]
+    case = f"Nw {wavelets}"
+    rest = {"count": f"{settings.pick(1_000, 3)} cycles, {len(found)} seeds", "reason": REASON}
+    learning, frozen = [r.mse_learning[-1] for r in found], [r.mse_frozen[-1] for r in found]
+    on_test = [r.network.mse(test, torque(test)) for r in found]
+    return [
+        median_row("Table 11", f"{case}, while learning", trained, learning, group="learning", **rest),
+        median_row("Table 11", f"{case}, frozen", trained, frozen, group="frozen", **rest),
+        median_row("Table 12", case, tested, on_test, group="test", **rest),
+        Row(
+            where="Table 12",
+            case=f"{case}, selection + variable projection",
+            judge="wanted",
+            wanted=tested / 10,
+            ours=static_fit(speed, test, wavelets, settings.pick(200, 5)),
+            count="at most 200 iterations",
+        ),
+    ]
+
+
+def figures(
+    runs: dict[int, Run], training: tuple[Array, Array], testing: tuple[Array, Array]
+) -> list[Figure]:
+    """Figures 56 to 64 from (input, speed) of the training and the test signal."""
+    speed = training[1]
     w = np.linspace(float(speed.min()), float(speed.max()), 400)
     true = curve(torque(w), w, label="true", style="k-")
     learned = [curve(r.network.simulate(w), w, label=f"Nw {n}", style="--") for n, r in runs.items()]
@@ -122,18 +129,17 @@ def run(settings: Settings) -> Outcome:
         return [Panel(xlabel="speed [rad/s]", ylabel="torque [N m]", curves=list(curves))]
 
     by_cycle = Panel(xlabel="cycle", ylabel="MSE while learning", curves=mse, log_y=True)
-    figures = [
+    return [
         Figure(number=56, title="Friction", panels=torques(true)),
-        Figure(number=58, title="Training signal", panels=[signal_panel(u, speed)]),
+        Figure(number=58, title="Training signal", panels=[signal_panel(*training)]),
         Figure(number=59, title="MSE by size", panels=[by_cycle]),
         *(
             rates_figure(60 + k, f"Learning rates, Nw {n}", r, first_cycle(n, speed))
             for k, (n, r) in enumerate(runs.items())
         ),
-        Figure(number=63, title="Testing signal", panels=[signal_panel(test_u, test)]),
+        Figure(number=63, title="Testing signal", panels=[signal_panel(*testing)]),
         Figure(number=64, title="Torque against speed", panels=torques(true, *learned)),
     ]
-    return Outcome(rows=rows, figures=figures)
 
 
 EXPERIMENT = Experiment(

@@ -11,7 +11,6 @@ from rwn.trials.plant import Values
 Rng = np.random.Generator
 
 SINGLE = ("plain", "masked", "offset")
-MODES = (*SINGLE, "double", "novel", "null")
 # One-sigma ranges of data sheets; a few benches are declared with far less confidence.
 CAREFUL = {
     "resistance": (0.03, 0.1),

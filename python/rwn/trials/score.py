@@ -11,7 +11,6 @@ import numpy as np
 from rwn.trials.conceal import SINGLE
 from rwn.trials.grade import Grade
 
-LEVELS = ("2", "4", "10", "30")
 FEW_INTERVALS = 20
 BINS = np.linspace(0.0, 1.0, 6)
 
