@@ -16,7 +16,8 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
               const std::vector<int>& active, const std::vector<int>& by, const Array& current, const Array& speed,
               const Array& position, const std::array<double, 3>& weights, bool speed_is_difference,
               double angle_per_position, double input_before, const Array& angle, int restart_every,
-              const Array& restart_speed, const Array& restart_position, int order) {
+              const Array& restart_speed, const Array& restart_position, int order,
+              const std::vector<OwnEffect>& own) {
   const SimulationTask task{kind_of(kind),
                             view(time),
                             view(input),
@@ -29,7 +30,8 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
                             restart_every,
                             view(restart_speed),
                             view(restart_position),
-                            order};
+                            order,
+                            own};
   const Measurements measured{
       view(current),
       view(speed),
@@ -60,6 +62,7 @@ void bind_normal_equations(py::module_& m) {
         "active"_a, "by"_a, "current"_a.noconvert(), "speed"_a.noconvert(), "position"_a.noconvert(), "weights"_a,
         "speed_is_difference"_a = false, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
         "restart_every"_a = 0, "restart_speed"_a = Array(0), "restart_position"_a = Array(0), "order"_a = 0,
+        "own"_a = std::vector<OwnEffect>{},
         "Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.");
 }
 

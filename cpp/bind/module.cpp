@@ -3,6 +3,7 @@
 #include "rwn/isa.hpp"
 
 namespace rwn::bind {
+void bind_own_effect(py::module_& m);
 void bind_inverse_dynamics(py::module_& m);
 void bind_normal_equations(py::module_& m);
 void bind_simulate(py::module_& m);
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.doc() = "C++ core of rwn; use the classes of the rwn package, which check their input and explain themselves.";
   m.attr("__version__") = RWN_VERSION;
   m.def("isa", [] { return std::string(rwn::to_string(rwn::isa())); }, "Instruction set in use.");
+  bind_own_effect(m);
   bind_inverse_dynamics(m);
   bind_normal_equations(m);
   bind_simulate(m);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "rwn/active_effects.hpp"
@@ -13,29 +14,62 @@ namespace {
 struct Plain {};
 using Real = Dual<0, Plain>;
 
-Terms<Real> terms_of(const Motor<Real>& motor, std::span<const int> active, const std::vector<Real>& values,
-                     Motion<Real> x) {
-  static const std::array<Real, max_memories> at_rest{};
-  Terms<Real> t;
-  x.memory = at_rest.data();
-  x.hidden = at_rest.data();
-  for (int effect : active) {
-    const auto& call = all_effect_functions<Real>[static_cast<std::size_t>(effect)];
-    if (call.apply != nullptr) call.apply(values.data() + first_parameter(effect), motor, x, t);
+/// The active effects at one instant after the other.
+class ActiveTerms {
+ public:
+  ActiveTerms(const Motor<Real>& motor, std::span<const int> active, const std::vector<Real>& values,
+              std::span<const OwnEffect> own)
+      : motor_(motor), active_(active), values_(values) {
+    for (const OwnEffect& effect : own) {
+      const OwnProgram program{effect.term, effect.program.data(), static_cast<int>(effect.program.size())};
+      own_.emplace_back(program, stack_.data(), &failed_);
+    }
   }
-  return t;
-}
+  ActiveTerms(const ActiveTerms&) = delete;  // its parts refer to each other
+  ActiveTerms& operator=(const ActiveTerms&) = delete;
+
+  Terms<Real> at(Motion<Real> x) {
+    static const std::array<Real, max_memories> at_rest{};
+    Terms<Real> t;
+    x.memory = at_rest.data();
+    x.hidden = at_rest.data();
+    failed_ = false;
+    for (int effect : active_) {
+      if (effect >= effect_count) {
+        const auto slot = static_cast<std::size_t>(effect - effect_count);
+        const auto first = static_cast<std::size_t>(first_own_parameter()) + slot * max_own_parameters;
+        own_.at(slot).apply(values_.data() + first, motor_, x, t);
+        continue;
+      }
+      const auto& call = all_effect_functions<Real>[static_cast<std::size_t>(effect)];
+      if (call.apply != nullptr) call.apply(values_.data() + first_parameter(effect), motor_, x, t);
+    }
+    if (failed_) t.torque = std::numeric_limits<double>::quiet_NaN();
+    return t;
+  }
+
+ private:
+  const Motor<Real>& motor_;
+  std::span<const int> active_;
+  const std::vector<Real>& values_;
+  std::array<Real, formula_depth> stack_{};
+  bool failed_ = false;
+  std::vector<ActiveOwnEffect<Real>> own_;
+};
 
 bool replaces_friction(std::span<const int> active) {
   return std::any_of(active.begin(), active.end(),
-                     [](int e) { return all_effect_functions<Real>[static_cast<std::size_t>(e)].replaces; });
+                     [](int e) {
+                       return e < effect_count && all_effect_functions<Real>[static_cast<std::size_t>(e)].replaces;
+                     });
 }
 
 }  // namespace
 
 void inverse_dynamics(std::span<const double> parameters, std::span<const int> active, double angle_per_position,
                       std::span<const double> time, std::span<const double> position, std::span<const double> speed,
-                      std::span<const double> acceleration, std::span<double> torque) {
+                      std::span<const double> acceleration, std::span<double> torque,
+                      std::span<const OwnEffect> own) {
   const std::size_t n = time.size();
   if (position.size() != n || speed.size() != n || acceleration.size() != n || torque.size() != n) {
     throw std::invalid_argument("inverse_dynamics: the signals differ in length");
@@ -47,6 +81,7 @@ void inverse_dynamics(std::span<const double> parameters, std::span<const int> a
   Motor<Real> motor;
   std::copy_n(values.begin(), motor_parameter_count, motor.begin());
   const double base_friction = replaces_friction(active) ? 0.0 : motor[coulomb_friction].v;
+  ActiveTerms terms(motor, active, values, own);
   for (std::size_t k = 0; k < n; ++k) {
     Motion<Real> x;
     x.time = time[k] - time[0];
@@ -55,7 +90,7 @@ void inverse_dynamics(std::span<const double> parameters, std::span<const int> a
     x.position = position[k];
     x.angle = angle_per_position * position[k];
     x.angle_per_position = angle_per_position;
-    const Terms<Real> t = terms_of(motor, active, values, x);
+    const Terms<Real> t = terms.at(x);
     torque[k] = (motor[inertia].v + t.inertia.v) * acceleration[k] + motor[viscous_friction].v * speed[k] +
                 x.direction * (base_friction + t.friction.v) + 0.5 * t.inertia_slope.v * speed[k] * speed[k] +
                 motor[pendulum_torque].v * std::sin(position[k]) - t.torque.v;

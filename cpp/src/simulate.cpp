@@ -48,6 +48,21 @@ void require(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(message);
 }
 
+void check_own(const SimulationTask& task) {
+  require(task.own.size() <= max_own_effects, "simulate: too many own effects");
+  require(task.kind != Kind::lti || task.own.empty(), "simulate: a transfer function has no equations for own effects");
+  const int effects = effect_count + static_cast<int>(task.own.size());
+  for (int effect : task.active) require(effect >= 0 && effect < effects, "simulate: no such effect");
+}
+
+std::array<OwnProgram, max_own_effects> programs_of(std::span<const OwnEffect> own) {
+  std::array<OwnProgram, max_own_effects> found{};
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    found[k] = {own[k].term, own[k].program.data(), static_cast<int>(own[k].program.size()), own[k].varies()};
+  }
+  return found;
+}
+
 void check(const SimulationTask& task, const SimulationOutput& output) {
   const std::size_t n = task.time.size();
   require(n >= 2, "simulate: at least two samples are needed");
@@ -60,7 +75,7 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
           "simulate: wrong number of parameters");
   require(task.kind != Kind::lti || (task.order >= 1 && task.order <= max_order), "simulate: order out of range");
   require(task.active.size() <= max_active_effects, "simulate: too many effects at once");
-  for (int effect : task.active) require(effect >= 0 && effect < effect_count, "simulate: no such effect");
+  check_own(task);
   for (int index : task.by) require(index >= 0 && index < parameter_count(), "simulate: no such parameter");
   for (const auto& signal : {output.current, output.speed, output.position}) {
     require(signal.empty() || signal.size() == n, "simulate: an output differs in length from time");
@@ -75,6 +90,8 @@ int width_for(int columns) { return columns <= 0 ? 0 : columns <= 4 ? 4 : column
 
 double* pointer(std::span<double> s) { return s.empty() ? nullptr : s.data(); }
 
+constexpr std::string_view status_names[] = {"ok", "diverged", "formula-failed"};
+
 void hold_last(std::span<double> signal, int finite) {
   if (signal.empty()) return;
   const auto kept = signal.begin() + finite;
@@ -83,17 +100,28 @@ void hold_last(std::span<double> signal, int finite) {
 
 }  // namespace
 
-std::string_view to_string(SimulationStatus status) { return status == SimulationStatus::ok ? "ok" : "diverged"; }
+std::string_view to_string(SimulationStatus status) { return status_names[static_cast<std::size_t>(status)]; }
 
 std::string_view advice(SimulationStatus status) {
-  return status == SimulationStatus::ok ? "The simulation ran to the end."
-                                        : "The simulation left the finite numbers: look for a negative inertia or "
-                                          "inductance, or an unstable model.";
+  constexpr std::string_view texts[] = {
+      "The simulation ran to the end.",
+      "The simulation left the finite numbers: look for a negative inertia or inductance, or an unstable model.",
+      "The formula of an own effect has no finite value somewhere on the way: look for a division by zero, a root or "
+      "logarithm of what may be negative, or an overflow; abs, max and tighter bounds of its parameters keep it in range."};
+  return texts[static_cast<std::size_t>(status)];
 }
 
-int parameter_count() { return first_coefficient() + coefficient_count; }
+SimulationStatus status_of(std::string_view name) {
+  const auto* found = std::find(std::begin(status_names), std::end(status_names), name);
+  require(found != std::end(status_names), "simulate: no such status");
+  return static_cast<SimulationStatus>(found - std::begin(status_names));
+}
+
+int parameter_count() { return first_own_parameter() + max_own_effects * max_own_parameters; }
 
 int first_coefficient() { return offsets()[effect_count]; }
+
+int first_own_parameter() { return first_coefficient() + coefficient_count; }
 
 Kind kind_of(std::string_view name) {
   constexpr std::string_view names[] = {"dc", "axis", "lti"};
@@ -110,6 +138,8 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
   std::vector<int> column_of(static_cast<std::size_t>(parameter_count()), -1);
   for (int j = 0; j < columns; ++j) column_of[static_cast<std::size_t>(task.by[static_cast<std::size_t>(j)])] = j;
 
+  const auto programs = programs_of(task.own);
+  bool formula_failed = false;
   SimulationSlice slice{task.time.data(),
                         task.input.data(),
                         static_cast<int>(task.time.size()),
@@ -133,20 +163,23 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         pointer(output.d_position),
                         columns,
                         task.order,
-                        first_coefficient()};
+                        first_coefficient(),
+                        programs.data(),
+                        first_own_parameter(),
+                        &formula_failed};
   int finite = slice.samples;
   do {
     const int width = width_for(columns - slice.column);
     finite = std::min(finite, simulate_slice(task.kind, width, slice));
     slice.column += std::max(width, 1);
-  } while (slice.column < columns);
+  } while (slice.column < columns && finite == slice.samples);
 
   if (finite == slice.samples) return SimulationStatus::ok;
   for (const auto& signal : {output.current, output.speed, output.position}) hold_last(signal, finite);
   for (const auto& slope : {output.d_current, output.d_speed, output.d_position}) {
     if (!slope.empty()) std::fill(slope.begin() + finite * columns, slope.end(), 0.0);
   }
-  return SimulationStatus::diverged;
+  return formula_failed ? SimulationStatus::formula_failed : SimulationStatus::diverged;
 }
 
 }  // namespace rwn

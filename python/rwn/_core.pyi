@@ -6,6 +6,16 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
+class OwnEffect:
+    """
+    A user's effect: the term that it changes and the program of its formula.
+    """
+    def __init__(self, term: str, program: collections.abc.Sequence[tuple[str, typing.SupportsFloat | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]], parameters: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    def evaluate(self, variables: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(7)"], nominal: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(11)"], parameters: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(8)"]) -> tuple[float, typing.Annotated[list[float], "FixedSize(8)"]]:
+        """
+        Value, and derivatives by its parameters.
+        """
 class Plant:
     """
     The blind trials' motor, one sample at a time.
@@ -185,6 +195,10 @@ def finest_scale(wavelets: typing.SupportsInt | typing.SupportsIndex) -> tuple[i
     ...
 def first_coefficient() -> int:
     ...
+def first_own_parameter() -> int:
+    ...
+def formula_words() -> dict:
+    ...
 def gradient_descent(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, rate: typing.SupportsFloat | typing.SupportsIndex, momentum: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
 def heuristic(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
@@ -193,7 +207,7 @@ def impulse_sums(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2,
     """
     Sums over r of |C A^r e1| and |C A^r e2|.
     """
-def inverse_dynamics(parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex, time: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], acceleration: numpy.typing.NDArray[numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+def inverse_dynamics(parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex, time: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], acceleration: numpy.typing.NDArray[numpy.float64], own: collections.abc.Sequence[OwnEffect] = []) -> numpy.typing.NDArray[numpy.float64]:
     """
     Driving torque (n) that the model needs for a motion.
     """
@@ -209,7 +223,7 @@ def motor_parameter_table() -> list:
     """
     The motor's own parameters.
     """
-def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], current: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"], speed_is_difference: bool = False, angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple:
+def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], current: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"], speed_is_difference: bool = False, angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = []) -> tuple:
     """
     Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.
     """
@@ -241,7 +255,7 @@ def recursive_gauss_newton(network: StructuredNetwork, input: typing.Annotated[n
     ...
 def select_wavelets(wavelet: Wavelet, m: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], d: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
     ...
-def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple:
+def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = []) -> tuple:
     """
     Returns status, current, speed, position (n) and their derivatives (n, p).
     """
@@ -276,4 +290,7 @@ def wavelet_library(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m
 def wavelet_names() -> list[str]:
     ...
 __version__: str = '0.1.0'
+formula_depth: int = 32
 max_order: int = 20
+max_own_effects: int = 6
+max_own_parameters: int = 8

@@ -25,6 +25,7 @@ class Nominal:
     free: Mapping[str, float]  # unknown without a prior (coefficients), with their first guess
     reach: Mapping[str, float] = field(default_factory=dict)  # how far from 0 what is free may go
     starts: tuple[Mapping[str, float], ...] = ()  # other first guesses of what is free, worth a try
+    table: Mapping[str, Effect] = field(default_factory=table)  # every effect that the model knows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,11 +35,12 @@ class Candidate:
     effects: tuple[str, ...]
     vector: Array  # starting values of all parameters
     unknowns: tuple[Unknown, ...]
+    table: Mapping[str, Effect] = field(default_factory=table)
 
     @property
     def active(self) -> list[int]:
         """Indices of the switched-on effects."""
-        return [table()[name].index for name in self.effects]
+        return [self.table[name].index for name in self.effects]
 
     @property
     def by(self) -> list[int]:
@@ -58,7 +60,7 @@ class Candidate:
 
     def starting_at(self, values: Array) -> Candidate:
         """The same candidate from another start."""
-        return Candidate(effects=self.effects, vector=self.with_values(values), unknowns=self.unknowns)
+        return replace(self, vector=self.with_values(values))
 
 
 def candidate(
@@ -71,13 +73,14 @@ def candidate(
     """`nominal` plus `effects`, started at their first guesses or at `starts` (SI), the motor at `motor`."""
     starts = starts or {}
     active = tuple(dict.fromkeys((*nominal.effects, *effects)))
-    replaced = {p.replaces for name in active for p in table()[name].parameters} - {None}
+    known_effects = nominal.table
+    replaced = {p.replaces for name in active for p in known_effects[name].parameters} - {None}
     motor_now = {**nominal.motor, **nominal.free, **(motor or {})}
     unknowns = [_motor_unknown(name, nominal) for name in nominal.uncertainty if name not in replaced]
     unknowns += [_free_unknown(name, nominal.reach.get(name, 1e9)) for name in nominal.free]
     values: dict[str, dict[str, float]] = {}
     for name in active:
-        effect = table()[name]
+        effect = known_effects[name]
         known = nominal.effects.get(name)
         values[name] = {
             p.name: _first(effect, p, nominal, scales, starts.get(name, {}), known) for p in effect.parameters
@@ -86,7 +89,8 @@ def candidate(
             unknowns += [
                 _effect_unknown(effect, p, nominal, scales) for p in effect.parameters if not p.fixed
             ]
-    return Candidate(effects=active, vector=parameter_vector(motor_now, values), unknowns=tuple(unknowns))
+    vector = parameter_vector(motor_now, values, known_effects)
+    return Candidate(effects=active, vector=vector, unknowns=tuple(unknowns), table=known_effects)
 
 
 def fit(

@@ -91,6 +91,8 @@ def simulate(
         run = _rwn().simulate(drive, source)
         write_csv(aside, run.time, run.signals, linear=drive.linear)
     typer.echo(f"{len(run.time)} samples of {', '.join(run.signals)} in {out}")
+    if run.status != "ok":
+        typer.echo(f"warning: {run.status}: {run.advice} The signals are held from there on.", err=True)
 
 
 @app.command()
@@ -122,11 +124,13 @@ def identify(
 @app.command()
 def effects(
     name: Annotated[str | None, typer.Argument(help="One effect, in detail.")] = None,
+    model: Annotated[Path | None, typer.Option("--model", help="A model file: its own effects as well.")] = None,
 ) -> None:
     """The effects that rwn can name: site, equation, parameters, source."""
     from rwn import effects as known
+    from rwn.model import read_model
 
-    table = known.table()
+    table = read_model(model).effect_table if model else known.table()
     if name is None:
         for effect in table.values():
             typer.echo(f"{effect.name:<28} {effect.site:<9} {effect.meaning}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.diagnosis import Estimate, FittedParameter, FoundEffect, NominalFit
-from rwn.effects import motor_index, table
+from rwn.effects import Effect, motor_index
 from rwn.evidence import Hypothesis
 from rwn.model import Model
 from rwn.search import Fitted
@@ -51,7 +52,8 @@ def estimates(fitted: Fitted, variance: float, correlation_time: float) -> dict[
 
 def _systematic(fitted: Fitted) -> Array:
     """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians."""
-    angles = {f"{name}.{p.name}" for name in fitted.added for p in table()[name].parameters if p.cyclic}
+    known = fitted.candidate.table
+    angles = {f"{name}.{p.name}" for name in fitted.added for p in known[name].parameters if p.cyclic}
     pairs = zip(fitted.candidate.unknowns, fitted.minimum.values, strict=True)
     return np.array([AGREEMENT * (1.0 if u.name in angles else abs(v)) for u, v in pairs])
 
@@ -63,14 +65,21 @@ def linear_unit(unit: str) -> str:
     return unit
 
 
+def _unit_on_an_axis(unknown: str, unit: str, known: Mapping[str, Effect]) -> str:
+    """The unit of an unknown of a linear axis; a user has written those of own effects as they are."""
+    owner = known.get(unknown.split(".")[0])
+    return unit if owner is not None and owner.own else linear_unit(unit)
+
+
 def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, ...]:
     """The named effects with parameters, intervals and probability, the one that explains most first."""
     numbers = estimates(chosen.fitted, found.left.variance, found.left.correlation_time)
+    known = chosen.fitted.candidate.table
     if found.setup.whole.angle_per_position != 1.0:
-        numbers = {name: replace(e, unit=linear_unit(e.unit)) for name, e in numbers.items()}
+        numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
     rows = []
     for name in chosen.fitted.added:
-        effect = table()[name]
+        effect = known[name]
         parameters = {
             p.name: numbers[f"{name}.{p.name}"] for p in effect.parameters if f"{name}.{p.name}" in numbers
         }
@@ -113,8 +122,8 @@ def nominal_fit(found: Explanation, chosen: Hypothesis, model: Model) -> Nominal
 def corrected_model(fitted: Fitted, model: Model) -> Model:
     """`model` with the fitted parameters and effects: what corrected.toml holds."""
     vector = fitted.vector
-    active = fitted.candidate.effects
-    replaced = {p.replaces for name in active for p in table()[name].parameters}
+    active, known = fitted.candidate.effects, fitted.candidate.table
+    replaced = {p.replaces for name in active for p in known[name].parameters}
     names = model.parameters or [p.name for p in model.nominal]  # a transfer function without values: all are fitted
     parameters = {
         name: model.parameters[name]
@@ -124,7 +133,7 @@ def corrected_model(fitted: Fitted, model: Model) -> Model:
         if name not in replaced
     }
     effects = {
-        name: {p.name: float(vector[table()[name].at(p.name)]) for p in table()[name].parameters}
+        name: {p.name: float(vector[known[name].at(p.name)]) for p in known[name].parameters}
         for name in active
     }
     uncertainty = {name: value for name, value in model.uncertainty.items() if name in parameters}

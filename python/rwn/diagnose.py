@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn import curves, excitation, mistakes
+from rwn import _core, curves, excitation, mistakes
 from rwn._core import __version__
 from rwn.correct import corrected_model, found_effects, nominal_fit
 from rwn.diagnosis import Alternative, Diagnosis, Estimate, FoundEffect, HeldoutRow, Location, Verdict
@@ -210,10 +210,18 @@ def _next_experiment(found: Explanation, verdict: Verdict, names: Sequence[str])
     return separated_by(names) if len(names) > 1 else ""
 
 
+def _does_not_run(found: Explanation) -> list[str]:
+    """What keeps the model as given from being simulated at all."""
+    start = found.nominal.candidate
+    runs = [found.setup.whole.simulate(t, start.vector, start.active).status for t in found.setup.whole.targets]
+    failed = dict.fromkeys(status for status in runs if status != "ok")
+    return [f"the model as given does not run ({status}): {_core.simulation_advice(status)}" for status in failed]
+
+
 def _warnings(
     found: Explanation, chosen: Hypothesis, verdict: Verdict, rows: Sequence[HeldoutRow]
 ) -> tuple[str, ...]:
-    texts = []
+    texts = _does_not_run(found)
     if verdict == "missing-physics" and rows and all(LEFT_OUT in r.recording for r in rows):
         texts.append(
             "no held-out recording was given: the proof is by cross-validation, each part simulated by fits without it"

@@ -46,8 +46,9 @@ class Effect:
     meaning: str
     source: str
     parameters: tuple[Parameter, ...]
-    index: int  # in the C++ table
+    index: int  # in the C++ table; a user's own effects count on behind it
     first: int  # position of its first parameter in the parameter vector
+    own: bool = False  # defined by the user
 
     def at(self, parameter: str) -> int:
         """Position of one of its parameters in the parameter vector."""
@@ -66,7 +67,7 @@ def motor_parameters() -> Mapping[str, Parameter]:
 
 @cache
 def table() -> Mapping[str, Effect]:
-    """Every effect by name, in the order of the C++ table."""
+    """Every effect that comes with rwn by name, in the order of the C++ table; a model may know more."""
     effects: dict[str, Effect] = {}
     first = len(motor_parameters())
     for index, row in enumerate(_core.effect_table()):
@@ -96,9 +97,13 @@ def _positions() -> Mapping[str, int]:
 
 
 def parameter_vector(
-    motor: Mapping[str, float], effects: Mapping[str, Mapping[str, float]]
+    motor: Mapping[str, float],
+    effects: Mapping[str, Mapping[str, float]],
+    known: Mapping[str, Effect] | None = None,
 ) -> NDArray[np.float64]:
     """All parameters of motor and effects in one vector, as the core takes them; what is not given is zero.
+
+    `known`: the effects by name (default: those that come with rwn).
 
     Parameters of effects that are `fixed` by nature and not given take their stated value.
     """
@@ -106,7 +111,7 @@ def parameter_vector(
     for name, value in motor.items():
         vector[motor_index(name)] = value
     for name, values in effects.items():
-        effect = table()[name]
+        effect = (known or table())[name]
         for k, parameter in enumerate(effect.parameters):
             default = parameter.start if parameter.fixed else 0.0
             vector[effect.first + k] = values.get(parameter.name, default)

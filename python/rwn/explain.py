@@ -49,7 +49,7 @@ def explain(
     within = tempered(search, nominal)
     if within is not search:
         search, nominal = within, within.fit_nominal()
-    wanted = [n for n in names or table() if _applies(n, setup)]
+    wanted = [n for n in names or setup.nominal.table if _applies(n, setup)]
     progress("trying every effect", 0.1)
     fits = search.explain(nominal, wanted)
     if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
@@ -89,7 +89,7 @@ def explain(
 
 def _applies(name: str, setup: Setup) -> bool:
     """Whether an effect can be told at all from these signals and this model."""
-    effect = table()[name]
+    effect = setup.nominal.table[name]
     axis = setup.problem.kind == "axis"
     if axis and effect.site in ("voltage", "flux"):
         return False
@@ -121,7 +121,7 @@ def _revolutions(setup: Setup) -> float:
 
 def _prior(setup: Setup) -> dict[str, float]:
     """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis."""
-    return {"constant-load": np.log(len(table())) + 1.0 if setup.problem.kind == "axis" else -5.0}
+    return {"constant-load": np.log(len(setup.nominal.table)) + 1.0 if setup.problem.kind == "axis" else -5.0}
 
 
 def _with_noise(search: Search, fitted: Fitted) -> Search:
@@ -162,7 +162,8 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
 
 def _replaces(name: str) -> set[str]:
     """Nominal parameters that an effect takes over."""
-    return {p.replaces for p in table()[name].parameters if p.replaces}
+    known = table().get(name)  # a user's own effect takes over nothing
+    return {p.replaces for p in known.parameters if p.replaces} if known else set()
 
 
 def plainer(names: Sequence[str]) -> set[str]:
@@ -172,7 +173,7 @@ def plainer(names: Sequence[str]) -> set[str]:
 
 def _values(fitted: Fitted, name: str) -> dict[str, float]:
     """Parameters of one effect as fitted."""
-    effect = table()[name]
+    effect = fitted.candidate.table[name]
     return {p.name: float(fitted.vector[effect.at(p.name)]) for p in effect.parameters}
 
 
@@ -206,7 +207,7 @@ def _retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Sea
 
 def _turns(fitted: Fitted) -> bool:
     """Whether an effect of this explanation depends on the angle."""
-    return any(p.order or p.cyclic for name in fitted.added for p in table()[name].parameters)
+    return any(p.order or p.cyclic for name in fitted.added for p in fitted.candidate.table[name].parameters)
 
 
 def _tracked(search: Search, fitted: Fitted) -> Search:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rwn import units
+from rwn import _core, units
 from rwn.errors import InputError, closest, unknown
 
 MAX_LENGTH = 2000
@@ -30,6 +30,7 @@ FUNCTIONS: dict[str, tuple[int, Callable[..., Any]]] = {
     "sign": (1, np.sign),
     "min": (2, np.minimum),
     "max": (2, np.maximum),
+    "mexican_hat": (1, lambda z: (1.0 - z * z) * np.exp(-0.5 * z * z)),
 }
 _OPERATORS: dict[type[ast.operator], tuple[str, Callable[[Any, Any], Any]]] = {
     ast.Add: ("add", lambda a, b: a + b),
@@ -64,7 +65,7 @@ class Expression:
         stack: list[Any] = []
         for step in self.program:
             if step.operation == "number":
-                stack.append(step.number)
+                stack.append(np.float64(step.number))  # divides by zero as the core does
             elif step.operation == "name":
                 stack.append(values[step.name])
             else:
@@ -77,9 +78,9 @@ def _apply(operation: str, stack: list[Any]) -> None:
     if operation == "negate":
         stack.append(-stack.pop())
         return
-    count, function = (2, _BINARY[operation]) if operation in _BINARY else FUNCTIONS[operation]
-    arguments = stack[-count:]
-    del stack[-count:]
+    function = _BINARY[operation] if operation in _BINARY else FUNCTIONS[operation][1]
+    arguments = stack[-_taken(operation) :]
+    del stack[-len(arguments) :]
     stack.append(function(*arguments))
 
 
@@ -96,6 +97,10 @@ def parse(text: str, names: Mapping[str, str], *, where: object) -> Expression:
         raise _refused(
             f"cannot read the formula '{text[:80]}'", where, "such as -k * speed * abs(speed)"
         ) from error
+    if _depth(program) > _core.formula_depth:
+        raise _refused(
+            f"the formula holds {_depth(program)} values at once", where, f"at most {_core.formula_depth}"
+        )
     used = tuple(dict.fromkeys(step.name for step in program if step.operation == "name"))
     return Expression(text=text, program=program, names=used)
 
@@ -123,6 +128,22 @@ def _compile(node: ast.expr, names: Mapping[str, str], where: object) -> Iterato
             raise _refused(
                 f"'{shown}' is not allowed in a formula", where, "numbers, names, + - * / ^ and functions"
             )
+
+
+def _depth(program: tuple[Instruction, ...]) -> int:
+    """Most values that are on the stack at once."""
+    depth = most = 0
+    for step in program:
+        depth += 1 - _taken(step.operation)
+        most = max(most, depth)
+    return most
+
+
+def _taken(operation: str) -> int:
+    """Values that an operation takes off the stack; it leaves one."""
+    if operation in ("number", "name"):
+        return 0
+    return 2 if operation in _BINARY else FUNCTIONS[operation][0] if operation in FUNCTIONS else 1
 
 
 def _name(name: str, names: Mapping[str, str], where: object) -> Instruction:

@@ -92,7 +92,8 @@ def _lacking_torque(problem: OutputError, vector: Array, active: Sequence[int], 
     speed, acceleration = motion(target)
     position = np.ascontiguousarray(target.position)
     needed = _core.inverse_dynamics(
-        vector, list(active), problem.angle_per_position, target.time, position, speed, acceleration
+        vector, list(active), problem.angle_per_position, target.time, position, speed, acceleration,
+        problem.own,
     )
     lacking: Array = needed - target.input
     return lacking

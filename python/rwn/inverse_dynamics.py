@@ -31,7 +31,8 @@ def force_error(
     position = np.ascontiguousarray(filtfilt(b, a, target.position))
     speed = np.gradient(position, step)
     needed = _core.inverse_dynamics(
-        vector, active, problem.angle_per_position, target.time, position, speed, np.gradient(speed, step)
+        vector, active, problem.angle_per_position, target.time, position, speed, np.gradient(speed, step),
+        problem.own,
     )
     inner = slice(EDGE, -EDGE)
     force = decimate(target.input[inner], DECIMATION)

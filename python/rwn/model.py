@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Protocol, cast
 
-from rwn import drives
+from rwn import drives, effects
 from rwn.drives import Drive, Nominal
+from rwn.effects import Effect
 from rwn.errors import InputError
 from rwn.layout import Layout
-from rwn.own_effects import OwnEffect
+from rwn.own_effects import OwnEffect, check_own_effects, with_own
 
 
 class EffectParameter(Protocol):
@@ -63,6 +64,15 @@ class Model:
         for name in ("effects", "load"):
             tables = {key: MappingProxyType(dict(values)) for key, values in getattr(self, name).items()}
             object.__setattr__(self, name, MappingProxyType(tables))
+        if self.own_effects:
+            check_own_effects(self.own_effects, self.kind, where=f"{self.source or 'model'}, [own_effects]")
+            own = tuple(e if e.drive == self.drive else replace(e, drive=self.drive) for e in self.own_effects)
+            object.__setattr__(self, "own_effects", own)
+
+    @cached_property
+    def effect_table(self) -> Mapping[str, Effect]:
+        """Every effect that this model knows by name: those that come with rwn, then its own."""
+        return with_own(effects.table(), self.own_effects)
 
     @property
     def drive(self) -> Drive:
@@ -107,7 +117,7 @@ def _coefficient_unit(power: int, unit: str) -> str:
 
 def effect_table() -> EffectTable:
     """The effects that rwn knows, from the core."""
-    return cast(EffectTable, importlib.import_module("rwn.effects").table())
+    return cast(EffectTable, effects.table())
 
 
 def read_model(path: str | Path, *, effects: EffectTable | None = None) -> Model:

@@ -12,7 +12,7 @@ from rwn.errors import InputError, unknown
 from rwn.layout import Column, Layout
 from rwn.model import EffectTable, Model, effect_table, lti_parameters
 from rwn.model_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
-from rwn.own_effects import OwnEffect, from_entry
+from rwn.own_effects import OwnEffect, check_own_effects, from_entry
 from rwn.signals import COLUMNS, TIME
 
 _PENDULUM = (
@@ -32,8 +32,7 @@ def parse_model(text: str, *, where: str, effects: EffectTable | None = None) ->
     parameters = _values(given, nominal, linear=linear, where=f"{where}, [motor]")
     drive = LINEAR_AXIS if linear else KINDS[kind]
     own = {name: from_entry(name, entry, drive, where=where) for name, entry in file.own_effects.items()}
-    if own:
-        _check_own(own, kind, effect_table() if effects is None else effects, f"{where}, [own_effects]")
+    check_own_effects(tuple(own.values()), kind, where=f"{where}, [own_effects]")
     return Model(
         kind=kind,
         parameters=parameters,
@@ -218,24 +217,6 @@ def _effects(
                 )
         found[name] = {k: _number(v, _si(entries[k].unit), f"{place} {k}") for k, v in values.items()}
     return found
-
-
-def _check_own(own: Mapping[str, OwnEffect], kind: str, table: EffectTable, where: str) -> None:
-    if kind == "lti":
-        raise InputError(
-            "a transfer function has no equations to add effects to",
-            where=where,
-            expected="kind dc or axis",
-            fix="remove them, or model the drive as dc or axis",
-        )
-    for name in own:
-        if name in table:
-            raise InputError(
-                f"'{name}' is an effect that rwn knows",
-                where=where,
-                expected="a name of its own",
-                fix=f"rename it, or use [effects.{name}]",
-            )
 
 
 def _si(unit: str) -> str:

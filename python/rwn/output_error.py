@@ -83,6 +83,7 @@ class OutputError:
         0,
     )  # of initial current, speed, position in the parameter vector
     order: int = 0  # of a transfer function
+    own: tuple[_core.OwnEffect, ...] = ()  # a user's effects
     colour: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
     def parameters_for(self, target: Target, vector: Array, active: Sequence[int]) -> Array:  # noqa: ARG002
@@ -99,7 +100,7 @@ class OutputError:
         status, *arrays = _core.simulate(
             self.kind, target.time, target.input, self.parameters_for(target, vector, active), list(active), list(by),
             self.angle_per_position, target.input_before, target.angle, target.restart_every,
-            target.restart_speed, target.restart_position, self.order,
+            target.restart_speed, target.restart_position, self.order, self.own,
         )  # fmt: skip
         signals = dict(zip(SIGNALS, arrays[:3], strict=True))
         slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
@@ -143,7 +144,7 @@ class OutputError:
             self.kind, target.time, target.input, vector, list(active), list(by), target.current, target.speed,
             target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS], target.speed_is_difference,
             self.angle_per_position, target.input_before, target.angle,
-            target.restart_every, target.restart_speed, target.restart_position, self.order,
+            target.restart_every, target.restart_speed, target.restart_position, self.order, self.own,
         )  # fmt: skip
         return CountedNormal(
             chi2=chi2, gradient=gradient, curvature=curvature, count=count, finite=status == "ok"

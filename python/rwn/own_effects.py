@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import msgspec
 
-from rwn import expression
+from rwn import _core, expression
 from rwn.drives import DC, Drive
+from rwn.effects import Effect, Parameter, motor_index, table
 from rwn.errors import InputError, unknown
-from rwn.expression import Expression
+from rwn.expression import Expression, Instruction
 
 # term: (site, SI unit on a shaft, on a linear axis, what the formula is); signs as in the motor equations.
 TERMS: dict[str, tuple[str, str, str, str]] = {
@@ -41,10 +43,15 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "drive_torque": ("N m", "N"),
 }
 
+MOST_SCANNED = 2  # parameters that are scanned beside each other: nine starts
+
 
 @dataclass(frozen=True, kw_only=True)
 class OwnParameter:
-    """A parameter in SI, fitted from `start` within bounds. `strength`: at zero the effect is absent."""
+    """A parameter in SI, fitted from `start` within bounds; with equal bounds a constant that carries a unit.
+
+    `strength`: at zero the effect is absent.
+    """
 
     name: str
     unit: str
@@ -56,8 +63,8 @@ class OwnParameter:
 
     @property
     def fixed(self) -> bool:
-        """Never: a constant belongs into the formula."""
-        return False
+        """Whether it is a constant."""
+        return self.lower == self.upper
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,6 +90,13 @@ class OwnEffect:
             )
         if self.term not in TERMS:
             raise unknown("term", self.term, TERMS, where=where)
+        if len(self.parameters) > _core.max_own_parameters:
+            raise InputError(
+                f"{len(self.parameters)} parameters",
+                where=where,
+                expected=f"at most {_core.max_own_parameters}",
+                fix="write those that are known into the formula",
+            )
         for parameter in self.parameters:
             _check_parameter(parameter, where)
         if not any(p.strength for p in self.parameters):
@@ -104,6 +118,15 @@ class OwnEffect:
         """The equation, compiled."""
         return expression.parse(self.equation, self._names, where=f"own effect '{self.name}', equation")
 
+    @cached_property
+    def core(self) -> _core.OwnEffect:
+        """What the core simulates."""
+        places = {p.name: ("parameter", k) for k, p in enumerate(self.parameters)}
+        variables = {name: ("variable", k) for k, name in enumerate(VARIABLES)}
+        nominal = {p.name: ("nominal", motor_index(p.name)) for p in self.drive.parameters}
+        known = nominal | variables | places  # a parameter's own name comes first
+        return _core.OwnEffect(self.term, [_step(s, known) for s in self.formula.program], len(self.parameters))
+
     @property
     def _names(self) -> dict[str, str]:
         """Every name that the equation may use, with its SI unit; a parameter's own name comes first."""
@@ -115,6 +138,14 @@ class OwnEffect:
     @property
     def _unit(self) -> str:
         return TERMS[self.term][1 + (self.drive.input == "force")] or _input_unit(self.drive)
+
+
+def _step(step: Instruction, known: Mapping[str, tuple[str, int]]) -> tuple[str, float, int]:
+    """A step as the core takes it: operation, number, place."""
+    if step.operation == "name":
+        operation, place = known[step.name]
+        return operation, 0.0, place
+    return step.operation, step.number, 0
 
 
 def _input_unit(drive: Drive) -> str:
@@ -132,7 +163,6 @@ def _check_parameter(p: OwnParameter, where: str) -> None:
     if (
         not all(map(math.isfinite, (p.lower, p.start, p.upper)))
         or not p.lower <= p.start <= p.upper
-        or p.lower == p.upper
     ):
         raise InputError(
             f"{p.name} starts at {p.start:g} between {p.lower:g} and {p.upper:g}",
@@ -140,6 +170,70 @@ def _check_parameter(p: OwnParameter, where: str) -> None:
             expected="finite lower <= start <= upper",
             fix="correct the bounds",
         )
+
+
+def check_own_effects(own: Sequence[OwnEffect], kind: str, *, where: str) -> None:
+    """Whether a model of this kind can have these effects together. Raises InputError."""
+    if own and kind == "lti":
+        raise InputError(
+            "a transfer function has no equations to add effects to",
+            where=where,
+            expected="kind dc or axis",
+            fix="remove them, or model the drive as dc or axis",
+        )
+    if len(own) > _core.max_own_effects:
+        raise InputError(
+            f"{len(own)} own effects", where=where, expected=f"at most {_core.max_own_effects}", fix="remove some"
+        )
+    names = [effect.name for effect in own]
+    for k, name in enumerate(names):
+        if name in table() or name in names[:k]:
+            raise InputError(
+                f"'{name}' is an effect that is there already",
+                where=where,
+                expected="a name of its own",
+                fix=f"rename it, or use [effects.{name}]",
+            )
+
+
+def with_own(known: Mapping[str, Effect], own: Sequence[OwnEffect]) -> Mapping[str, Effect]:
+    """A table of effects with a user's behind those that are `known`."""
+    rows = {}
+    for slot, effect in enumerate(own):
+        rows[effect.name] = Effect(
+            name=effect.name,
+            site=effect.site,
+            mismatch=_EQUATIONS[effect.site],
+            equation=f"{effect.term} = {effect.equation}",
+            meaning=effect.meaning,
+            source=effect.source,
+            parameters=tuple(_as_parameter(p, effect.parameters) for p in effect.parameters),
+            index=len(known) + slot,
+            first=_core.first_own_parameter() + slot * _core.max_own_parameters,
+            own=True,
+        )
+    return {**known, **rows}
+
+
+_EQUATIONS = {effect.site: effect.mismatch for effect in table().values()}
+
+
+def _as_parameter(p: OwnParameter, among: Sequence[OwnParameter]) -> Parameter:
+    return Parameter(
+        name=p.name, unit=p.unit, meaning=p.meaning, lower=p.lower, upper=p.upper, start=p.start, scale="none",
+        scan=_scan(p, among), inverse=False, strength=p.strength, fixed=p.fixed, cyclic=False, order=False,
+        window=False, lattice=False, replaces=None,
+    )  # fmt: skip
+
+
+def _scan(p: OwnParameter, among: Sequence[OwnParameter]) -> tuple[float, ...]:
+    """First guesses of a parameter that bends the formula: where it starts, and half way to either bound."""
+    bending = [q for q in among if not q.strength and not q.fixed]
+    if p not in bending or len(bending) > MOST_SCANNED:
+        return ()
+    if p.lower > 0.0:
+        return p.start, (p.lower * p.start) ** 0.5, (p.start * p.upper) ** 0.5
+    return p.start, (p.lower + p.start) / 2.0, (p.start + p.upper) / 2.0
 
 
 class ParameterEntry(msgspec.Struct, forbid_unknown_fields=True):
@@ -186,8 +280,9 @@ def to_lines(effect: OwnEffect) -> list[str]:
         *(f"{k} = {text(getattr(effect, k))}" for k in _texts(effect)),
     ]
     for p in effect.parameters:
-        given = {key: value for key, value in vars(p).items() if key != "name" and value not in ("", False)}
+        given: dict[str, object] = {"unit": p.unit}
         given |= {key: float(getattr(p, key)) for key in ("lower", "upper", "start")}
+        given |= {key: getattr(p, key) for key in ("strength", "meaning") if getattr(p, key)}
         values = ", ".join(f"{key} = {text(value)}" for key, value in given.items())
         lines.append(f"parameters.{p.name} = {{ {values} }}")
     return lines

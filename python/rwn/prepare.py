@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from rwn.candidate import Nominal, candidate, fit
 from rwn.effects import motor_index, motor_parameters
-from rwn.errors import InputError
 from rwn.model import Model
 from rwn.output_error import OutputError, Target
 from rwn.quantisation import counted, lattice, quantisation
@@ -36,11 +35,7 @@ class Setup:
 
 
 def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
-    """Targets, weights and scales; the noise levels are first guesses from the recordings alone.
-
-    Raises InputError for models that can be read but not simulated yet.
-    """
-    _refuse_what_cannot_run(model)
+    """Targets, weights and scales; the noise levels are first guesses from the recordings alone."""
     targets = tuple(target(r, model) for r in recordings)
     nominal = nominal_of(model)
     whole = _whole(targets, model)
@@ -70,6 +65,7 @@ def _whole(targets: tuple[Target, ...], model: Model) -> OutputError:
         targets=targets,
         noise=noise,
         angle_per_position=2.0 * np.pi if model.linear else 1.0,
+        own=tuple(effect.core for effect in model.own_effects),
         start_indices=(
             motor_index("initial_current"),
             motor_index("initial_speed"),
@@ -86,24 +82,15 @@ def _started(problem: OutputError, nominal: Nominal, guesses: Sequence[Mapping[s
     return replace(nominal, free=first, starts=tuple(others))
 
 
-def _refuse_what_cannot_run(model: Model) -> None:
-    if model.own_effects:
-        names = ", ".join(e.name for e in model.own_effects)
-        raise InputError(
-            f"own effects ({names}) are read and checked but cannot be simulated yet",
-            where=model.source or "model",
-            expected="built-in effects only",
-            fix="remove [own_effects]",
-        )
-
-
 def nominal_of(model: Model) -> Nominal:
     """The model's values as the fit takes them."""
     known = motor_parameters()
     motor = {name: value for name, value in model.parameters.items() if name in known or model.kind == "lti"}
     for load in model.load.values():
         motor["pendulum_torque"] = load["mass"] * 9.80665 * load["length"]
-    return Nominal(motor=motor, uncertainty=dict(model.uncertainty), effects=dict(model.effects), free={})
+    return Nominal(
+        motor=motor, uncertainty=dict(model.uncertainty), effects=dict(model.effects), free={}, table=model.effect_table
+    )
 
 
 def target(recording: Recording, model: Model) -> Target:

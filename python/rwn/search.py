@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rwn import hints
 from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
-from rwn.effects import Effect, table
+from rwn.effects import Effect
 from rwn.least_squares import Minimum
 from rwn.output_error import OutputError
 
@@ -101,7 +101,7 @@ class Search:
         return Fitted(added=this.added, candidate=start, minimum=fit(problem, start))
 
     def _starts(self, base: Fitted, name: str) -> list[Candidate]:
-        effect = table()[name]
+        effect = self.nominal.table[name]
         motor = {u.name: float(v) for u, v in zip(base.candidate.unknowns, base.minimum.values, strict=True)}
         inner: dict[str, dict[str, float]] = {}
         for key in list(motor):

@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "rwn/effects.hpp"
+#include "rwn/own_effect.hpp"
 
 namespace rwn {
 
 inline constexpr int max_active_effects = 8;
+inline constexpr int max_active_parameters = max_active_effects * max_own_parameters;  // no effect has more
 inline constexpr int max_memories = 8;
 inline constexpr int max_breaks = 2;
 
@@ -55,6 +57,16 @@ constexpr EffectFunctions<S> functions_of() {
   return f;
 }
 
+/// What the loops have to know of an own effect; its formula is called through ActiveEffect::own.
+template <class S>
+EffectFunctions<S> functions_of(const ActiveOwnEffect<S>& own) {
+  EffectFunctions<S> f;
+  f.varies = own.varies();
+  f.dry = own.term() == Term::friction;
+  f.electrical = own.term() == Term::drop || is_factor(own.term());
+  return f;
+}
+
 template <class S, std::size_t... I>
 constexpr auto effect_functions(std::index_sequence<I...>) {
   return std::array<EffectFunctions<S>, sizeof...(I)>{functions_of<S, std::tuple_element_t<I, Effects>>()...};
@@ -69,7 +81,8 @@ template <class S>
 struct ActiveEffect {
   EffectFunctions<S> call;
   const S* p = nullptr;
-  int memory = 0;  // first slot of its memory
+  int memory = 0;                           // first slot of its memory
+  const ActiveOwnEffect<S>* own = nullptr;  // where it is a user's
 };
 
 }  // namespace rwn

@@ -41,6 +41,11 @@ struct Dual {
     return y;
   }
 
+  /// Slopes that are infinite or undefined (of a root or logarithm at zero) become 0.
+  void clear_wild_slopes() {
+    for (std::size_t k = 0; k < N; ++k) d[k] = std::isfinite(d[k]) ? d[k] : 0.0;
+  }
+
   Dual& operator+=(const Dual& o) {
     v += o.v;
     for (std::size_t k = 0; k < N; ++k) d[k] += o.d[k];
@@ -99,6 +104,11 @@ struct Dual {
   friend Dual log(const Dual& x) { return x.chain(std::log(x.v), 1.0 / x.v); }
   friend Dual sin(const Dual& x) { return x.chain(std::sin(x.v), std::cos(x.v)); }
   friend Dual cos(const Dual& x) { return x.chain(std::cos(x.v), -std::sin(x.v)); }
+  friend Dual tan(const Dual& x) {
+    const double t = std::tan(x.v);
+    return x.chain(t, 1.0 + t * t);
+  }
+  friend Dual atan(const Dual& x) { return x.chain(std::atan(x.v), 1.0 / (1.0 + x.v * x.v)); }
   friend Dual tanh(const Dual& x) {
     const double t = std::tanh(x.v);
     return x.chain(t, 1.0 - t * t);
@@ -106,6 +116,14 @@ struct Dual {
   friend Dual sqrt(const Dual& x) {
     const double r = std::sqrt(x.v);
     return x.chain(r, r > 0.0 ? 0.5 / r : 0.0);
+  }
+  friend Dual pow(const Dual& a, const Dual& b) {
+    const double f = std::pow(a.v, b.v);
+    const double by_a = a.v != 0.0 ? b.v * f / a.v : b.v == 1.0 ? 1.0 : 0.0;
+    const double by_b = a.v > 0.0 ? f * std::log(a.v) : 0.0;
+    Dual y(f);
+    for (std::size_t k = 0; k < N; ++k) y.d[k] = by_a * a.d[k] + by_b * b.d[k];
+    return y;
   }
   friend Dual abs(const Dual& x) { return x.v < 0.0 ? -x : x; }
 };

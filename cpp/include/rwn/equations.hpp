@@ -36,7 +36,7 @@ class Equations {
       varies_ = varies_ || call.varies;
       dry_ = dry_ || call.dry;
       electrical_ = electrical_ || call.electrical;
-      rates_ = rates_ || call.rate != nullptr;
+      rates_ = rates_ || call.rate != nullptr || (effects_[k].own != nullptr && call.varies);
       timed_ = timed_ || call.breaks != nullptr;
       replaced = replaced || call.replaces;
       hiddens_ = hiddens_ || call.hiddens > 0;
@@ -98,6 +98,8 @@ class Equations {
     for (int k = 0; k < count_; ++k) {
       if (effects_[k].call.rate != nullptr) {
         rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration));
+      } else if (effects_[k].own != nullptr && effects_[k].call.varies) {
+        rate = std::max(rate, effects_[k].own->rate(effects_[k].p, motor_, x, acceleration, h));
       }
     }
     return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 16);
@@ -205,6 +207,7 @@ class Equations {
     t.friction = base_friction_;
     Motion<S> x = motion_of(s, start);
     for (int k = 0; k < count_; ++k) {
+      if (effects_[k].own != nullptr) effects_[k].own->apply(effects_[k].p, motor_, x, t);
       if (effects_[k].call.apply == nullptr) continue;
       x.memory = s.memory.data() + effects_[k].memory;
       effects_[k].call.apply(effects_[k].p, motor_, x, t);

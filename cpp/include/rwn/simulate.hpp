@@ -8,21 +8,26 @@
 
 #include "rwn/drive.hpp"
 #include "rwn/effects.hpp"
+#include "rwn/own_effect.hpp"
 
 namespace rwn {
 
-enum class SimulationStatus { ok, diverged };
+enum class SimulationStatus { ok, diverged, formula_failed };
 
 std::string_view to_string(SimulationStatus status);
 std::string_view advice(SimulationStatus status);
+/// The inverse of `to_string`. Throws std::invalid_argument for others.
+SimulationStatus status_of(std::string_view name);
 
 /// Parameters of motor and effects in one list: the motor's, then each effect's in the order of the table, then the
-/// coefficients and the initial state of a transfer function.
+/// coefficients and the initial state of a transfer function, then `max_own_parameters` for each own effect.
 int parameter_count();
 /// Index of the first parameter of effect `effect` in that list.
 int first_parameter(int effect);
 /// Index of b_0 in that list; a_0 and x_1 follow max_order later each.
 int first_coefficient();
+/// Index of the first parameter of own effect 0.
+int first_own_parameter();
 
 /// "dc", "axis" or "lti". Throws std::invalid_argument for others.
 Kind kind_of(std::string_view name);
@@ -33,7 +38,7 @@ struct SimulationTask {
   std::span<const double> time;        // (n) [s], increasing
   std::span<const double> input;       // (n) voltage [V] or torque [N m], held from its row to the next
   std::span<const double> parameters;  // (parameter_count()) SI
-  std::span<const int> active;         // effects switched on, by index in the table
+  std::span<const int> active;         // effects switched on, by index in the table; own effects count on behind it
   std::span<const int> by;             // (p) parameters to differentiate by
   double angle_per_position = 1.0;     // 2 pi for a linear axis
   double input_before = 0.0;           // input before the first row (matters with an input delay)
@@ -42,6 +47,7 @@ struct SimulationTask {
   int restart_every = 0;               // samples of a window, after which the motion restarts from the recorded one
   std::span<const double> restart_speed, restart_position;  // (n) recorded motion; not read where restart_every is 0
   int order = 0;                                             // of a transfer function (kind lti)
+  std::span<const OwnEffect> own;  // users' effects, by slot; none for kind lti
 };
 
 /// Signals at the rows' times, before the new input acts; derivatives are (n, p) row-major. Empty spans are not
@@ -52,7 +58,8 @@ struct SimulationOutput {
 };
 
 /// Throws std::invalid_argument for lengths or indices that do not fit. A run that leaves the finite numbers stops
-/// with `diverged`; its signals from there on are held at the last finite value.
+/// with `diverged`, one in which a user's formula has no finite value with `formula_failed`; the signals from there on
+/// are held at the last finite value.
 SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& output);
 
 }  // namespace rwn

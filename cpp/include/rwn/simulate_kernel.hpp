@@ -30,6 +30,9 @@ struct SimulationSlice {
   int columns;             // row length of the derivative arrays
   int order;               // of a transfer function
   int first_coefficient;   // place of its coefficients among the parameters
+  const OwnProgram* own;   // by slot
+  int first_own;           // place of the parameters of slot 0
+  bool* formula_failed;    // set where a user's formula gave no finite number
 };
 
 template <class S, int N, Kind kind>
@@ -43,13 +46,19 @@ class Simulation {
     for (int k = 0; k < motor_parameter_count; ++k) motor_[static_cast<std::size_t>(k)] = parameter(k);
     int memory = 0, slot = 0;
     for (int a = 0; a < slice_.active_count; ++a) {
-      const int effect = slice_.active[a];
-      const auto& call = all_effect_functions<S>[static_cast<std::size_t>(effect)];
-      effects_[static_cast<std::size_t>(a)] = {call, parameters_.data() + slot, memory};
-      const int end = slice_.first_parameter[effect + 1];
-      for (int k = slice_.first_parameter[effect]; k < end; ++k)
-        parameters_[static_cast<std::size_t>(slot++)] = parameter(k);
-      memory += call.memories;
+      const int effect = slice_.active[a], own = effect - effect_count;
+      auto& e = effects_[static_cast<std::size_t>(a)];
+      if (own < 0) {
+        e = {all_effect_functions<S>[static_cast<std::size_t>(effect)], parameters_.data() + slot, memory};
+        slot = take(slice_.first_parameter[effect], slice_.first_parameter[effect + 1], slot);
+      } else {
+        auto& formula = owns_[static_cast<std::size_t>(own)];
+        formula = {slice_.own[own], stack_.data(), slice_.formula_failed};
+        e = {functions_of(formula), parameters_.data() + slot, memory, &formula};
+        const int first = slice_.first_own + own * max_own_parameters;
+        slot = take(first, first + max_own_parameters, slot);
+      }
+      memory += e.call.memories;
     }
     if constexpr (kind == Kind::lti) {
       for (int k = 0; k < coefficient_count; ++k)
@@ -67,6 +76,7 @@ class Simulation {
       if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position)))
         return k;
       write(k, state);
+      if (*slice_.formula_failed) return k;
       if (slice_.restart_every > 0 && k > 0 && k % slice_.restart_every == 0) {
         state.x[w] = S(slice_.restart_speed[k]);
         state.position = S(slice_.restart_position[k]);
@@ -85,6 +95,12 @@ class Simulation {
     } else {
       return {motor_, effects_.data(), slice_.active_count, slice_.angle_per_position};
     }
+  }
+
+  /// Puts parameters [begin, end) behind the first `slot` of the active effects; returns how many there are then.
+  int take(int begin, int end, int slot) {
+    for (int k = begin; k < end; ++k) parameters_[static_cast<std::size_t>(slot++)] = parameter(k);
+    return slot;
   }
 
   S parameter(int index) const {
@@ -111,22 +127,40 @@ class Simulation {
       if (e.call.breaks != nullptr) {
         for (const S& instant : e.call.breaks(e.p)) breaks_[static_cast<std::size_t>(break_count_++)] = instant;
       }
-      actuates_ = actuates_ || e.call.actuate != nullptr;
-      senses_ = senses_ || e.call.sense != nullptr;
+      actuates_ = actuates_ || e.call.actuate != nullptr || (e.own != nullptr && e.own->term() == Term::input);
+      senses_ = senses_ || e.call.sense != nullptr || (e.own != nullptr && is_sensor(e.own->term()));
       Reading<S> first = reading(s);
       if (e.call.begin != nullptr) e.call.begin(e.p, first, s.memory.data() + e.memory);
       for (int k = 0; k < e.call.hiddens; ++k) s.hidden[1] = s.x[w];  // load at motor speed, no twist
     }
   }
 
-  S acting(double command) const {
+  /// What acts in place of a command from the instant of sample k on.
+  S acting(double command, const State& s, int k) const {
     S input(command);
     if (!actuates_) return input;
     for (int a = 0; a < slice_.active_count; ++a) {
       const auto& e = effects_[static_cast<std::size_t>(a)];
       if (e.call.actuate != nullptr) input = e.call.actuate(e.p, input);
+      if (e.own != nullptr && e.own->term() == Term::input) input = e.own->value(e.p, motor_, motion(s, input, k));
     }
     return input;
+  }
+
+  /// Where the motor is at sample k, as formulas of actuators and sensors see it.
+  Motion<S> motion(const State& s, const S& input, int k) const {
+    Motion<S> x;
+    x.time = slice_.time[k] - slice_.time[0];
+    x.input = input;
+    const Reading<S> y = reading(s);
+    x.current = y.current;
+    x.speed = y.speed;
+    x.angle = slice_.angle_per_position * y.position;
+    if (slice_.angle != nullptr) x.angle += slice_.angle_per_position * (slice_.angle[k] - value_of(y.position));
+    x.angle_per_position = slice_.angle_per_position;
+    x.drive_torque = kind == Kind::dc ? motor_[torque_constant] * y.current : input;
+    if constexpr (kind != Kind::lti) x.direction = s.direction;
+    return x;
   }
 
   double command_before(int index) const { return index < 0 ? slice_.input_before : slice_.input[index]; }
@@ -135,7 +169,7 @@ class Simulation {
     const double begin = slice_.time[k];
     const double end = slice_.time[k + 1];
     if (!delayed_ && break_count_ == 0) {
-      integrator.advance(s, S(end - begin), acting(slice_.input[k]), begin - slice_.time[0]);
+      integrator.advance(s, S(end - begin), acting(slice_.input[k], s, k), begin - slice_.time[0]);
       return;
     }
     advance_pieces(integrator, s, k, begin, end);
@@ -162,7 +196,7 @@ class Simulation {
           command = false;
         }
       }
-      integrator.advance(s, next - at, acting(command_before(delayed_ ? row : k)), value_of(at) - slice_.time[0]);
+      integrator.advance(s, next - at, acting(command_before(delayed_ ? row : k), s, k), value_of(at) - slice_.time[0]);
       at = next;
       if (command) ++row;
     }
@@ -182,6 +216,8 @@ class Simulation {
       for (int a = 0; a < slice_.active_count; ++a) {
         const auto& e = effects_[static_cast<std::size_t>(a)];
         if (e.call.sense != nullptr) e.call.sense(e.p, y, s.memory.data() + e.memory);
+        if (e.own != nullptr && is_sensor(e.own->term()))
+          e.own->sense(e.p, motor_, motion(s, S(command_before(k - 1)), k), y);
       }
     }
     store(k, y.current, slice_.current, slice_.d_current);
@@ -201,8 +237,10 @@ class Simulation {
 
   const SimulationSlice& slice_;
   Motor<S> motor_{};
-  std::array<S, 32> parameters_{};
+  std::array<S, max_active_parameters> parameters_{};
   std::array<ActiveEffect<S>, max_active_effects> effects_{};
+  std::array<ActiveOwnEffect<S>, max_own_effects> owns_{};
+  std::array<S, formula_depth> stack_{};
   std::array<S, kind == Kind::lti ? coefficient_count : 0> coefficients_{};
   S delay_{0.0};
   std::array<S, 8> breaks_{};

@@ -1,0 +1,197 @@
+// Formulas of users as programs of a stack machine, for any scalar: dual numbers carry the derivatives along.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "rwn/drive.hpp"
+#include "rwn/dual.hpp"
+#include "rwn/wavelets/mexican_hat.hpp"
+
+namespace rwn {
+
+/// What a step of a program does. The first four push a value, the others act on the top of the stack.
+enum class Operation {
+  number,
+  variable,
+  nominal,
+  parameter,
+  negate,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  sin,
+  cos,
+  tan,
+  atan,
+  tanh,
+  exp,
+  log,
+  sqrt,
+  abs,
+  sign,
+  min,
+  max,
+  mexican_hat
+};
+inline constexpr std::string_view operation_names[] = {
+    "number", "variable", "nominal", "parameter", "negate", "add",  "subtract",   "multiply",
+    "divide", "power",    "sin",     "cos",       "tan",    "atan", "tanh",       "exp",
+    "log",    "sqrt",     "abs",     "sign",      "min",    "max",  "mexican_hat"};
+
+/// What a formula knows of the motion.
+enum class Variable { time, input, current, speed, position, direction, drive_torque };
+inline constexpr std::string_view variable_names[] = {"time",     "input",     "current",     "speed",
+                                                      "position", "direction", "drive_torque"};
+
+/// One step: `number` is what it pushes, `place` the variable, nominal parameter or own parameter that it pushes.
+struct Instruction {
+  Operation operation = Operation::number;
+  double number = 0.0;
+  int place = 0;
+};
+
+inline constexpr int formula_depth = 32;  // most values that are on the stack at once
+
+/// Refuses a program that does not leave exactly one value, needs more than `formula_depth`, or reads a place that
+/// does not exist. Throws std::invalid_argument.
+void check_formula(std::span<const Instruction> program, int parameters);
+
+template <class S>
+double direction_of(const Motion<S>& x) {
+  if (x.direction != 0.0) return x.direction;
+  const double speed = value_of(x.speed);  // without dry friction nobody keeps the direction of sliding
+  return speed > 0.0 ? 1.0 : speed < 0.0 ? -1.0 : 0.0;
+}
+
+template <class S>
+S variable_of(Variable v, const Motion<S>& x) {
+  switch (v) {
+    case Variable::time:
+      return S(x.time);
+    case Variable::input:
+      return x.input;
+    case Variable::current:
+      return x.current;
+    case Variable::speed:
+      return x.speed;
+    case Variable::position:
+      return x.angle / x.angle_per_position;  // follows the recorded one where that is asked for
+    case Variable::direction:
+      return S(direction_of(x));
+    case Variable::drive_torque:
+      return x.drive_torque;
+  }
+  return S(0.0);
+}
+
+template <class S>
+S push(const Instruction& step, const S* p, const Motor<S>& motor, const Motion<S>& x) {
+  switch (step.operation) {
+    case Operation::number:
+      return S(step.number);
+    case Operation::variable:
+      return variable_of(static_cast<Variable>(step.place), x);
+    case Operation::nominal:
+      return motor[static_cast<std::size_t>(step.place)];
+    default:
+      return p[step.place];
+  }
+}
+
+template <class S>
+void apply_to_one(Operation operation, S& a) {
+  using std::abs, std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tan, std::tanh;
+  switch (operation) {
+    case Operation::negate:
+      a = -a;
+      return;
+    case Operation::sin:
+      a = sin(a);
+      return;
+    case Operation::cos:
+      a = cos(a);
+      return;
+    case Operation::tan:
+      a = tan(a);
+      return;
+    case Operation::atan:
+      a = atan(a);
+      return;
+    case Operation::tanh:
+      a = tanh(a);
+      return;
+    case Operation::exp:
+      a = exp(a);
+      return;
+    case Operation::log:
+      a = log(a);
+      return;
+    case Operation::sqrt:
+      a = sqrt(a);
+      return;
+    case Operation::abs:
+      a = abs(a);
+      return;
+    case Operation::sign:
+      a = S(value_of(a) > 0.0 ? 1.0 : value_of(a) < 0.0 ? -1.0 : value_of(a));
+      return;
+    default:  // mexican_hat
+      a = MexicanHat{}.value(a);
+  }
+}
+
+template <class S>
+void apply_to_two(Operation operation, S& a, const S& b) {
+  using std::pow;
+  switch (operation) {
+    case Operation::add:
+      a += b;
+      return;
+    case Operation::subtract:
+      a -= b;
+      return;
+    case Operation::multiply:
+      a *= b;
+      return;
+    case Operation::divide:
+      a /= b;
+      return;
+    case Operation::power:
+      a = value_of(b) == 2.0 && is_constant(b) ? a * a : pow(a, b);
+      return;
+    case Operation::min:
+      if (value_of(b) < value_of(a) || std::isnan(value_of(b))) a = b;
+      return;
+    default:  // max
+      if (value_of(b) > value_of(a) || std::isnan(value_of(b))) a = b;
+  }
+}
+
+[[gnu::always_inline]] inline constexpr bool pushes(Operation o) { return o <= Operation::parameter; }
+[[gnu::always_inline]] inline constexpr bool takes_two(Operation o) {
+  return (o >= Operation::add && o <= Operation::power) || o == Operation::min || o == Operation::max;
+}
+
+/// Value of a checked program; `stack` has room for `formula_depth`. p: the effect's own parameters.
+template <class S>
+S evaluate(const Instruction* program, int length, const S* p, const Motor<S>& motor, const Motion<S>& x, S* stack) {
+  S* top = stack;  // one past the last
+  for (int k = 0; k < length; ++k) {
+    const Instruction& step = program[k];
+    if (pushes(step.operation)) {
+      *top++ = push(step, p, motor, x);
+    } else if (takes_two(step.operation)) {
+      --top;
+      apply_to_two(step.operation, top[-1], *top);
+    } else {
+      apply_to_one(step.operation, top[-1]);
+    }
+  }
+  return stack[0];
+}
+
+}  // namespace rwn
