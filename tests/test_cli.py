@@ -34,6 +34,8 @@ viscous_friction = 7e-5
 class FakeRun:
     time: np.ndarray
     signals: dict[str, np.ndarray]
+    status: str = "ok"
+    advice: str = ""
 
 
 @dataclass(frozen=True)

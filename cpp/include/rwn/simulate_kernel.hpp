@@ -54,6 +54,7 @@ class Simulation {
       } else {
         auto& formula = owns_[static_cast<std::size_t>(own)];
         formula = {slice_.own[own], stack_.data(), slice_.formula_failed};
+        has_own_ = true;
         e = {functions_of(formula), parameters_.data() + slot, memory, &formula};
         const int first = slice_.first_own + own * max_own_parameters;
         slot = take(first, first + max_own_parameters, slot);
@@ -76,7 +77,7 @@ class Simulation {
       if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position)))
         return k;
       write(k, state);
-      if (*slice_.formula_failed) return k;
+      if (has_own_ && *slice_.formula_failed) return k;
       if (slice_.restart_every > 0 && k > 0 && k % slice_.restart_every == 0) {
         state.x[w] = S(slice_.restart_speed[k]);
         state.position = S(slice_.restart_position[k]);
@@ -136,9 +137,10 @@ class Simulation {
   }
 
   /// What acts in place of a command from the instant of sample k on.
-  S acting(double command, const State& s, int k) const {
+  S acting(double command, const State& s, int k) const { return actuates_ ? actuated(command, s, k) : S(command); }
+
+  [[gnu::noinline]] S actuated(double command, const State& s, int k) const {
     S input(command);
-    if (!actuates_) return input;
     for (int a = 0; a < slice_.active_count; ++a) {
       const auto& e = effects_[static_cast<std::size_t>(a)];
       if (e.call.actuate != nullptr) input = e.call.actuate(e.p, input);
@@ -212,17 +214,19 @@ class Simulation {
 
   void write(int k, const State& s) {
     Reading<S> y = reading(s);
-    if (senses_) {
-      for (int a = 0; a < slice_.active_count; ++a) {
-        const auto& e = effects_[static_cast<std::size_t>(a)];
-        if (e.call.sense != nullptr) e.call.sense(e.p, y, s.memory.data() + e.memory);
-        if (e.own != nullptr && is_sensor(e.own->term()))
-          e.own->sense(e.p, motor_, motion(s, S(command_before(k - 1)), k), y);
-      }
-    }
+    if (senses_) sense(k, s, y);
     store(k, y.current, slice_.current, slice_.d_current);
     store(k, y.speed, slice_.speed, slice_.d_speed);
     store(k, y.position, slice_.position, slice_.d_position);
+  }
+
+  [[gnu::noinline]] void sense(int k, const State& s, Reading<S>& y) const {
+    for (int a = 0; a < slice_.active_count; ++a) {
+      const auto& e = effects_[static_cast<std::size_t>(a)];
+      if (e.call.sense != nullptr) e.call.sense(e.p, y, s.memory.data() + e.memory);
+      if (e.own != nullptr && is_sensor(e.own->term()))
+        e.own->sense(e.p, motor_, motion(s, S(command_before(k - 1)), k), y);
+    }
   }
 
   void store(int k, const S& y, double* values, double* slopes) const {
@@ -245,7 +249,7 @@ class Simulation {
   S delay_{0.0};
   std::array<S, 8> breaks_{};
   int break_count_ = 0;
-  bool delayed_ = false, actuates_ = false, senses_ = false;
+  bool delayed_ = false, actuates_ = false, senses_ = false, has_own_ = false;
 };
 
 }  // namespace rwn
