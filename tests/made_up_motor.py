@@ -11,6 +11,7 @@ import rwn
 from rwn.own_effects import OwnEffect, OwnParameter
 
 Array = NDArray[np.float64]
+Torque = Callable[[float, float], float]  # of speed and angle
 MOTOR = {"resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 3e-4,
          "viscous_friction": 7e-5}  # fmt: skip
 
@@ -20,13 +21,13 @@ def own(term: str, equation: str, **units: str) -> OwnEffect:
     return OwnEffect(name="mine", term=term, equation=equation, parameters=tuple(parameters))
 
 
-def plant(voltage: Array, torque: Callable[[float], float], *, step: float = 1e-3, parts: int = 6) -> Array:
-    """Current, speed and position (n, 3) of the motor with one more torque of the speed: plain Runge-Kutta."""
+def plant(voltage: Array, torque: Torque, *, step: float = 1e-3, parts: int = 6) -> Array:
+    """Current, speed and position (n, 3) of the motor with one more torque: plain Runge-Kutta."""
     r, inductance, kt, ke, inertia, b = MOTOR.values()
 
     def slope(x: Array, v: float) -> Array:
-        i, w, _ = x
-        return np.array([(v - r * i - ke * w) / inductance, (kt * i - b * w + torque(w)) / inertia, w])
+        i, w, angle = x
+        return np.array([(v - r * i - ke * w) / inductance, (kt * i - b * w + torque(w, angle)) / inertia, w])
 
     x, rows, h = np.zeros(3), [], step / parts
     for v in voltage:
@@ -40,7 +41,7 @@ def plant(voltage: Array, torque: Callable[[float], float], *, step: float = 1e-
     return np.array(rows)
 
 
-def recorded(seed: int, torque: Callable[[float], float], samples: int = 2000) -> rwn.Recording:
+def recorded(seed: int, torque: Torque, samples: int = 2000) -> rwn.Recording:
     rng = np.random.default_rng(seed)
     t = 1e-3 * np.arange(samples)
     tones = zip((9.0, 6.0, 3.0), rng.uniform(0.4, 3.0, 3), rng.uniform(0.0, 6.0, 3), strict=True)

@@ -147,7 +147,7 @@ def test_a_definition_is_checked_for_the_drive_that_it_is_put_into() -> None:
 # --- diagnosed ------------------------------------------------------------------------------------------------------
 
 
-def eddies(speed: float) -> float:
+def eddies(speed: float, _: float = 0.0) -> float:
     return -2 * 0.03 * (speed / 40) / (1 + (speed / 40) ** 2)
 
 
@@ -195,7 +195,7 @@ def test_its_corrected_model_is_one_file_that_simulates(braked: rwn.Diagnosis, t
 
 
 def test_it_is_not_named_where_it_is_not() -> None:
-    runs = [recorded(seed, lambda _: 0.0) for seed in range(2)]
+    runs = [recorded(seed, lambda *_: 0.0) for seed in range(2)]
     found = rwn.diagnose(runs, NOMINAL, jobs=1)
     assert found.verdict == "adequate"
 

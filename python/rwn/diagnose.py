@@ -25,9 +25,14 @@ from rwn.proof import LEFT_OUT, hurts, proved
 from rwn.quantisation import speed_resolution
 from rwn.recording import Recording
 from rwn.refuse import without_what_hurts
+from rwn.stand_in import picture, proved_stand_in
 from rwn.unknown_law import laws
 from rwn.verdict import choose, is_certain, verdict_of, verdict_without_a_name, whole
 
+NO_NETWORK = (
+    "no wavelet network over one state helps on recordings that were not fitted: corrected.toml holds the refitted "
+    "nominal model"
+)
 QUANTISATION = "sensor-quantization"
 
 
@@ -80,8 +85,19 @@ def diagnose(
         chosen = found.nothing_missing
         verdict = verdict if verdict == "unexplained" else verdict_without_a_name(found)
         rows = proved(found, chosen, proof, model, seed=seed)
+    network = None
+    if verdict == "unexplained":
+        say("drawing what has no name", 0.9)
+        network = proved_stand_in(found, model, proof, seed=seed)
+    if network:
+        drawn, rows = network
+        found, chosen, model = drawn.found, drawn.chosen, drawn.model
     say("drawing", 0.95)
-    return _report(found, chosen, verdict, made, rows, model, seed, time.perf_counter() - began)
+    report = _report(found, chosen, verdict, made, rows, model, seed, time.perf_counter() - began)
+    if network:
+        return replace(report, stand_in=drawn.place.words, curves=(*report.curves, picture(drawn)))
+    refused = (NO_NETWORK,) if verdict == "unexplained" and model.kind != "lti" else ()
+    return replace(report, warnings=(*report.warnings, *refused))
 
 
 def _silent(what: str, done: float) -> None:
@@ -222,7 +238,7 @@ def _warnings(
     found: Explanation, chosen: Hypothesis, verdict: Verdict, rows: Sequence[HeldoutRow]
 ) -> tuple[str, ...]:
     texts = _does_not_run(found)
-    if verdict == "missing-physics" and rows and all(LEFT_OUT in r.recording for r in rows):
+    if chosen.fitted.added and rows and all(LEFT_OUT in r.recording for r in rows):
         texts.append(
             "no held-out recording was given: the proof is by cross-validation, each part simulated by fits without it"
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,18 +15,30 @@ from rwn.model import Model
 from rwn.output_error import OutputError, Target
 from rwn.search import Fitted, Search
 
+Again = Callable[[OutputError], tuple[Explanation, Fitted] | None]
+
 LEFT_OUT = "(left out)"  # marks what a fold did not fit
 FITTED_PART = 0.7  # of a lone recording, when its rest has to serve as proof
 
 
 def proved(
-    found: Explanation, chosen: Hypothesis, heldout: Sequence[Target], model: Model, *, seed: int
-) -> tuple[HeldoutRow, ...]:
-    """Rows on the held-out recordings; without any, every recording is judged by fits that did not see it."""
+    found: Explanation, chosen: Hypothesis, heldout: Sequence[Target], model: Model, *, seed: int,
+    again: Again | None = None,
+) -> tuple[HeldoutRow, ...]:  # fmt: skip
+    """Rows on the held-out recordings; without any, every recording is judged by fits that did not see it.
+
+    `again`: how the correction is found anew from some of the recordings (default: its parameters are fitted anew).
+    """
     if heldout:
         return _rows(found, found.nominal, chosen.fitted, heldout, model, seed=seed)
     rows: list[HeldoutRow] = []
     for problem, target, first in _folds(found):
+        if again is not None:
+            other = again(problem)
+            if other is None:
+                return ()
+            rows += _rows(other[0], other[0].nominal, other[1], [target], model, seed=seed, first=first)
+            continue
         search = Search(problem=problem, nominal=found.setup.nominal, scales=found.setup.scales)
         nominal = search.refit(found.nominal, problem)
         fitted = search.refit(chosen.fitted, problem) if chosen.fitted.added else chosen.fitted

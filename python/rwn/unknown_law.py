@@ -129,11 +129,16 @@ def _over_angle(error: _Error) -> Law:
     )  # fmt: skip
 
 
+def dyadic_places(count: int) -> tuple[tuple[float, float], ...]:
+    """(centre, dilation) of the first `count` wavelets of a dyadic grid over [0, 1] (2.10-2.11)."""
+    places = [((k + 0.5) / 2**level, 0.7 / 2**level) for level in range(5) for k in range(2**level)]
+    return tuple(places[:count])
+
+
 def _wavelets(x: Array) -> Array:
-    """Outputs (n, wavelets) of single wavelets on a dyadic grid over [0, 1] (2.10-2.11)."""
-    places = [((k + 0.5) / 2**level, 0.7 / 2**level) for level in range(4) for k in range(2**level)][:WAVELETS]
+    """Outputs (n, wavelets) of single wavelets over [0, 1]."""
     columns = []
-    for m, d in places:
+    for m, d in dyadic_places(WAVELETS):
         network = ConventionalNetwork(
             wavelet=Wavelet("mexican-hat"), b=np.zeros(1), a=np.zeros((1, 1)), w=np.ones((1, 1)),
             m=np.array([[m]]), d=np.array([[d]]),

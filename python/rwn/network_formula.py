@@ -1,0 +1,165 @@
+"""Wavelet networks over one state of a drive as formulas of own effects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn import expression
+from rwn.candidate import candidate
+from rwn.locate import unknown_inputs
+from rwn.model import Model
+from rwn.own_effects import VARIABLES, OwnEffect, OwnParameter
+from rwn.prepare import Setup
+from rwn.unknown_law import dyadic_places
+
+Array = NDArray[np.float64]
+
+PART = 7  # weights of one own effect, beside the scale of its state
+NAME = "network-part"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """Where a network may stand: the term that it is, and the state that it depends on."""
+
+    term: str  # "torque" or "drop"
+    state: str
+    periods: int = 0  # per revolution, of an angle
+    nominal: str = ""  # parameter of the nominal term that is linear in the same state
+
+    @property
+    def words(self) -> str:
+        """A clause: "a torque over speed"."""
+        kind = {"torque": "torque", "drop": "voltage"}[self.term]
+        return f"a {kind} over {'angle' if self.periods else self.state}"
+
+
+def places(setup: Setup, model: Model) -> tuple[Place, ...]:
+    """Every place that the recorded signals say something of."""
+    mechanical: tuple[Place, ...] = (Place(term="torque", state="speed", nominal="viscous_friction"),)
+    turns = max((float(np.ptp(t.angle)) for t in setup.whole.targets if t.angle.size), default=0.0) > 4.0 * np.pi
+    if turns and not model.linear:
+        mechanical += (Place(term="torque", state="position", periods=1),)
+    if model.kind != "dc":
+        return mechanical
+    return (
+        *mechanical,
+        Place(term="torque", state="current", nominal="torque_constant"),
+        Place(term="drop", state="current", nominal="resistance"),
+        Place(term="drop", state="input"),
+    )
+
+
+def parts_of(setup: Setup, model: Model, place: Place, count: int) -> list[OwnEffect]:
+    """The network as own effects whose parameters are its weights."""
+    unit, reach = unit_of(place, model), 10.0 * size_of(setup, place)
+    waves = _wavelets(setup, place, count)
+    parts = []
+    for begin in range(0, count, PART):
+        members = range(begin, min(begin + PART, count))
+        weights = [
+            OwnParameter(name=f"w{k}", unit=unit, lower=-reach, upper=reach, start=0.0, strength=True) for k in members
+        ]
+        text = " + ".join(f"w{k} * {waves[k]}" for k in members)
+        parts.append(
+            OwnEffect(
+                name=f"{NAME}-{begin // PART}", term=place.term, equation=text, drive=model.drive,
+                parameters=(*weights, *_scale_of(setup, model, place)),
+            )
+        )  # fmt: skip
+    return parts
+
+
+def unit_of(place: Place, model: Model) -> str:
+    return "V" if place.term == "drop" else "N" if model.linear else "N m"
+
+
+def size_of(setup: Setup, place: Place) -> float:
+    return setup.scales["voltage" if place.term == "drop" else "torque"]
+
+
+def states_of(setup: Setup, place: Place) -> Array:
+    """The state along all recordings."""
+    vector = candidate(setup.nominal, (), setup.scales).vector
+    if place.state == "input":
+        return np.concatenate([t.input for t in setup.whole.targets])
+    name = "angle" if place.periods else place.state
+    return np.concatenate([getattr(unknown_inputs(setup.whole, vector, t), name) for t in setup.whole.targets])
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Grid:
+    """Where the wavelets stand along a state: centres and dilations of a dyadic grid over its range (2.10-2.11)."""
+
+    low: float
+    scale: float
+    places: tuple[tuple[float, float], ...]
+
+
+def _grid(states: Array, place: Place, count: int) -> _Grid:
+    if place.periods:
+        return _Grid(low=0.0, scale=1.0, places=dyadic_places(count))
+    low, high = (float(x) for x in np.percentile(states, [0.5, 99.5]))
+    return _Grid(low=low, scale=max(high - low, 1e-300), places=dyadic_places(count))
+
+
+def _wavelets(setup: Setup, place: Place, count: int) -> list[str]:
+    """The formulas of the single wavelets."""
+    grid = _grid(states_of(setup, place), place, count)
+    if place.periods:  # the hat is even, so that it comes back with every half period of the sine
+        half = f"{place.periods / 2.0:g} * position"
+        return [f"mexican_hat(sin({half} - {np.pi * m:.5g}) / {np.pi * d:.5g})" for m, d in grid.places]
+    x, offset = f"{place.state} / {place.state}_scale", grid.low / grid.scale
+    return [f"mexican_hat(({x} {_signed(-offset - m)}) / {d:.5g})" for m, d in grid.places]
+
+
+def _scale_of(setup: Setup, model: Model, place: Place) -> tuple[OwnParameter, ...]:
+    """What makes the state dimensionless: a constant with its unit."""
+    if place.periods:
+        return ()
+    scale = float(f"{_grid(states_of(setup, place), place, 1).scale:.5g}")
+    unit = VARIABLES[place.state][model.linear] or "V"
+    return (
+        OwnParameter(name=f"{place.state}_scale", unit=unit, lower=scale, upper=scale, start=scale, meaning="range"),
+    )
+
+
+def as_effect(setup: Setup, model: Model, place: Place, weights: Array, *, orthogonal: bool) -> OwnEffect:
+    """Amplitude times a sum of wavelets; `orthogonal`: without what the nominal term of the same state could do."""
+    states, scale = states_of(setup, place), _scale_of(setup, model, place)
+    waves = _wavelets(setup, place, weights.size)
+    values = {place.state: states, **{p.name: p.start for p in scale}}
+    shapes = [
+        np.broadcast_to(expression.parse(w, dict.fromkeys(values, "1"), where="network").evaluate(values), states.shape)
+        for w in waves
+    ]
+    curve, linear = weights @ np.array(shapes), 0.0
+    if orthogonal and model.uncertainty.get(place.nominal, 0.0) > 0.0:
+        x = states / scale[0].start
+        linear = float(curve @ x / max(x @ x, 1e-300))
+        curve = curve - linear * x
+    size = max(float(np.sqrt(2.0 * np.mean(curve**2))), 1e-9 * size_of(setup, place))
+    text = " ".join(f"{_signed(w / size)} * {wave}" for w, wave in zip(weights, waves, strict=True))
+    if linear:
+        text += f" {_signed(-linear / size)} * {place.state} / {scale[0].name}"
+    amplitude = OwnParameter(
+        name="amplitude", unit=unit_of(place, model), lower=0.0, upper=5.0 * size, start=size, strength=True,
+        meaning="square root of twice its mean square",
+    )  # fmt: skip
+    return OwnEffect(
+        name=_free_name(model, f"unexplained-{'voltage' if place.term == 'drop' else 'torque'}"), term=place.term,
+        equation=f"amplitude * ({text.removeprefix('+ ')})", drive=model.drive, parameters=(amplitude, *scale),
+        meaning=f"what has no name: {place.words}, drawn by a wavelet network",
+    )  # fmt: skip
+
+
+def _signed(number: float) -> str:
+    return f"{'-' if number < 0.0 else '+'} {abs(number):.5g}"
+
+
+def _free_name(model: Model, name: str) -> str:
+    taken = {effect.name for effect in model.own_effects}
+    return next(n for n in (name, *(f"{name}-{k}" for k in range(2, 9))) if n not in taken)

@@ -1,0 +1,166 @@
+"""Where nothing has a name, a wavelet network is the correction: one more term of the equations, as an own effect.
+
+The network stands for a torque, or a voltage lost, that depends on one state. Its weights are fitted in free run beside
+the nominal parameters, with exact sensitivities; what the nominal term of the same state could do as well is taken out
+of it (arXiv 2511.01321), and its amplitude is fitted once more together with the nominal parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn import _core
+from rwn.candidate import Candidate, candidate, fit
+from rwn.diagnosis import HeldoutRow, Plot, Trace
+from rwn.evidence import Hypothesis
+from rwn.explain import Explanation
+from rwn.least_squares import Minimum
+from rwn.model import Model
+from rwn.network_formula import NAME, PART, Place, as_effect, parts_of, places, size_of, states_of, unit_of
+from rwn.output_error import OutputError, Target
+from rwn.own_effects import VARIABLES
+from rwn.prepare import Setup
+from rwn.proof import proved
+from rwn.refuse import heldout_error
+from rwn.search import Fitted
+
+Array = NDArray[np.float64]
+
+FEW, MANY = 7, 15  # wavelets while the states are compared, and of the network that is kept
+STIFF = 3.0  # standard deviation of the weights' prior, of the drive's largest torque or voltage
+FREE = 1.02  # cost of a network without its nominal part against one with it, up to which it goes without
+WORTH = 0.9  # cost of a fit with the network against the one without, above which it is not worth a file
+
+
+@dataclass(frozen=True, kw_only=True)
+class StandIn:
+    """The network as the correction."""
+
+    place: Place
+    found: Explanation  # with the network among the effects that it knows
+    chosen: Hypothesis
+    model: Model
+
+    @property
+    def chosen_values(self) -> dict[str, float]:
+        """Parameters of the network as fitted."""
+        (name,) = self.chosen.fitted.added
+        effect = self.chosen.fitted.candidate.table[name]
+        return {p.name: float(self.chosen.fitted.vector[effect.at(p.name)]) for p in effect.parameters}
+
+    @property
+    def cost(self) -> float:
+        """Weighted squared error and priors on the recordings that it was fitted to."""
+        return self.chosen.fitted.cost
+
+
+def stand_in(found: Explanation, model: Model, *, at: Place | None = None) -> StandIn | None:
+    """The network that explains most; None where none explains enough. `at`: this place and no other."""
+    if model.kind == "lti" or len(model.own_effects) + -(-MANY // PART) > _core.max_own_effects:
+        return None
+    if at is None:
+        races = [(place, _fit(found, model, place, FEW, 3)[1].cost) for place in places(found.setup, model)]
+        tried = [place for place, _ in sorted(races, key=lambda pair: pair[1])[:2]]
+    else:
+        tried = [at]
+    ends = [(place, *_fit(found, model, place, MANY, 8)) for place in tried]
+    at, this, end = min(ends, key=lambda row: row[2].cost)
+    weights = [float(v) for u, v in zip(this.unknowns, end.values, strict=True) if u.name.startswith(NAME)]
+    motor = _motor(this, end)
+    whole, apart = (_kept(found, model, at, np.array(weights), motor, orthogonal=o) for o in (False, True))
+    best = apart if apart.cost <= FREE * whole.cost else whole
+    return best if best.cost < WORTH * found.nominal.cost else None
+
+
+def proved_stand_in(
+    found: Explanation, model: Model, heldout: Sequence[Target], *, seed: int
+) -> tuple[StandIn, tuple[HeldoutRow, ...]] | None:
+    """The network with its proof; None where there is none that helps on recordings that it was not fitted to."""
+    made = stand_in(found, model)
+    if made is None:
+        return None
+
+    def again(problem: OutputError) -> tuple[Explanation, Fitted] | None:
+        other = _refitted_to(problem, found, model, made.place)
+        return (other.found, other.chosen.fitted) if other else None
+
+    rows = proved(made.found, made.chosen, heldout, made.model, seed=seed, again=again)
+    return (made, rows) if _helps(rows) else None
+
+
+def _helps(rows: Sequence[HeldoutRow]) -> bool:
+    """Whether some signal is certainly better on what was not fitted, and none certainly worse."""
+    gains = [r.gain_interval for r in rows if r.region == "all" and r.gain_interval is not None]
+    better, worse = any(low > 0.0 for low, _ in gains), any(high < 0.0 for _, high in gains)
+    return better and not worse and heldout_error(rows) < 1.0
+
+
+def _kept(
+    found: Explanation, model: Model, place: Place, weights: Array, motor: dict[str, float], *, orthogonal: bool
+) -> StandIn:
+    """The network with these weights as one own effect, its amplitude fitted together with the nominal parameters."""
+    effect = as_effect(found.setup, model, place, weights, orthogonal=orthogonal)
+    known = replace(model, own_effects=(*model.own_effects, effect))
+    setup = _knowing(found.setup, known)
+    this = candidate(setup.nominal, (effect.name,), setup.scales, motor=motor)
+    fitted = Fitted(added=(effect.name,), candidate=this, minimum=fit(setup.problem, this))
+    hypothesis = Hypothesis(fitted=fitted, score=0.0, probability=0.0, misfit=0.0)
+    return StandIn(place=place, found=replace(found, setup=setup), chosen=hypothesis, model=known)
+
+
+def _refitted_to(problem: OutputError, found: Explanation, model: Model, place: Place) -> StandIn | None:
+    """The network at `place` learned anew from other recordings, the nominal model fitted to these as well."""
+    setup = replace(found.setup, problem=problem)
+    start = found.nominal.candidate.starting_at(found.nominal.minimum.values)
+    base = replace(found.nominal, candidate=start, minimum=fit(problem, start))
+    return stand_in(replace(found, setup=setup, nominal=base), model, at=place)
+
+
+def _knowing(setup: Setup, model: Model) -> Setup:
+    """The same setup with the own effects of `model`."""
+    own = tuple(effect.core for effect in model.own_effects)
+    return replace(
+        setup,
+        nominal=replace(setup.nominal, table=model.effect_table),
+        whole=replace(setup.whole, own=own),
+        problem=replace(setup.problem, own=own),
+    )
+
+
+def _motor(this: Candidate, end: Minimum) -> dict[str, float]:
+    pairs = zip(this.unknowns, end.values, strict=True)
+    return {u.name: float(v) for u, v in pairs if "." not in u.name}
+
+
+def _fit(found: Explanation, model: Model, place: Place, count: int, iterations: int) -> tuple[Candidate, Minimum]:
+    """Weights of `count` wavelets beside the nominal parameters."""
+    parts = parts_of(found.setup, model, place, count)
+    setup = _knowing(found.setup, replace(model, own_effects=(*model.own_effects, *parts)))
+    motor = _motor(found.nominal.candidate, found.nominal.minimum)
+    this = candidate(setup.nominal, tuple(p.name for p in parts), setup.scales, motor=motor)
+    stiff = STIFF * size_of(setup, place)
+    unknowns = tuple(
+        replace(u, prior=0.0, prior_std=stiff) if u.name.startswith(NAME) else u for u in this.unknowns
+    )
+    this = replace(this, unknowns=unknowns)
+    return this, fit(setup.problem, this, max_iterations=iterations)
+
+
+def picture(made: StandIn) -> Plot:
+    """The network over its state, as corrected.toml gives it."""
+    effect, place = made.model.own_effects[-1], made.place
+    states = states_of(made.found.setup, place)
+    low, high = np.percentile(states, [0.5, 99.5])
+    x = np.linspace(0.0, 2.0 * np.pi / place.periods, 400) if place.periods else np.linspace(low, high, 400)
+    values = {p.name: p.start for p in effect.parameters} | made.chosen_values | {place.state: x}
+    unit = VARIABLES[place.state][made.model.linear] or "V"
+    return Plot(
+        slot="other", title=f"What corrected.toml holds for it: {place.words}", x_label=place.state, x_unit=unit,
+        y_label="torque" if place.term == "torque" else "voltage lost", y_unit=unit_of(place, made.model),
+        traces=(Trace(name="wavelet network", role="corrected", x=x, y=effect.formula.evaluate(values)),),
+        note="Fitted in free run together with the nominal parameters.",
+    )  # fmt: skip
