@@ -11,9 +11,11 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn import words
+from rwn.drives import LINEAR_AXIS
 from rwn.explain import explain
 from rwn.model import Model, write_model
 from rwn.network_formula import places
+from rwn.own_effects import OwnEffect, OwnParameter
 from rwn.prepare import prepare, proof_target
 from rwn.stand_in import proved_stand_in, stand_in
 
@@ -36,7 +38,7 @@ def once_a_turn(_: float, angle: float) -> float:
 
 @pytest.fixture(scope="module")
 def waved() -> rwn.Diagnosis:
-    runs = [recorded(seed, wavy) for seed in range(3)]
+    runs = [recorded(seed, wavy, samples=1200) for seed in range(3)]
     return rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
 
 
@@ -117,6 +119,40 @@ def test_without_held_out_recordings_it_is_learned_anew_for_each() -> None:
     main = next(r for r in kept[1] if r.region == "all" and r.signal == "speed")
     assert main.corrected is not None
     assert main.corrected < 0.6 * main.refitted
+
+
+def test_a_force_over_the_position_of_a_linear_axis() -> None:
+    """A cable that pulls the more the further the carriage is out."""
+    cable = OwnEffect(
+        name="cable", term="load", equation="-pull * tanh(3 * position / out)", drive=LINEAR_AXIS,
+        parameters=(
+            OwnParameter(name="pull", unit="N", lower=0, upper=100, start=1, strength=True),
+            OwnParameter(name="out", unit="m", lower=0.01, upper=10, start=1),
+        ),
+    )  # fmt: skip
+    plain = Model(
+        kind="axis", linear=True, parameters={"inertia": 20.0, "viscous_friction": 40.0},
+        uncertainty={"inertia": 0.1, "viscous_friction": 0.3},
+    )  # fmt: skip
+    pulled = replace(plain, own_effects=(cable,), effects={"cable": {"pull": 6.0, "out": 0.4}})
+    t = 2e-3 * np.arange(4000)
+    runs = []
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        tones = zip((9.0, 7.0, 5.0), rng.uniform(0.2, 1.0, 3), rng.uniform(0.0, 6.0, 3), strict=True)
+        force = sum(a * np.sin(2 * np.pi * f * t + p) for a, f, p in tones)
+        run = rwn.Recording(name=f"run_{seed}", time=t, signals={"force": force}, linear=True)
+        true = rwn.simulate(pulled, run).signals
+        signals = {"force": force, "position": true["position"] + rng.normal(0, 2e-5, t.size),
+                   "speed": true["speed"] + rng.normal(0, 1e-3, t.size)}  # fmt: skip
+        runs.append(replace(run, signals=signals))
+    found = explain(prepare(runs[:2], plain), progress=_silent, names=NONE)
+    kept = proved_stand_in(found, plain, [proof_target(runs[2], plain)], seed=0)
+    assert kept is not None
+    assert kept[0].place.words == "a force over position"
+    row = next(r for r in kept[1] if r.region == "all" and r.signal == "speed")
+    assert row.corrected is not None
+    assert row.corrected < 0.2 * row.refitted
 
 
 NONE = ["constant-load"]  # what stands in does not depend on the names that were tried

@@ -1,4 +1,5 @@
 #include "bind.hpp"
+#include "rwn/active_effects.hpp"
 #include "rwn/own_effect.hpp"
 #include "rwn/simulate.hpp"
 
@@ -61,6 +62,7 @@ void bind_own_effect(py::module_& m) {
       .def("evaluate", &evaluate_formula, "variables"_a, "nominal"_a, "parameters"_a,
            "Value, and derivatives by its parameters.");
   m.attr("max_own_effects") = max_own_effects;
+  m.attr("max_active_effects") = max_active_effects;
   m.attr("max_own_parameters") = max_own_parameters;
   m.attr("formula_depth") = formula_depth;
   m.def("first_own_parameter", &first_own_parameter);

@@ -291,6 +291,7 @@ def wavelet_names() -> list[str]:
     ...
 __version__: str = '0.1.0'
 formula_depth: int = 32
+max_active_effects: int = 8
 max_order: int = 20
 max_own_effects: int = 6
 max_own_parameters: int = 8

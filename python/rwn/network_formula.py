@@ -29,22 +29,29 @@ class Place:
     state: str
     periods: int = 0  # per revolution, of an angle
     nominal: str = ""  # parameter of the nominal term that is linear in the same state
+    linear: bool = False  # on a linear axis
 
     @property
     def words(self) -> str:
         """A clause: "a torque over speed"."""
-        kind = {"torque": "torque", "drop": "voltage"}[self.term]
+        kind = "voltage" if self.term == "drop" else "force" if self.linear else "torque"
         return f"a {kind} over {'angle' if self.periods else self.state}"
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the term."""
+        return "V" if self.term == "drop" else "N" if self.linear else "N m"
 
 
 def places(setup: Setup, model: Model) -> tuple[Place, ...]:
     """Every place that the recorded signals say something of."""
-    mechanical: tuple[Place, ...] = (Place(term="torque", state="speed", nominal="viscous_friction"),)
-    turns = max((float(np.ptp(t.angle)) for t in setup.whole.targets if t.angle.size), default=0.0) > 4.0 * np.pi
-    if turns and not model.linear:
-        mechanical += (Place(term="torque", state="position", periods=1),)
+    travel = max((float(np.ptp(t.angle)) for t in setup.whole.targets if t.angle.size), default=0.0)
+    turns = travel > 4.0 * np.pi and not model.linear
+    mechanical = [Place(term="torque", state="speed", nominal="viscous_friction", linear=model.linear)]
+    if travel > 0.0:
+        mechanical.append(Place(term="torque", state="position", periods=int(turns), linear=model.linear))
     if model.kind != "dc":
-        return mechanical
+        return tuple(mechanical)
     return (
         *mechanical,
         Place(term="torque", state="current", nominal="torque_constant"),
@@ -55,39 +62,37 @@ def places(setup: Setup, model: Model) -> tuple[Place, ...]:
 
 def parts_of(setup: Setup, model: Model, place: Place, count: int) -> list[OwnEffect]:
     """The network as own effects whose parameters are its weights."""
-    unit, reach = unit_of(place, model), 10.0 * size_of(setup, place)
+    reach = 10.0 * size_of(setup, place)
     waves = _wavelets(setup, place, count)
     parts = []
     for begin in range(0, count, PART):
         members = range(begin, min(begin + PART, count))
         weights = [
-            OwnParameter(name=f"w{k}", unit=unit, lower=-reach, upper=reach, start=0.0, strength=True) for k in members
+            OwnParameter(name=f"w{k}", unit=place.unit, lower=-reach, upper=reach, start=0.0, strength=True)
+            for k in members
         ]
         text = " + ".join(f"w{k} * {waves[k]}" for k in members)
         parts.append(
             OwnEffect(
                 name=f"{NAME}-{begin // PART}", term=place.term, equation=text, drive=model.drive,
-                parameters=(*weights, *_scale_of(setup, model, place)),
+                parameters=(*weights, *_scale_of(setup, place)),
             )
         )  # fmt: skip
     return parts
 
 
-def unit_of(place: Place, model: Model) -> str:
-    return "V" if place.term == "drop" else "N" if model.linear else "N m"
-
-
 def size_of(setup: Setup, place: Place) -> float:
+    """Largest torque or voltage of the drive."""
     return setup.scales["voltage" if place.term == "drop" else "torque"]
 
 
 def states_of(setup: Setup, place: Place) -> Array:
     """The state along all recordings."""
     vector = candidate(setup.nominal, (), setup.scales).vector
-    if place.state == "input":
-        return np.concatenate([t.input for t in setup.whole.targets])
-    name = "angle" if place.periods else place.state
-    return np.concatenate([getattr(unknown_inputs(setup.whole, vector, t), name) for t in setup.whole.targets])
+    recorded = {"input": "input", "position": "angle"}
+    if place.state in recorded:
+        return np.concatenate([getattr(t, recorded[place.state]) for t in setup.whole.targets])
+    return np.concatenate([getattr(unknown_inputs(setup.whole, vector, t), place.state) for t in setup.whole.targets])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,7 +107,7 @@ class _Grid:
 def _grid(states: Array, place: Place, count: int) -> _Grid:
     if place.periods:
         return _Grid(low=0.0, scale=1.0, places=dyadic_places(count))
-    low, high = (float(x) for x in np.percentile(states, [0.5, 99.5]))
+    low, high = (float(x) for x in np.percentile(states, [0.05, 99.95]))
     return _Grid(low=low, scale=max(high - low, 1e-300), places=dyadic_places(count))
 
 
@@ -116,12 +121,17 @@ def _wavelets(setup: Setup, place: Place, count: int) -> list[str]:
     return [f"mexican_hat(({x} {_signed(-offset - m)}) / {d:.5g})" for m, d in grid.places]
 
 
-def _scale_of(setup: Setup, model: Model, place: Place) -> tuple[OwnParameter, ...]:
+def unit_of_state(place: Place) -> str:
+    """SI unit of the state; only a voltage is fed in where the network is over the input."""
+    return VARIABLES[place.state][place.linear] or "V"
+
+
+def _scale_of(setup: Setup, place: Place) -> tuple[OwnParameter, ...]:
     """What makes the state dimensionless: a constant with its unit."""
     if place.periods:
         return ()
     scale = float(f"{_grid(states_of(setup, place), place, 1).scale:.5g}")
-    unit = VARIABLES[place.state][model.linear] or "V"
+    unit = unit_of_state(place)
     return (
         OwnParameter(name=f"{place.state}_scale", unit=unit, lower=scale, upper=scale, start=scale, meaning="range"),
     )
@@ -129,7 +139,7 @@ def _scale_of(setup: Setup, model: Model, place: Place) -> tuple[OwnParameter, .
 
 def as_effect(setup: Setup, model: Model, place: Place, weights: Array, *, orthogonal: bool) -> OwnEffect:
     """Amplitude times a sum of wavelets; `orthogonal`: without what the nominal term of the same state could do."""
-    states, scale = states_of(setup, place), _scale_of(setup, model, place)
+    states, scale = states_of(setup, place), _scale_of(setup, place)
     waves = _wavelets(setup, place, weights.size)
     values = {place.state: states, **{p.name: p.start for p in scale}}
     shapes = [
@@ -146,7 +156,7 @@ def as_effect(setup: Setup, model: Model, place: Place, weights: Array, *, ortho
     if linear:
         text += f" {_signed(-linear / size)} * {place.state} / {scale[0].name}"
     amplitude = OwnParameter(
-        name="amplitude", unit=unit_of(place, model), lower=0.0, upper=5.0 * size, start=size, strength=True,
+        name="amplitude", unit=place.unit, lower=0.0, upper=5.0 * size, start=size, strength=True,
         meaning="square root of twice its mean square",
     )  # fmt: skip
     return OwnEffect(

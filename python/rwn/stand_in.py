@@ -20,9 +20,8 @@ from rwn.evidence import Hypothesis
 from rwn.explain import Explanation
 from rwn.least_squares import Minimum
 from rwn.model import Model
-from rwn.network_formula import NAME, PART, Place, as_effect, parts_of, places, size_of, states_of, unit_of
+from rwn.network_formula import NAME, PART, Place, as_effect, parts_of, places, size_of, states_of, unit_of_state
 from rwn.output_error import OutputError, Target
-from rwn.own_effects import VARIABLES
 from rwn.prepare import Setup
 from rwn.proof import proved
 from rwn.refuse import heldout_error
@@ -60,18 +59,15 @@ class StandIn:
 
 def stand_in(found: Explanation, model: Model, *, at: Place | None = None) -> StandIn | None:
     """The network that explains most; None where none explains enough. `at`: this place and no other."""
-    if model.kind == "lti" or len(model.own_effects) + -(-MANY // PART) > _core.max_own_effects:
+    parts = -(-MANY // PART)
+    crowded = len(model.own_effects) + parts > _core.max_own_effects
+    if model.kind == "lti" or crowded or len(model.effects) + parts > _core.max_active_effects:
         return None
-    if at is None:
-        races = [(place, _fit(found, model, place, FEW, 3)[1].cost) for place in places(found.setup, model)]
-        tried = [place for place, _ in sorted(races, key=lambda pair: pair[1])[:2]]
-    else:
-        tried = [at]
-    ends = [(place, *_fit(found, model, place, MANY, 8)) for place in tried]
-    at, this, end = min(ends, key=lambda row: row[2].cost)
-    weights = [float(v) for u, v in zip(this.unknowns, end.values, strict=True) if u.name.startswith(NAME)]
-    motor = _motor(this, end)
-    whole, apart = (_kept(found, model, at, np.array(weights), motor, orthogonal=o) for o in (False, True))
+    heats = [_fit(found, model, place, FEW, 5) for place in ([at] if at else places(found.setup, model))]
+    for count, kept in ((FEW, 2), (MANY, 1)):
+        best_first = sorted(heats, key=lambda heat: heat.end.cost)
+        heats = [_fit(found, model, h.place, count, 20, start=h) for h in best_first[:kept]]
+    whole, apart = (_kept(found, model, heats[0], orthogonal=o) for o in (False, True))
     best = apart if apart.cost <= FREE * whole.cost else whole
     return best if best.cost < WORTH * found.nominal.cost else None
 
@@ -99,14 +95,33 @@ def _helps(rows: Sequence[HeldoutRow]) -> bool:
     return better and not worse and heldout_error(rows) < 1.0
 
 
-def _kept(
-    found: Explanation, model: Model, place: Place, weights: Array, motor: dict[str, float], *, orthogonal: bool
-) -> StandIn:
+@dataclass(frozen=True, kw_only=True)
+class _Heat:
+    """Weights fitted at one place."""
+
+    place: Place
+    this: Candidate
+    end: Minimum
+
+    @property
+    def motor(self) -> dict[str, float]:
+        """Nominal parameters as fitted."""
+        return _motor(self.this, self.end)
+
+    @property
+    def weights(self) -> dict[str, float]:
+        """Weights by name, in the order of the wavelets."""
+        pairs = zip(self.this.unknowns, self.end.values, strict=True)
+        return {u.name.split(".")[1]: float(v) for u, v in pairs if u.name.startswith(NAME)}
+
+
+def _kept(found: Explanation, model: Model, heat: _Heat, *, orthogonal: bool) -> StandIn:
     """The network with these weights as one own effect, its amplitude fitted together with the nominal parameters."""
-    effect = as_effect(found.setup, model, place, weights, orthogonal=orthogonal)
+    place = heat.place
+    effect = as_effect(found.setup, model, place, np.array(list(heat.weights.values())), orthogonal=orthogonal)
     known = replace(model, own_effects=(*model.own_effects, effect))
     setup = _knowing(found.setup, known)
-    this = candidate(setup.nominal, (effect.name,), setup.scales, motor=motor)
+    this = candidate(setup.nominal, (effect.name,), setup.scales, motor=heat.motor)
     fitted = Fitted(added=(effect.name,), candidate=this, minimum=fit(setup.problem, this))
     hypothesis = Hypothesis(fitted=fitted, score=0.0, probability=0.0, misfit=0.0)
     return StandIn(place=place, found=replace(found, setup=setup), chosen=hypothesis, model=known)
@@ -136,31 +151,35 @@ def _motor(this: Candidate, end: Minimum) -> dict[str, float]:
     return {u.name: float(v) for u, v in pairs if "." not in u.name}
 
 
-def _fit(found: Explanation, model: Model, place: Place, count: int, iterations: int) -> tuple[Candidate, Minimum]:
-    """Weights of `count` wavelets beside the nominal parameters."""
+def _fit(
+    found: Explanation, model: Model, place: Place, count: int, iterations: int, start: _Heat | None = None
+) -> _Heat:
+    """Weights of `count` wavelets beside the nominal parameters, from nothing or from those of a smaller network."""
     parts = parts_of(found.setup, model, place, count)
     setup = _knowing(found.setup, replace(model, own_effects=(*model.own_effects, *parts)))
-    motor = _motor(found.nominal.candidate, found.nominal.minimum)
-    this = candidate(setup.nominal, tuple(p.name for p in parts), setup.scales, motor=motor)
+    motor = start.motor if start else _motor(found.nominal.candidate, found.nominal.minimum)
+    known = start.weights if start else {}
+    starts = {part.name: {p.name: known[p.name] for p in part.parameters if p.name in known} for part in parts}
+    this = candidate(setup.nominal, tuple(starts), setup.scales, starts, motor)
     stiff = STIFF * size_of(setup, place)
     unknowns = tuple(
         replace(u, prior=0.0, prior_std=stiff) if u.name.startswith(NAME) else u for u in this.unknowns
     )
     this = replace(this, unknowns=unknowns)
-    return this, fit(setup.problem, this, max_iterations=iterations)
+    return _Heat(place=place, this=this, end=fit(setup.problem, this, max_iterations=iterations))
 
 
 def picture(made: StandIn) -> Plot:
     """The network over its state, as corrected.toml gives it."""
     effect, place = made.model.own_effects[-1], made.place
     states = states_of(made.found.setup, place)
-    low, high = np.percentile(states, [0.5, 99.5])
+    low, high = np.percentile(states, [0.05, 99.95])
     x = np.linspace(0.0, 2.0 * np.pi / place.periods, 400) if place.periods else np.linspace(low, high, 400)
     values = {p.name: p.start for p in effect.parameters} | made.chosen_values | {place.state: x}
-    unit = VARIABLES[place.state][made.model.linear] or "V"
     return Plot(
-        slot="other", title=f"What corrected.toml holds for it: {place.words}", x_label=place.state, x_unit=unit,
-        y_label="torque" if place.term == "torque" else "voltage lost", y_unit=unit_of(place, made.model),
+        slot="other", title=f"What corrected.toml holds for it: {place.words}",
+        x_label=place.state, x_unit=unit_of_state(place),
+        y_label="voltage lost" if place.term == "drop" else "force" if place.linear else "torque", y_unit=place.unit,
         traces=(Trace(name="wavelet network", role="corrected", x=x, y=effect.formula.evaluate(values)),),
         note="Fitted in free run together with the nominal parameters.",
     )  # fmt: skip

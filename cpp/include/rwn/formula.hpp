@@ -7,7 +7,6 @@
 
 #include "rwn/drive.hpp"
 #include "rwn/dual.hpp"
-#include "rwn/wavelets/mexican_hat.hpp"
 
 namespace rwn {
 
@@ -139,8 +138,10 @@ void apply_to_one(Operation operation, S& a) {
     case Operation::sign:
       a = S(value_of(a) > 0.0 ? 1.0 : value_of(a) < 0.0 ? -1.0 : value_of(a));
       return;
-    default:  // mexican_hat
-      a = MexicanHat{}.value(a);
+    default: {  // mexican_hat
+      const double z = value_of(a), bell = std::exp(-0.5 * z * z);
+      a = a.chain((1.0 - z * z) * bell, z * (z * z - 3.0) * bell);
+    }
   }
 }
 
@@ -176,13 +177,37 @@ void apply_to_two(Operation operation, S& a, const S& b) {
   return (o >= Operation::add && o <= Operation::power) || o == Operation::min || o == Operation::max;
 }
 
+/// The same with a plain number on the right, which has no slopes; false where it has no short cut.
+template <class S>
+bool apply_number(Operation operation, S& a, double b) {
+  switch (operation) {
+    case Operation::add:
+      a.v += b;
+      return true;
+    case Operation::subtract:
+      a.v -= b;
+      return true;
+    case Operation::multiply:
+      a *= b;
+      return true;
+    case Operation::divide:
+      a = a.chain(a.v / b, 1.0 / b);
+      return true;
+    default:
+      return false;
+  }
+}
+
 /// Value of a checked program; `stack` has room for `formula_depth`. p: the effect's own parameters.
 template <class S>
 S evaluate(const Instruction* program, int length, const S* p, const Motor<S>& motor, const Motion<S>& x, S* stack) {
   S* top = stack;  // one past the last
   for (int k = 0; k < length; ++k) {
     const Instruction& step = program[k];
-    if (pushes(step.operation)) {
+    const bool direct = step.operation == Operation::number && k > 0 && k + 1 < length;
+    if (direct && apply_number(program[k + 1].operation, top[-1], step.number)) {
+      ++k;
+    } else if (pushes(step.operation)) {
       *top++ = push(step, p, motor, x);
     } else if (takes_two(step.operation)) {
       --top;
