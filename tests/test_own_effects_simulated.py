@@ -144,6 +144,28 @@ def test_a_definition_is_checked_for_the_drive_that_it_is_put_into() -> None:
     assert model.own_effects[0].drive is AXIS
 
 
+@pytest.mark.parametrize(
+    ("effects", "match"),
+    [
+        ((replace(BRAKE, name="quadratic-drag"),), "there already"),
+        ((BRAKE, BRAKE), "there already"),
+        (tuple(replace(BRAKE, name=f"brake-{k}") for k in range(7)), "7 own effects"),
+    ],
+)
+def test_effects_that_cannot_be_together_are_refused(effects: tuple[OwnEffect, ...], match: str) -> None:
+    with pytest.raises(InputError, match=match):
+        replace(NOMINAL, own_effects=effects)
+
+
+def test_a_constant_with_a_unit_is_not_fitted() -> None:
+    known = replace(BRAKE, parameters=(BRAKE.parameters[0], replace(BRAKE.parameters[1], lower=40, upper=40, start=40)))
+    model = replace(NOMINAL, own_effects=(known,))
+    setup = prepare([recorded(0, eddies, samples=200)], model)
+    this = candidate(setup.nominal, ("eddy-brake",), setup.scales)
+    assert [u.name for u in this.unknowns if "." in u.name] == ["eddy-brake.peak"]
+    assert this.vector[model.effect_table["eddy-brake"].at("corner")] == 40.0
+
+
 # --- diagnosed ------------------------------------------------------------------------------------------------------
 
 
