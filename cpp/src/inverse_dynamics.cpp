@@ -14,47 +14,98 @@ namespace {
 struct Plain {};
 using Real = Dual<0, Plain>;
 
-/// The active effects at one instant after the other.
-class ActiveTerms {
+/// The switched-on effects along a given motion, with the states that they carry from sample to sample.
+class AlongMotion {
  public:
-  ActiveTerms(const Motor<Real>& motor, std::span<const int> active, const std::vector<Real>& values,
+  AlongMotion(const Motor<Real>& motor, std::span<const int> active, const std::vector<Real>& values,
               std::span<const OwnEffect> own)
-      : motor_(motor), active_(active), values_(values) {
+      : motor_(motor) {
     for (const OwnEffect& effect : own) {
       const OwnProgram program{effect.term, effect.program.data(), static_cast<int>(effect.program.size())};
       own_.emplace_back(program, stack_.data(), &failed_);
     }
-  }
-  ActiveTerms(const ActiveTerms&) = delete;  // its parts refer to each other
-  ActiveTerms& operator=(const ActiveTerms&) = delete;
-
-  Terms<Real> at(Motion<Real> x) {
-    static const std::array<Real, max_memories> at_rest{};
-    Terms<Real> t;
-    x.memory = at_rest.data();
-    x.hidden = at_rest.data();
-    failed_ = false;
-    for (int effect : active_) {
+    int memory = 0;
+    for (int effect : active) {
       if (effect >= effect_count) {
-        const auto slot = static_cast<std::size_t>(effect - effect_count);
-        const auto first = static_cast<std::size_t>(first_own_parameter()) + slot * max_own_parameters;
-        own_.at(slot).apply(values_.data() + first, motor_, x, t);
+        const int slot = effect - effect_count;
+        const auto& formula = own_.at(static_cast<std::size_t>(slot));
+        const int first = first_own_parameter() + slot * max_own_parameters;
+        effects_.push_back({functions_of(formula), values.data() + first, memory, &formula});
         continue;
       }
       const auto& call = all_effect_functions<Real>[static_cast<std::size_t>(effect)];
-      if (call.apply != nullptr) call.apply(values_.data() + first_parameter(effect), motor_, x, t);
+      effects_.push_back({call, values.data() + first_parameter(effect), memory});
+      memory += call.memories;
+    }
+  }
+  AlongMotion(const AlongMotion&) = delete;  // its parts refer to each other
+  AlongMotion& operator=(const AlongMotion&) = delete;
+
+  /// What the effects add at motion `x`.
+  Terms<Real> terms(Motion<Real> x) {
+    Terms<Real> t;
+    x.hidden = hidden_.data();
+    failed_ = false;
+    for (const auto& effect : effects_) {
+      x.memory = memory_.data() + effect.memory;
+      if (effect.own != nullptr) effect.own->apply(effect.p, motor_, x, t);
+      if (effect.call.apply != nullptr) effect.call.apply(effect.p, motor_, x, t);
     }
     if (failed_) t.torque = std::numeric_limits<double>::quiet_NaN();
     return t;
   }
 
+  /// Takes the states over an interval of length h from motion `x` to motion `next`.
+  void follow(const Motion<Real>& x, Motion<Real> next, double h) {
+    move_hidden(x, next, h);
+    next.travel = next.position - x.position;
+    for (const auto& effect : effects_) {
+      if (effect.call.finish == nullptr) continue;
+      effect.call.finish(effect.p, motor_, h, x, next, memory_.data() + effect.memory);
+    }
+  }
+
  private:
+  static constexpr int most_steps = 64;
+
+  /// Differential states by the midpoint rule, the motion taken as even between the samples.
+  void move_hidden(const Motion<Real>& x, const Motion<Real>& next, double h) {
+    double rate = 0.0;
+    bool any = false;
+    for (const auto& effect : effects_) {
+      if (effect.call.hiddens == 0) continue;
+      any = true;
+      if (effect.call.rate != nullptr) rate = std::max(rate, effect.call.rate(effect.p, motor_, x, 0.0));
+    }
+    if (!any) return;
+    const int steps = std::clamp(static_cast<int>(std::ceil(h * rate / 0.3)), 1, most_steps);
+    const double part = h / steps;
+    for (int k = 0; k < steps; ++k) {
+      const auto before = hidden_;
+      advance(before, terms(between(x, next, (k + 0.0) / steps)), 0.5 * part);
+      advance(before, terms(between(x, next, (k + 0.5) / steps)), part);
+    }
+  }
+
+  void advance(const std::array<Real, 2>& from, const Terms<Real>& t, double h) {
+    for (std::size_t k = 0; k < hidden_.size(); ++k) hidden_[k] = from[k] + h * t.hidden_rate[k];
+  }
+
+  static Motion<Real> between(const Motion<Real>& a, const Motion<Real>& b, double share) {
+    Motion<Real> x = a;
+    x.speed += share * (b.speed - a.speed);
+    x.position += share * (b.position - a.position);
+    x.angle += share * (b.angle - a.angle);
+    return x;
+  }
+
   const Motor<Real>& motor_;
-  std::span<const int> active_;
-  const std::vector<Real>& values_;
   std::array<Real, formula_depth> stack_{};
   bool failed_ = false;
   std::vector<ActiveOwnEffect<Real>> own_;
+  std::vector<ActiveEffect<Real>> effects_;
+  std::array<Real, max_memories> memory_{};
+  std::array<Real, 2> hidden_{};
 };
 
 bool replaces_friction(std::span<const int> active) {
@@ -81,8 +132,7 @@ void inverse_dynamics(std::span<const double> parameters, std::span<const int> a
   Motor<Real> motor;
   std::copy_n(values.begin(), motor_parameter_count, motor.begin());
   const double base_friction = replaces_friction(active) ? 0.0 : motor[coulomb_friction].v;
-  ActiveTerms terms(motor, active, values, own);
-  for (std::size_t k = 0; k < n; ++k) {
+  const auto motion_at = [&](std::size_t k) {
     Motion<Real> x;
     x.time = time[k] - time[0];
     x.direction = speed[k] > 0.0 ? 1.0 : speed[k] < 0.0 ? -1.0 : 0.0;
@@ -90,10 +140,16 @@ void inverse_dynamics(std::span<const double> parameters, std::span<const int> a
     x.position = position[k];
     x.angle = angle_per_position * position[k];
     x.angle_per_position = angle_per_position;
-    const Terms<Real> t = terms.at(x);
+    return x;
+  };
+  AlongMotion effects(motor, active, values, own);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Motion<Real> x = motion_at(k);
+    const Terms<Real> t = effects.terms(x);
     torque[k] = (motor[inertia].v + t.inertia.v) * acceleration[k] + motor[viscous_friction].v * speed[k] +
                 x.direction * (base_friction + t.friction.v) + 0.5 * t.inertia_slope.v * speed[k] * speed[k] +
                 motor[pendulum_torque].v * std::sin(position[k]) - t.torque.v;
+    if (k + 1 < n) effects.follow(x, motion_at(k + 1), time[k + 1] - time[k]);
   }
 }
 

@@ -48,6 +48,7 @@ class Effect:
     parameters: tuple[Parameter, ...]
     index: int  # in the C++ table; a user's own effects count on behind it
     first: int  # position of its first parameter in the parameter vector
+    turns: bool = False  # whether it depends on the angle
     own: bool = False  # defined by the user
 
     def at(self, parameter: str) -> int:

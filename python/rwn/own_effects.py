@@ -210,6 +210,7 @@ def with_own(known: Mapping[str, Effect], own: Sequence[OwnEffect]) -> Mapping[s
             parameters=tuple(_as_parameter(p, effect.parameters) for p in effect.parameters),
             index=len(known) + slot,
             first=_core.first_own_parameter() + slot * _core.max_own_parameters,
+            turns="position" in effect.formula.names,
             own=True,
         )
     return {**known, **rows}

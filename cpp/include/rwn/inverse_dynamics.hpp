@@ -8,8 +8,9 @@
 namespace rwn {
 
 /// torque = (J + J2) dw/dt + B w + friction + J2' w^2 / 2 + m g l sin(theta) - other torques, along the given motion,
-/// (n) each, SI. States of their own (bristles, twist) are taken at rest; own effects share in it as far as they are
-/// torques, and give NaN where their formula has no value. Throws std::invalid_argument on lengths that do not fit.
+/// (n) each, SI. States of their own (bristles, twist) start at rest and follow the motion; own effects share in it as far
+/// as they are torques, and give NaN where their formula has no value. Throws std::invalid_argument on lengths that do
+/// not fit.
 void inverse_dynamics(std::span<const double> parameters, std::span<const int> active, double angle_per_position,
                       std::span<const double> time, std::span<const double> position, std::span<const double> speed,
                       std::span<const double> acceleration, std::span<double> torque,

@@ -83,7 +83,7 @@ class Simulation {
         state.position = S(slice_.restart_position[k]);
         integrator.settle(state);
       }
-      if (slice_.angle != nullptr) integrator.follow(slice_.angle[k] - value_of(state.position));
+      if (slice_.angle != nullptr) integrator.follow(slice_.angle[k] - state.position);
       if (k + 1 < slice_.samples) advance(integrator, state, k);
     }
     return slice_.samples;
@@ -157,8 +157,7 @@ class Simulation {
     const Reading<S> y = reading(s);
     x.current = y.current;
     x.speed = y.speed;
-    x.angle = slice_.angle_per_position * y.position;
-    if (slice_.angle != nullptr) x.angle += slice_.angle_per_position * (slice_.angle[k] - value_of(y.position));
+    x.angle = slice_.angle_per_position * (slice_.angle != nullptr ? S(slice_.angle[k]) : y.position);
     x.angle_per_position = slice_.angle_per_position;
     x.drive_torque = kind == Kind::dc ? motor_[torque_constant] * y.current : input;
     if constexpr (kind != Kind::lti) x.direction = s.direction;
