@@ -18,7 +18,7 @@ from rwn import _core
 from rwn.candidate import candidate, fit
 from rwn.cli import app
 from rwn.drives import AXIS, LINEAR_AXIS
-from rwn.effects import parameter_vector
+from rwn.effects import motor_index, parameter_vector
 from rwn.errors import InputError
 from rwn.least_squares import FitStatus
 from rwn.model import Model, write_model
@@ -108,6 +108,20 @@ def test_a_formula_of_a_built_in_effect_runs_as_that_one(
     for signal, want in built_in.items():
         atol = near * np.max(np.abs(want)) + 1e-300
         np.testing.assert_allclose(mine[signal], want, atol=atol, rtol=0, err_msg=signal)
+
+
+def test_a_formula_may_read_nominal_parameters_and_passes_their_slopes_on() -> None:
+    doubling = own("torque", "-k * viscous_friction * speed", k="1")
+    model = Model(kind="dc", parameters=MOTOR, own_effects=(doubling,), effects={"mine": {"k": 1.0}})
+    twice = {**MOTOR, "viscous_friction": 2.0 * MOTOR["viscous_friction"]}
+    t = 1e-3 * np.arange(800)
+    voltage, by = 5.0 * np.sin(9.0 * t), [motor_index("viscous_friction"), motor_index("inertia")]
+    effect, cores = model.effect_table["mine"], [doubling.core]
+    vector = parameter_vector(model.parameters, model.effects, model.effect_table)
+    mine = _core.simulate("dc", t, voltage, vector, [effect.index], by, own=cores)
+    plain = _core.simulate("dc", t, voltage, parameter_vector(twice, {}), [], by)
+    np.testing.assert_allclose(mine[2], plain[2], atol=1e-6 * np.ptp(plain[2]))
+    np.testing.assert_allclose(mine[5], plain[5] * [2.0, 1.0], atol=1e-5 * np.ptp(plain[5]))
 
 
 def test_models_with_different_formulas_run_side_by_side() -> None:
