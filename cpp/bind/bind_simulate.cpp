@@ -49,6 +49,7 @@ py::dict describe_effect() {
   d["meaning"] = std::string(E::info.meaning);
   d["source"] = std::string(E::info.source);
   d["parameters"] = describe_all(E::parameters);
+  d["turns"] = requires { E::turns; };
   return d;
 }
 

@@ -13,18 +13,78 @@ namespace {
 struct Plain {};
 using Real = Dual<0, Plain>;
 
-Terms<Real> terms_of(const Motor<Real>& motor, std::span<const int> active, const std::vector<Real>& values,
-                     Motion<Real> x) {
-  static const std::array<Real, max_memories> at_rest{};
-  Terms<Real> t;
-  x.memory = at_rest.data();
-  x.hidden = at_rest.data();
-  for (int effect : active) {
-    const auto& call = all_effect_functions<Real>[static_cast<std::size_t>(effect)];
-    if (call.apply != nullptr) call.apply(values.data() + first_parameter(effect), motor, x, t);
+/// The switched-on effects along a given motion, with the states that they carry from sample to sample.
+class AlongMotion {
+ public:
+  AlongMotion(const Motor<Real>& motor, std::span<const int> active, const std::vector<Real>& values) : motor_(motor) {
+    int memory = 0;
+    for (int effect : active) {
+      const auto& call = all_effect_functions<Real>[static_cast<std::size_t>(effect)];
+      effects_.push_back({call, values.data() + first_parameter(effect), memory});
+      memory += call.memories;
+    }
   }
-  return t;
-}
+
+  /// What the effects add at motion `x`.
+  Terms<Real> terms(Motion<Real> x) const {
+    Terms<Real> t;
+    x.hidden = hidden_.data();
+    for (const auto& effect : effects_) {
+      x.memory = memory_.data() + effect.memory;
+      if (effect.call.apply != nullptr) effect.call.apply(effect.p, motor_, x, t);
+    }
+    return t;
+  }
+
+  /// Takes the states over an interval of length h from motion `x` to motion `next`.
+  void follow(const Motion<Real>& x, Motion<Real> next, double h) {
+    move_hidden(x, next, h);
+    next.travel = next.position - x.position;
+    for (const auto& effect : effects_) {
+      if (effect.call.finish == nullptr) continue;
+      effect.call.finish(effect.p, motor_, h, x, next, memory_.data() + effect.memory);
+    }
+  }
+
+ private:
+  static constexpr int most_steps = 64;
+
+  /// Differential states by the midpoint rule, the motion taken as even between the samples.
+  void move_hidden(const Motion<Real>& x, const Motion<Real>& next, double h) {
+    double rate = 0.0;
+    bool any = false;
+    for (const auto& effect : effects_) {
+      if (effect.call.hiddens == 0) continue;
+      any = true;
+      if (effect.call.rate != nullptr) rate = std::max(rate, effect.call.rate(effect.p, motor_, x, 0.0));
+    }
+    if (!any) return;
+    const int steps = std::clamp(static_cast<int>(std::ceil(h * rate / 0.3)), 1, most_steps);
+    const double part = h / steps;
+    for (int k = 0; k < steps; ++k) {
+      const auto before = hidden_;
+      advance(before, terms(between(x, next, (k + 0.0) / steps)), 0.5 * part);
+      advance(before, terms(between(x, next, (k + 0.5) / steps)), part);
+    }
+  }
+
+  void advance(const std::array<Real, 2>& from, const Terms<Real>& t, double h) {
+    for (std::size_t k = 0; k < hidden_.size(); ++k) hidden_[k] = from[k] + h * t.hidden_rate[k];
+  }
+
+  static Motion<Real> between(const Motion<Real>& a, const Motion<Real>& b, double share) {
+    Motion<Real> x = a;
+    x.speed += share * (b.speed - a.speed);
+    x.position += share * (b.position - a.position);
+    x.angle += share * (b.angle - a.angle);
+    return x;
+  }
+
+  const Motor<Real>& motor_;
+  std::vector<ActiveEffect<Real>> effects_;
+  std::array<Real, max_memories> memory_{};
+  std::array<Real, 2> hidden_{};
+};
 
 bool replaces_friction(std::span<const int> active) {
   return std::any_of(active.begin(), active.end(),
@@ -47,7 +107,7 @@ void inverse_dynamics(std::span<const double> parameters, std::span<const int> a
   Motor<Real> motor;
   std::copy_n(values.begin(), motor_parameter_count, motor.begin());
   const double base_friction = replaces_friction(active) ? 0.0 : motor[coulomb_friction].v;
-  for (std::size_t k = 0; k < n; ++k) {
+  const auto motion_at = [&](std::size_t k) {
     Motion<Real> x;
     x.time = time[k] - time[0];
     x.direction = speed[k] > 0.0 ? 1.0 : speed[k] < 0.0 ? -1.0 : 0.0;
@@ -55,10 +115,16 @@ void inverse_dynamics(std::span<const double> parameters, std::span<const int> a
     x.position = position[k];
     x.angle = angle_per_position * position[k];
     x.angle_per_position = angle_per_position;
-    const Terms<Real> t = terms_of(motor, active, values, x);
+    return x;
+  };
+  AlongMotion effects(motor, active, values);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Motion<Real> x = motion_at(k);
+    const Terms<Real> t = effects.terms(x);
     torque[k] = (motor[inertia].v + t.inertia.v) * acceleration[k] + motor[viscous_friction].v * speed[k] +
                 x.direction * (base_friction + t.friction.v) + 0.5 * t.inertia_slope.v * speed[k] * speed[k] +
                 motor[pendulum_torque].v * std::sin(position[k]) - t.torque.v;
+    if (k + 1 < n) effects.follow(x, motion_at(k + 1), time[k + 1] - time[k]);
   }
 }
 

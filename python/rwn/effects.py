@@ -48,6 +48,7 @@ class Effect:
     parameters: tuple[Parameter, ...]
     index: int  # in the C++ table
     first: int  # position of its first parameter in the parameter vector
+    turns: bool = False  # whether it depends on the angle
 
     def at(self, parameter: str) -> int:
         """Position of one of its parameters in the parameter vector."""

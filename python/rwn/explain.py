@@ -11,7 +11,8 @@ from rwn import evidence
 from rwn.candidate import candidate, fit
 from rwn.effects import table
 from rwn.evidence import Hypothesis, Statistics
-from rwn.prepare import Setup, noise_levels
+from rwn.output_error import Target
+from rwn.prepare import Setup, noise_levels, windowed
 from rwn.search import Fitted, Search
 from rwn.temper import tempered
 
@@ -19,6 +20,8 @@ Progress = Callable[[str, float], None]
 
 WORTH = 0.2  # share of what is left that another effect has to remove
 MOST_EFFECTS = 3
+FAR_OFF = 100.0  # squared error in units of the noise, from which short windows are tried too
+DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
 MOST_TRACKS = 4  # times that the angle is simulated anew
 PLAIN = "coulomb-friction"  # what the other laws of dry friction elaborate
 
@@ -55,6 +58,8 @@ def explain(
     if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
         offset = next(f for f in search.explain(nominal, ["constant-load"]))
         fits = _distinct([*fits, *search.explain(offset, wanted)])
+    if _far_off(search, min([nominal, *fits], key=lambda f: f.cost)):
+        fits = _distinct([*fits, *_by_windows(search, nominal, wanted)])
     search, nominal, fits = _retracked(*_reweighted(search, nominal, fits))
     before = evidence.statistics(search.problem, nominal)
     best = min([nominal, *fits], key=lambda f: f.cost)
@@ -64,8 +69,7 @@ def explain(
         if left.at_the_floor or not layer:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
-        more = [f for base in layer for f in search.explain(base, wanted, keep=1)]
-        more = _distinct(more)
+        more = _distinct(_beside(search, layer, wanted, fits))
         gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
         if gained < WORTH * left.variance:
             break
@@ -85,6 +89,29 @@ def explain(
         left=left,
         before=before,
     )
+
+
+def _far_off(search: Search, best: Fitted) -> bool:
+    """Whether free run has lost the motion, so that its error no longer says where the fit should go."""
+    turning = all(t.angle.size and not t.restart_every for t in search.problem.targets)
+    return turning and search.problem.kind != "lti" and evidence.statistics(search.problem, best).variance > FAR_OFF
+
+
+def _by_windows(search: Search, nominal: Fitted, wanted: Sequence[str]) -> list[Fitted]:
+    """Every effect fitted in short windows, each from the recorded motion, and from there in free run."""
+    windows = replace(search, problem=replace(search.problem, targets=tuple(map(windowed, search.problem.targets))))
+    windows = _with_noise(windows, windows.refit(nominal, windows.problem))
+    fits = windows.explain(windows.refit(nominal, windows.problem), wanted)
+    return [search.refit(f, search.problem) for f in fits]
+
+
+def _beside(search: Search, layer: Sequence[Fitted], wanted: Sequence[str], fits: Sequence[Fitted]) -> list[Fitted]:
+    """What helps beside each explanation of `layer`: any effect beside the best, promising ones beside the others."""
+    first, *others = layer
+    found = search.explain(first, wanted, keep=1)
+    met = {name for f in (*fits, *found) for name in f.added}
+    promising = [name for name in wanted if name in met]
+    return [*found, *(f for base in others for f in search.explain(base, promising, keep=1))]
 
 
 def _applies(name: str, setup: Setup) -> bool:
@@ -125,8 +152,16 @@ def _prior(setup: Setup) -> dict[str, float]:
 
 
 def _with_noise(search: Search, fitted: Fitted) -> Search:
+    """`search` weighted by the noise that `fitted` leaves."""
     problem = search.problem
-    levels = noise_levels(problem.targets, problem.residuals(fitted.vector, fitted.candidate.active))
+    residuals = problem.residuals(fitted.vector, fitted.candidate.active)
+    levels = noise_levels(problem.targets, residuals)
+    errors = evidence.join(replace(problem, noise=levels), residuals)
+    variances = {s: float(np.nanmean(r**2)) for s, r in errors.items()}
+    others = [v for s, v in variances.items() if s != "position"]
+    if "position" in variances and others:
+        excess = variances["position"] / (DRIFT * max(*others, 1.0))
+        levels["position"] *= np.sqrt(max(excess, 1.0))
     return replace(search, problem=replace(problem, noise=levels))
 
 
@@ -183,9 +218,10 @@ def _motor(fitted: Fitted) -> dict[str, float]:
 
 
 def _retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
-    """The same fits with the angle that the best one simulates, where no angle was recorded and that is the better one.
+    """The same fits with another angle where none was recorded: one that the best fit simulates, or each fit its own.
 
-    The integral of a noisy speed wanders; thirty periods a revolution further on, it has lost the phase.
+    The integral of a noisy speed wanders, and that of a late sensor is late: thirty periods a revolution further on, it
+    has lost the phase. Effects on their own angle are the exact equations, but only near the solution a smooth problem.
     """
     best = min([nominal, *fits], key=lambda f: f.cost)
     if not _turns(best) or any(t.position.size for t in search.problem.targets):
@@ -197,6 +233,10 @@ def _retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Sea
         if refitted.cost > again.cost - 2.0:
             break
         other, again = tried, refitted
+    free = replace(search, problem=replace(search.problem, targets=tuple(map(_on_its_own, search.problem.targets))))
+    freed = free.refit(again, free.problem)
+    if freed.cost < again.cost - 2.0:
+        other, again = free, freed
     if other is search:
         return search, nominal, fits
     first = other.refit(nominal, other.problem)
@@ -204,9 +244,13 @@ def _retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Sea
     return other, first, sorted(rest, key=lambda f: f.cost)
 
 
+def _on_its_own(target: Target) -> Target:
+    return replace(target, follows=False)
+
+
 def _turns(fitted: Fitted) -> bool:
     """Whether an effect of this explanation depends on the angle."""
-    return any(p.order or p.cyclic for name in fitted.added for p in table()[name].parameters)
+    return any(table()[name].turns for name in fitted.added)
 
 
 def _tracked(search: Search, fitted: Fitted) -> Search:
@@ -215,7 +259,7 @@ def _tracked(search: Search, fitted: Fitted) -> Search:
     active = fitted.candidate.active
     angles = [problem.simulate(t, fitted.vector, active).signals["position"] for t in problem.targets]
     targets = tuple(
-        replace(t, angle=np.ascontiguousarray(a)) for t, a in zip(problem.targets, angles, strict=True)
+        replace(t, angle=np.ascontiguousarray(a), follows=True) for t, a in zip(problem.targets, angles, strict=True)
     )
     return replace(search, problem=replace(problem, targets=targets))
 

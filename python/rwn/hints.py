@@ -104,7 +104,7 @@ def _drive(problem: OutputError, target: Target) -> Array:
     return target.current
 
 
-def orders_of(spectrum: Array, orders: Array, count: int = 3) -> list[float]:
+def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
     """The orders that explain most, neighbours left out."""
     found: list[float] = []
     for k in np.argsort(spectrum)[::-1]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,7 @@ class Target:
     angle: Array = field(
         default_factory=lambda: _NONE
     )  # recorded position that angle-dependent effects follow
+    follows: bool = True  # angle-dependent effects follow `angle`, else the simulated position
     restart_every: int = (
         0  # samples of a window after which the motion restarts from the recorded one; 0: free run
     )
@@ -46,6 +47,16 @@ class Target:
     def signal(self, name: str) -> Array:
         """A recorded signal by name; empty where it was not recorded."""
         return {"current": self.current, "speed": self.speed, "position": self.position}[name]
+
+    @property
+    def followed(self) -> Array:
+        """The position that angle-dependent effects follow; empty: the simulated one."""
+        return self.angle if self.follows else _NONE
+
+    def until(self, end: int) -> Target:
+        """Its first `end` samples."""
+        arrays = ("time", "input", "current", "speed", "position", "angle", "restart_speed", "restart_position")
+        return replace(self, **{name: getattr(self, name)[:end] for name in arrays})
 
     @property
     def recorded(self) -> tuple[str, ...]:
@@ -98,7 +109,7 @@ class OutputError:
         """Free run of one recording; speed as it was measured."""
         status, *arrays = _core.simulate(
             self.kind, target.time, target.input, self.parameters_for(target, vector, active), list(active), list(by),
-            self.angle_per_position, target.input_before, target.angle, target.restart_every,
+            self.angle_per_position, target.input_before, target.followed, target.restart_every,
             target.restart_speed, target.restart_position, self.order,
         )  # fmt: skip
         signals = dict(zip(SIGNALS, arrays[:3], strict=True))
@@ -142,7 +153,7 @@ class OutputError:
         status, chi2, count, gradient, curvature = _core.normal_equations(
             self.kind, target.time, target.input, vector, list(active), list(by), target.current, target.speed,
             target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS], target.speed_is_difference,
-            self.angle_per_position, target.input_before, target.angle,
+            self.angle_per_position, target.input_before, target.followed,
             target.restart_every, target.restart_speed, target.restart_position, self.order,
         )  # fmt: skip
         return CountedNormal(

@@ -137,12 +137,13 @@ def proof_target(recording: Recording, model: Model) -> Target:
 
 def windowed(whole: Target, length: int = WINDOW) -> Target:
     """The same recording in windows of `length` samples, each starting from the smoothed recorded motion."""
+    speed, position = motion(whole)[0], whole.angle
     return replace(
         whole,
         restart_every=length,
-        restart_speed=np.ascontiguousarray(motion(whole)[0]),
-        restart_position=np.ascontiguousarray(whole.position),
-        start=(0.0, float(motion(whole)[0][0]), float(whole.position[0])),
+        restart_speed=np.ascontiguousarray(speed),
+        restart_position=np.ascontiguousarray(position),
+        start=(0.0, float(speed[0]), float(position[0])),
     )
 
 

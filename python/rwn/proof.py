@@ -80,10 +80,4 @@ def _folds(found: Explanation) -> Iterator[tuple[OutputError, Target, int]]:
     first = int(FITTED_PART * whole.targets[0].time.size)
     begin = whole.targets[0].time[first]
     late = replace(whole.targets[0], name=f"{whole.targets[0].name} from {begin:.3g} s {LEFT_OUT}")
-    yield replace(problem, targets=(_until(problem.targets[0], first),)), late, first
-
-
-def _until(target: Target, end: int) -> Target:
-    """The first `end` samples."""
-    arrays = ("time", "input", "current", "speed", "position", "angle", "restart_speed", "restart_position")
-    return replace(target, **{name: getattr(target, name)[:end] for name in arrays})
+    yield replace(problem, targets=(problem.targets[0].until(first),)), late, first

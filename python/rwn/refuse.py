@@ -12,6 +12,7 @@ from rwn.evidence import Hypothesis
 Prove = Callable[[Hypothesis], Sequence[HeldoutRow]]
 
 NOT_TOLD_APART = 3.0  # ratio of probabilities
+AS_GOOD = 1.1  # ratio of held-out squared errors within which the fitted recordings decide
 PROVED = 0.5  # share of the held-out squared error that a name has to remove certainly where more than noise is left
 
 
@@ -29,19 +30,23 @@ def without_what_hurts(hypotheses: Sequence[Hypothesis], chosen: Hypothesis, pro
 
 
 def _best(rivals: Sequence[Hypothesis], prove: Prove) -> tuple[Hypothesis, float]:
-    """The one that predicts held-out recordings best, and its error."""
+    """The first that predicts held-out recordings as well as any, and its error."""
     errors = [heldout_error(prove(h)) for h in rivals]
-    least = int(np.argmin(errors))
+    least = next(k for k, error in enumerate(errors) if error <= AS_GOOD * min(errors))
     return rivals[least], errors[least]
 
 
 def _contenders(hypotheses: Sequence[Hypothesis], chosen: Hypothesis) -> list[Hypothesis]:
     """The chosen explanation and those as large that the fitted recordings do not tell from it."""
     return [
-        h
-        for h in hypotheses
-        if h is chosen
-        or (len(h.fitted.added) == len(chosen.fitted.added) and h.probability > chosen.probability / NOT_TOLD_APART)
+        chosen,
+        *(
+            h
+            for h in hypotheses
+            if h is not chosen
+            and len(h.fitted.added) == len(chosen.fitted.added)
+            and h.probability > chosen.probability / NOT_TOLD_APART
+        ),
     ]
 
 

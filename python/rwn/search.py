@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +16,26 @@ from rwn import hints
 from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
 from rwn.effects import Effect, table
 from rwn.least_squares import Minimum
-from rwn.output_error import OutputError
+from rwn.output_error import OutputError, Target
 
 Array = NDArray[np.float64]
 Start = Mapping[str, float]
-Row = tuple[str, Candidate, Minimum]
+
+
+class Racer(NamedTuple):
+    """A start of one effect; starts of different spatial frequencies do not compete before they are fitted."""
+
+    name: str
+    order: float  # periods per revolution; 0: not periodic
+    candidate: Candidate
+
+
+Row = tuple[Racer, Minimum]
 
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
+GLANCE = 2500  # samples on which starts of one effect are told apart
+GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,32 +90,60 @@ class Search:
     def explain(self, base: Fitted, names: Iterable[str], *, keep: int = 2) -> list[Fitted]:
         """`base` with each of `names` added, fitted from several starts; best first."""
         racers = [
-            (name, c)
+            racer
             for name in names
-            for c in self._starts(base, name)
             if name not in base.candidate.effects
+            for racer in self._starts(base, name, orders=keep + 1)
         ]
-        rows = self._race(racers, iterations=1)
-        rows = self._race([(n, c) for n, c, _ in _best_of_each(rows, keep)], iterations=4)
+        rows = self._race(self._glance(base, racers, keep), iterations=4)
         rows = _promising(_best_of_each(rows, keep), base.cost)
-        finals = _best_of_each(self._race([(n, c) for n, c, _ in rows], iterations=60), 1)
-        found = [Fitted(added=(*base.added, name), candidate=c, minimum=m) for name, c, m in finals]
-        return sorted(found, key=lambda f: f.cost)
+        finals = self._race([racer for racer, _ in rows], iterations=60)
+        found = [
+            Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
+            for racer, m in sorted(finals, key=lambda row: row[1].cost)
+        ]
+        return list({f.added: f for f in reversed(found)}.values())[::-1]
 
-    def _race(self, racers: Sequence[tuple[str, Candidate]], *, iterations: int) -> list[Row]:
+    def _glance(self, base: Fitted, racers: Sequence[Racer], keep: int) -> list[Racer]:
+        """At most `keep` starts of each effect: those that an iteration on a part of the recordings brings furthest."""
+        counts = Counter(map(_kind, racers))
+        crowded = [r for r in racers if counts[_kind(r)] > keep]
+        if not crowded:
+            return list(racers)
+        part = replace(self.problem, targets=tuple(self._parts(base)))
+        rows = _best_of_each(self._race(crowded, iterations=1, problem=part), keep)
+        return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
+
+    def _parts(self, base: Fitted) -> Iterator[Target]:
+        """The beginning of every recording: GLANCE samples in all, or until enough of what `base` leaves is in it."""
+        problem = self.problem
+        residuals = problem.residuals(base.vector, base.candidate.active)
+        for target, residual in zip(problem.targets, residuals, strict=True):
+            energy = np.cumsum(sum((r / problem.noise[s]) ** 2 for s, r in residual.items()))
+            first = int(np.searchsorted(energy, GLANCED * energy[-1]))
+            yield target.until(max(first, GLANCE // len(problem.targets)))
+
+    def _race(
+        self, racers: Sequence[Racer], *, iterations: int, problem: OutputError | None = None
+    ) -> list[Row]:
         """Some iterations of every racer; each row starts the next leg where this one ended."""
+        on = problem or self.problem
         ends = self.map(
-            lambda c: fit(self.problem, c, max_iterations=iterations, tolerance=RESOLUTION), [c for _, c in racers]
+            lambda c: fit(on, c, max_iterations=iterations, tolerance=RESOLUTION), [r.candidate for r in racers]
         )
-        return [(name, c.starting_at(m.values), m) for (name, c), m in zip(racers, ends, strict=True)]
+        return [
+            (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
+            for racer, m in zip(racers, ends, strict=True)
+        ]
 
     def refit(self, this: Fitted, problem: OutputError) -> Fitted:
         """The same explanation fitted to another problem (other weights, other recordings)."""
         start = this.candidate.starting_at(this.minimum.values)
         return Fitted(added=this.added, candidate=start, minimum=fit(problem, start))
 
-    def _starts(self, base: Fitted, name: str) -> list[Candidate]:
+    def _starts(self, base: Fitted, name: str, *, orders: int) -> list[Racer]:
         effect = table()[name]
+        periodic = next((p.name for p in effect.parameters if p.order), "")
         motor = {u.name: float(v) for u, v in zip(base.candidate.unknowns, base.minimum.values, strict=True)}
         inner: dict[str, dict[str, float]] = {}
         for key in list(motor):
@@ -110,17 +152,21 @@ class Search:
                 inner.setdefault(owner, {})[parameter] = motor.pop(key)
         effects = (*base.added, name)
         return [
-            candidate(self.nominal, effects, self.scales, {**inner, name: start}, begin)
-            for start in self._guesses(base, effect)
+            Racer(
+                name,
+                start.get(periodic, 0.0),
+                candidate(self.nominal, effects, self.scales, {**inner, name: start}, begin),
+            )
+            for start in self._guesses(base, effect, orders)
             for begin in (motor, *(({},) if _bent(base) else ()), *self.nominal.starts)
         ]
 
-    def _guesses(self, base: Fitted, effect: Effect) -> list[Start]:
+    def _guesses(self, base: Fitted, effect: Effect, orders: int) -> list[Start]:
         """Starting values (SI) of one effect: what its table scans, and hints from the residual of `base`."""
         axes: list[list[Start]] = []
         for p in effect.parameters:
             if p.order:
-                axes.append([{p.name: order} for order in self._orders(base, effect, p.lower)])
+                axes.append([{p.name: order} for order in self._orders(base, effect, p.lower, orders)])
             elif p.window:
                 continue
             elif p.scan:
@@ -130,43 +176,49 @@ class Search:
             axes.append([{first: a, last: b} for a, b in self._windows(base)])
         return [{k: v for part in combination for k, v in part.items()} for combination in product(*axes)]
 
-    def _orders(self, base: Fitted, effect: Effect, lowest: float) -> list[float]:
+    def _orders(self, base: Fitted, effect: Effect, lowest: float, count: int) -> list[float]:
         if not any(t.angle.size for t in self.problem.targets):
             return []
         grid = hints.order_grid(self.problem)
         grid = grid[grid >= lowest]  # once per revolution is an unbalance
         if not any(t.speed.size for t in self.problem.targets):
             spectrum = hints.torque_spectrum(self.problem, base.vector, base.candidate.active, grid)
-            return hints.orders_of(spectrum, grid)
+            return hints.orders_of(spectrum, grid, count)
         residuals = self.problem.residuals(base.vector, base.candidate.active)
         spectrum = hints.angle_spectrum(
             self.problem, base.vector, residuals, grid, with_current=effect.site == "flux"
         )
-        return hints.orders_of(spectrum, grid)
+        return hints.orders_of(spectrum, grid, count)
 
     def _windows(self, base: Fitted) -> list[tuple[float, float]]:
         residuals = self.problem.residuals(base.vector, base.candidate.active)
         return hints.windows(self.problem, base.vector, residuals)
 
 
+def _kind(racer: Racer) -> tuple[str, float]:
+    return racer.name, racer.order
+
+
 def _best_of_each(rows: Sequence[Row], keep: int) -> list[Row]:
-    groups: dict[str, list[Row]] = {}
+    """The `keep` best starts of each effect, of a periodic one the best of each order."""
+    groups: dict[tuple[str, float], list[Row]] = {}
     for row in rows:
-        groups.setdefault(row[0], []).append(row)
-    return [row for group in groups.values() for row in sorted(group, key=lambda r: r[2].cost)[:keep]]
+        groups.setdefault(_kind(row[0]), []).append(row)
+    ranked = [sorted(group, key=lambda row: row[1].cost) for group in groups.values()]
+    return [row for group in ranked for row in group[: 1 if group[0][0].order else keep]]
 
 
-def _promising(rows: Sequence[Row], base_cost: float, least: int = 3, most: int = 8) -> list[Row]:
+def _promising(rows: Sequence[Row], base_cost: float, least: int = 6, most: int = 8) -> list[Row]:
     """The rows of effects that have gained at least half of what the best has; at least `least`, at most `most`."""
     if not rows:
         return []
     costs: dict[str, float] = {}
-    for name, _, m in rows:
-        costs[name] = min(costs.get(name, np.inf), m.cost)
+    for racer, m in rows:
+        costs[racer.name] = min(costs.get(racer.name, np.inf), m.cost)
     ranked = sorted(costs, key=lambda name: costs[name])
     bar = base_cost - 0.5 * max(base_cost - costs[ranked[0]], 0.0)
     kept = {name for k, name in enumerate(ranked[:most]) if k < least or costs[name] < bar}
-    return [row for row in rows if row[0] in kept]
+    return [row for row in rows if row[0].name in kept]
 
 
 def _bent(base: Fitted) -> bool:

@@ -4,6 +4,7 @@
 //   parameters                        std::array<Parameter, n>
 //   apply(p, motor, motion, terms)    its share of the motor equations
 // and, where it needs them,
+//   turns                             true: depends on the angle
 //   varies                            false: terms change only with direction and at `breaks` (default true)
 //   rate(p, motor, motion)            fastest rate of change it brings [1/s]: sets the step
 //   actuate(p, input)                 maps the commanded input to what acts

@@ -63,7 +63,7 @@ class Equations {
   }
 
   /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
-  void follow(double offset) { offset_ = offset; }
+  void follow(const S& offset) { offset_ = offset; }
 
   /// A of the linear part, the winding linearised at R 2^level; a stuck shaft has no equation of motion.
   Matrix system_matrix(int level, bool stick) const {
@@ -248,7 +248,8 @@ class Equations {
        rates_ = false, timed_ = false;
   S base_friction_{}, inverse_inertia_{}, inverse_inductance_{};
   S input_{};
-  double time_ = 0.0, offset_ = 0.0;
+  double time_ = 0.0;
+  S offset_{};
   std::array<Constants, 3> constants_{};  // sliding back, standing, sliding forth
   std::array<bool, 3> constants_known_{};
 };

@@ -18,7 +18,7 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
-  void follow(double offset) { equations_.follow(offset); }
+  void follow(const S& offset) { equations_.follow(offset); }
 
   /// Fixes sliding or sticking of a state that has just been set.
   void settle(State& s) const {

@@ -72,7 +72,7 @@ class Simulation {
         state.position = S(slice_.restart_position[k]);
         integrator.settle(state);
       }
-      if (slice_.angle != nullptr) integrator.follow(slice_.angle[k] - value_of(state.position));
+      if (slice_.angle != nullptr) integrator.follow(slice_.angle[k] - state.position);
       if (k + 1 < slice_.samples) advance(integrator, state, k);
     }
     return slice_.samples;

@@ -50,7 +50,7 @@ class TransferFunction {
   }
 
   void settle(State&) const {}
-  void follow(double) {}
+  void follow(const S&) {}
 
   /// Advances `s` over `h` with constant input.
   void advance(State& s, const S& h, const S& input, double) {

@@ -31,6 +31,7 @@ struct CoggingTorque {
                                                    .start = 0.0,
                                                    .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
                                                    .cyclic = true}};
+  static constexpr bool turns = true;
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
@@ -39,7 +40,8 @@ struct CoggingTorque {
   }
   template <class S>
   static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double) {
-    return value_of(p[1]) * std::abs(value_of(x.speed)) * x.angle_per_position;
+    // 1.3 rad of a period a step: the error of its quadrature, (1.3)^4 / 2880, is 0.1 % of the ripple
+    return 0.55 * value_of(p[1]) * std::abs(value_of(x.speed)) * x.angle_per_position;
   }
 };
 

@@ -16,6 +16,7 @@ struct InertiaVariation {
                                                    .start = 0.1,
                                                    .scale = Scale::inertia,
                                                    .strength = true}};
+  static constexpr bool turns = true;
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

@@ -32,6 +32,7 @@ struct PositionDependentFriction {
                                                    .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
                                                    .cyclic = true}};
   static constexpr bool dry = true;
+  static constexpr bool turns = true;
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

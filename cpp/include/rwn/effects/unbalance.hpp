@@ -23,6 +23,7 @@ struct Unbalance {
                                                    .start = 0.0,
                                                    .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
                                                    .cyclic = true}};
+  static constexpr bool turns = true;
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

@@ -1,0 +1,7 @@
+"""`python -m rwn`, the same as the command `rwn`."""
+
+from __future__ import annotations
+
+from rwn.cli import main
+
+main()
