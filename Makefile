@@ -1,4 +1,4 @@
-# make demo | demo-real | test | lint | bench | stubs; everything else is set up by these.
+# make demo | demo-real | test | test-sanitize | lint | bench | stubs; everything else is set up by these.
 PY := .venv/bin/python
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 JOBS ?= $(shell nproc)
@@ -26,21 +26,30 @@ demo-real: install
 	@.venv/bin/rwn diagnose $(EMPS)/DATA_EMPS.mat --heldout $(EMPS)/DATA_EMPS_PULSES.mat \
 	  --model python/rwn/demo/emps.toml --out demo-out/emps --overwrite
 
-test: test-cpp test-python lint
+test: test-cpp test-sanitize test-python lint
 
 test-cpp: install-test
 	cmake -S . -B build/test -DCMAKE_BUILD_TYPE=Release -DRWN_WERROR=ON -DRWN_BUILD_TESTS=ON >/dev/null
 	cmake --build build/test -j $(JOBS)
 	ctest --test-dir build/test --output-on-failure -j $(JOBS)
 
-# The C++ tests with the address and undefined-behaviour sanitizers. ISA: on any processor also the kernels of lesser ones.
+# The C++ tests with the address and undefined-behaviour sanitizers; EVERY_ISA=ON: with the kernels of every instruction set.
+EVERY_ISA ?= OFF
+ISAS_OFF := baseline
+ISAS_ON := baseline avx2 avx512
 test-sanitize: install-test
-	cmake -S . -B build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DRWN_SANITIZE=ON -DRWN_BUILD_TESTS=ON >/dev/null
+	cmake -S . -B build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DRWN_SANITIZE=ON -DRWN_BUILD_TESTS=ON -DRWN_EVERY_ISA=$(EVERY_ISA) >/dev/null
 	cmake --build build/sanitize -j $(JOBS)
-	for isa in baseline avx2 avx512; do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
+	for isa in $(ISAS_$(EVERY_ISA)); do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
 
 test-python: install-test
 	$(PY) -m pytest
+
+bench:
+	@./tools/setup.sh
+	@$(PY) -m pip install -q --disable-pip-version-check '.[bench]'
+	$(PY) bench/bench_simulate.py
+	$(PY) bench/bench_structured_network.py
 
 lint: install-test
 	$(PY) -m ruff check python tests bench

@@ -27,8 +27,8 @@ from rwn.prepare import prepare
 
 N = 200_000
 STEP = 1e-3
-AXIS = {"inertia": 95.0, "viscous_friction": 203.5}
-COULOMB = 20.4
+MASS, VISCOUS, COULOMB = 95.0, 203.5, 20.4
+AXIS = {"inertia": MASS, "viscous_friction": VISCOUS}
 DC = {"resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 3e-4,
       "viscous_friction": 7e-5}  # fmt: skip
 
@@ -52,8 +52,8 @@ def stops(speed: np.ndarray) -> float:
 
 def reference_axis(force: np.ndarray, friction: float) -> np.ndarray:
     """Speed of the axis by the exact solution over each step, in Python; stops and starts at zero crossings."""
-    a = np.exp(-AXIS["viscous_friction"] / AXIS["inertia"] * STEP)
-    gain = (1.0 - a) / AXIS["viscous_friction"]
+    a = np.exp(-VISCOUS / MASS * STEP)
+    gain = (1.0 - a) / VISCOUS
     speed, out = 0.0, np.empty(force.size)
     for k, f in enumerate(force):
         out[k] = speed

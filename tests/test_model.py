@@ -122,3 +122,13 @@ def test_nominal_parameters_are_those_of_the_core() -> None:
     for drive in drives.KINDS.values():
         for parameter in drive.parameters:
             assert known[parameter.name].unit == parameter.unit
+
+
+@pytest.mark.parametrize(("linear", "unit"), [(False, "N m"), (True, "N")])
+def test_effects_are_written_with_their_units(*, linear: bool, unit: str, tmp_path: Path) -> None:
+    values = {"inertia": 95.0, "viscous_friction": 203.5}
+    model = Model(
+        kind="axis", linear=linear, parameters=values, effects={"coulomb-friction": {"coulomb_torque": 20.4}}
+    )
+    write_model(model, tmp_path / "model.toml")
+    assert f"coulomb_torque = 20.4  # {unit}\n" in (tmp_path / "model.toml").read_text(encoding="utf-8")

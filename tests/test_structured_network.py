@@ -100,40 +100,6 @@ def test_a_network_of_the_true_motor_simulates_it_exactly() -> None:
         assert getattr(back, field) == pytest.approx(getattr(MOTOR, field), rel=1e-10)
 
 
-def test_runs_side_by_side_equal_runs_alone() -> None:
-    u, y = drive(800, frequency=10)
-    networks = [structured(15, seed) for seed in range(11)]
-    theta = np.array([n.theta for n in networks])
-    rates = np.array([list({**RATES, "v4": 0.0, "v5": 0.0}.values())] * 11) * np.linspace(0.5, 1, 11)[:, None]
-    core = networks[0].wavelet.core
-    got, mse, frozen, status, _ = _core.train_side_by_side(theta, core, rates, u, y, np.zeros(2), cycles=2)
-    for k, network in enumerate(networks):
-        rule = Fixed(dict(zip(network.groups, rates[k], strict=True)))
-        alone = rwn.train_structured(network, u, y, learn=network.groups, rates=rule, cycles=2)
-        assert relative_error(got[k], alone.network.theta) < 1e-12
-        assert mse[k] == pytest.approx(alone.mse_learning[-1], rel=1e-12)
-        assert frozen[k] == pytest.approx(alone.mse_frozen[-1], rel=1e-11)
-        assert status[k] == alone.status
-
-
-def test_a_run_that_diverges_says_so_and_leaves_its_neighbours_alone() -> None:
-    u, y = drive(800, frequency=10)
-    networks = [structured(15, seed) for seed in range(3)]
-    theta = np.array([n.theta for n in networks])
-    rates = np.tile(list({**RATES, "v4": 0.0, "v5": 0.0}.values()), (3, 1))
-    rates[1] *= 1e9
-    core = networks[0].wavelet.core
-    got, mse, frozen, status, advice = _core.train_side_by_side(theta, core, rates, u, y, np.zeros(2), cycles=3)
-    calm, *_ = _core.train_side_by_side(theta[::2].copy(), core, rates[::2].copy(), u, y, np.zeros(2), cycles=3)
-    assert status == ["completed", "diverged", "completed"]
-    assert "lower the fraction" in advice[1]
-    np.testing.assert_array_equal(got[1], theta[1])  # as it stood before the cycle that diverged
-    assert mse[1] == np.inf
-    assert np.isfinite(got).all()
-    assert np.isfinite(frozen).all()
-    np.testing.assert_array_equal(got[::2], calm)
-
-
 def test_torque_of_a_recurrent_network() -> None:
     network = structured(4, 3)
     _, y = drive(300)

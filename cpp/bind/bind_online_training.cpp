@@ -43,20 +43,6 @@ void bind_online_training(py::module_& m) {
         },
         "network"_a, "x"_a.noconvert(), "y"_a.noconvert(), py::kw_only(), "rates"_a, "learn"_a, "cycles"_a, "frozen_every"_a,
         release);
-  m.def("train_side_by_side",
-        [](const Eigen::Ref<const RowMatrix>& theta, const Wavelet& wavelet, const Eigen::Ref<const RowMatrix>& rates,
-           const VectorRef& input, const VectorRef& speed, const Eigen::Vector2d& start, int cycles) {
-          SideBySide s = train_side_by_side(theta, wavelet, rates, {input, speed, start}, cycles);
-          std::vector<std::string> status, advised;
-          for (OnlineStatus one : s.status) {
-            status.emplace_back(to_string(one));
-            advised.emplace_back(advice(one));
-          }
-          return std::make_tuple(std::move(s.theta), std::move(s.mse_learning), std::move(s.mse_frozen), std::move(status),
-                                 std::move(advised));
-        },
-        "theta"_a.noconvert(), "wavelet"_a, "rates"_a.noconvert(), "input"_a.noconvert(), "speed"_a.noconvert(), "start"_a,
-        py::kw_only(), "cycles"_a, release);
 }
 
 }  // namespace rwn::bind

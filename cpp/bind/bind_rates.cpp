@@ -1,10 +1,21 @@
 #include "bind.hpp"
+#include "defaults.hpp"
 #include "rwn/rates.hpp"
 
 namespace rwn::bind {
 
 void bind_rates(py::module_& m) {
   m.def("rate_rules", &rate_rules, "Name and guarantee of every learning-rate rule.");
+  m.def("rate_defaults", [] {
+    py::dict all;
+    all["thesis"] = defaults_of<ThesisRates>(std::pair{"fraction", &ThesisRates::fraction}, std::pair{"shared", &ThesisRates::shared},
+                                             std::pair{"printed", &ThesisRates::printed});
+    all["thesis"]["maxima"] = std::string(to_string(ThesisRates{}.maxima));
+    all["impulse-response"] = defaults_of<ImpulseResponseRates>(std::pair{"shared", &ImpulseResponseRates::shared});
+    all["normalised"] = defaults_of<NormalisedRates>(std::pair{"fraction", &NormalisedRates::fraction},
+                                                     std::pair{"regularisation", &NormalisedRates::regularisation});
+    return all;
+  });
   py::class_<FixedRates>(m, "FixedRates")
       .def(py::init([](std::vector<double> values) { return FixedRates{std::move(values)}; }), "values"_a);
   py::class_<ThesisRates>(m, "ThesisRates")

@@ -16,6 +16,7 @@ void bind_recurrent_network(py::module_& m);
 void bind_structured_network(py::module_& m);
 void bind_rates(py::module_& m);
 void bind_online_training(py::module_& m);
+void bind_side_by_side(py::module_& m);
 void bind_structured_trainers(py::module_& m);
 }  // namespace rwn::bind
 
@@ -37,5 +38,6 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   bind_structured_network(m);
   bind_rates(m);
   bind_online_training(m);
+  bind_side_by_side(m);
   bind_structured_trainers(m);
 }

@@ -59,13 +59,14 @@ RWN_INLINE void total(Pack a, Pack& s) { s = a; }
 /// State of a run in the loop. S is double (one run, wavelets across the lanes) or Pack (one run per lane).
 template <class W, class S, int N>
 struct Run {
+  static constexpr long lanes = sizeof(S) / sizeof(double);
   W wavelet;
   StructuredBlock& block;
   Rows<N> net;
   S v[5], x1, x2, P[5], Q[5], tau;
   S a11, a12, a21, a22;
   const bool electrical = block.electrical;
-  const bool friction = block.friction;
+  const bool friction = lanes > 1 || block.friction;  // side by side there always is; known, the loops carry no branch
 
   RWN_INLINE Run(StructuredBlock& b, W w) : wavelet(w), block(b), net(b) {
     for (int k = 0; k < 5; ++k) {
@@ -81,7 +82,6 @@ struct Run {
     net.save(block);
   }
 
-  static constexpr long lanes = sizeof(S) / sizeof(double);
   RWN_INLINE void row(int r, S& a) const { load_linear(block.linear + r * lanes, a); }
   RWN_INLINE void put(int r, S a) { store_linear(block.linear + r * lanes, a); }
 

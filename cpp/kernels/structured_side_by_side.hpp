@@ -1,6 +1,5 @@
-// Runs side by side, one per lane (SoA over runs): the latency of one run's chain is hidden behind the others. Each
-// wavelet's rows pass through the registers once per sample; its correction waits for the next sample, when they are
-// there anyway. Loads and stores, not arithmetic, are what such a step is bound by.
+// Runs side by side, one per lane (SoA over runs): the latency of one run's chain is hidden behind the others. A
+// wavelet's correction waits for the next sample, when its rows pass through the registers anyway.
 #pragma once
 
 #include "structured_run.hpp"
@@ -11,8 +10,6 @@ template <class W>
 struct SideBySideRun : Run<W, Pack, 0> {
   using Base = Run<W, Pack, 0>;
   using Base::a11, Base::a12, Base::a21, Base::a22, Base::net, Base::tau, Base::v, Base::wavelet;
-  static constexpr bool split =
-      width != 4;  // measured: at 16 registers of 4 lanes one loop is faster (1.17 against 0.98 of one run)
   Pack rates[kStructuredGroups];
   Pack waiting[4] = {0.0, 0.0, 0.0, 0.0};  // mu e of w, m, d, c, not yet applied
 
@@ -28,11 +25,10 @@ struct SideBySideRun : Run<W, Pack, 0> {
     for (long p = 0; p < net.size(); ++p) {
       for (int g = 0; g < 4; ++g) net.set(kTheta + g, p, corrected(g, p));
       tau += Base::wavelets(p, Pack(speed), none);
-      if (!split) Base::wavelet_sensitivities(p);
     }
     Base::linear_sensitivities(u);
     Base::move(u);  // before the second loop, which nothing waits for: it fills the wait for the error
-    for (long p = 0; split && p < net.size(); ++p) Base::wavelet_sensitivities(p);
+    for (long p = 0; p < net.size(); ++p) Base::wavelet_sensitivities(p);
   }
 
   /// As Run::correct; the network's share waits.

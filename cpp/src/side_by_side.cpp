@@ -1,9 +1,9 @@
 // Several runs in the lanes of the vectors: the latency of one run's chain is hidden behind the others.
+#include "rwn/side_by_side.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-
-#include "rwn/online_training.hpp"
 
 namespace rwn {
 namespace {

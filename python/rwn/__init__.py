@@ -17,6 +17,8 @@ from rwn.online_training import train_structured as train_structured
 from rwn.recording import Recording as Recording
 from rwn.recording import read_recording as read_recording
 from rwn.recurrent_network import RecurrentNetwork as RecurrentNetwork
+from rwn.side_by_side import SideBySide as SideBySide
+from rwn.side_by_side import train_side_by_side as train_side_by_side
 from rwn.simulation import Simulation as Simulation
 from rwn.simulation import simulate as simulate
 from rwn.structured_network import MotorParameters as MotorParameters

@@ -163,6 +163,22 @@ class OnlineHistory:
     @property
     def status(self) -> str:
         ...
+class SideBySide:
+    @property
+    def advice(self) -> list[str]:
+        ...
+    @property
+    def mse_frozen(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
+    @property
+    def mse_learning(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
+    @property
+    def status(self) -> list[str]:
+        ...
+    @property
+    def theta(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
 class StructuredFit:
     @property
     def advice(self) -> str:
@@ -247,6 +263,8 @@ def plant_run(parameters: collections.abc.Mapping[str, typing.SupportsFloat | ty
     """
     Rows of (current, speed, position, sensed current, sensed speed, temperature rise), one per voltage.
     """
+def rate_defaults() -> dict:
+    ...
 def rate_rules() -> list[tuple[str, str]]:
     """
     Name and guarantee of every learning-rate rule.
@@ -275,7 +293,7 @@ def structured_trainer_defaults() -> dict:
     ...
 def train_recurrent(network: RecurrentNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], *, rates: FixedRates | ThesisRates | ImpulseResponseRates | NormalisedRates, learn: typing.Annotated[collections.abc.Sequence[bool], "FixedSize(6)"], cycles: typing.SupportsInt | typing.SupportsIndex, frozen_every: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], OnlineHistory]:
     ...
-def train_side_by_side(theta: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelet: Wavelet, rates: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, cycles: typing.SupportsInt | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], list[str], list[str]]:
+def train_side_by_side(theta: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelet: Wavelet, rates: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, cycles: typing.SupportsInt | typing.SupportsIndex) -> SideBySide:
     ...
 def train_structured(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, rates: FixedRates | ThesisRates | ImpulseResponseRates | NormalisedRates, learn: typing.Annotated[collections.abc.Sequence[bool], "FixedSize(9)"], cycles: typing.SupportsInt | typing.SupportsIndex, frozen_every: typing.SupportsInt | typing.SupportsIndex, follow_state: bool) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], OnlineHistory]:
     ...

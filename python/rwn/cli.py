@@ -253,7 +253,7 @@ def _refuse(error: Exception) -> None:
             print(error.format_message(), file=sys.stderr)
             sys.exit(2)
         usage = getattr(getattr(error, "ctx", None), "command_path", "rwn")
-        text = f"{error.format_message()} fix: see {usage} --help"
+        text = f"{error.format_message().rstrip('.')}; fix: see {usage} --help"
     elif isinstance(error, OSError) and error.filename is not None:
         text = f"{error.filename}: {error.strerror}; expected a file in reach; fix: check path, permissions, disk space"
     else:

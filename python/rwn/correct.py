@@ -14,6 +14,7 @@ from rwn.effects import Effect, motor_index
 from rwn.evidence import Hypothesis
 from rwn.model import Model
 from rwn.search import Fitted
+from rwn.units import linear_unit
 
 if TYPE_CHECKING:
     from rwn.explain import Explanation
@@ -56,13 +57,6 @@ def _systematic(fitted: Fitted) -> Array:
     angles = {f"{name}.{p.name}" for name in fitted.added for p in known[name].parameters if p.cyclic}
     pairs = zip(fitted.candidate.unknowns, fitted.minimum.values, strict=True)
     return np.array([AGREEMENT * (1.0 if u.name in angles else abs(v)) for u, v in pairs])
-
-
-def linear_unit(unit: str) -> str:
-    """The unit of a linear axis in place of that of a shaft: N for N m, kg for kg m^2, m/s for rad/s."""
-    for rotary, linear in (("N m", "N"), ("kg m^2", "kg"), ("rad/s", "m/s"), ("/rad", "/m")):
-        unit = unit.replace(rotary, linear)
-    return unit
 
 
 def _unit_on_an_axis(unknown: str, unit: str, known: Mapping[str, Effect]) -> str:

@@ -9,6 +9,7 @@ import msgspec
 from rwn.layout import Layout
 from rwn.model import Model
 from rwn.own_effects import to_lines
+from rwn.units import linear_unit
 
 
 def format_model(model: Model) -> str:
@@ -19,7 +20,7 @@ def format_model(model: Model) -> str:
     lines += _coefficient_lines(model) if model.kind == "lti" else _parameter_lines(model)
     lines += _table("uncertainty", model.uncertainty)
     for name, values in model.effects.items():
-        lines += _table(f"effects.{name}", values, always=True)
+        lines += ["", f"[effects.{name}]", *_effect_lines(model, name, values)]
     for effect in model.own_effects:
         lines += to_lines(effect)
     for name, values in model.load.items():
@@ -28,9 +29,22 @@ def format_model(model: Model) -> str:
 
 
 def _parameter_lines(model: Model) -> list[str]:
-    width = max(len(f"{name} = {value!r}") for name, value in model.parameters.items())
+    return _commented(model.parameters, {name: model.unit(name) for name in model.parameters})
+
+
+def _effect_lines(model: Model, name: str, values: Mapping[str, float]) -> list[str]:
+    effect = model.effect_table[name]
+    rotary = model.linear and not effect.own  # a user has written units as they are
+    return _commented(values, {p.name: linear_unit(p.unit) if rotary else p.unit for p in effect.parameters})
+
+
+def _commented(values: Mapping[str, float], units: Mapping[str, str]) -> list[str]:
+    """One line a value, the units below one another; none for pure numbers."""
+    lines = {name: f"{name} = {float(value)!r}" for name, value in values.items()}
+    width = max(map(len, lines.values()), default=0)
     return [
-        f"{f'{name} = {value!r}':<{width}}  # {model.unit(name)}" for name, value in model.parameters.items()
+        f"{line:<{width}}  # {units[name]}" if units.get(name, "1") != "1" else line
+        for name, line in lines.items()
     ]
 
 
@@ -42,8 +56,8 @@ def _coefficient_lines(model: Model) -> list[str]:
     return [f"numerator = {b!r}", f"denominator = {a!r}"]
 
 
-def _table(name: str, values: Mapping[str, float], *, always: bool = False) -> list[str]:
-    if not values and not always:
+def _table(name: str, values: Mapping[str, float]) -> list[str]:
+    if not values:
         return []
     return ["", f"[{name}]", *(f"{key} = {float(value)!r}" for key, value in values.items())]
 

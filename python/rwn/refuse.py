@@ -12,8 +12,8 @@ from rwn.evidence import Hypothesis
 Prove = Callable[[Hypothesis], Sequence[HeldoutRow]]
 
 NOT_TOLD_APART = 3.0  # ratio of probabilities
-AS_GOOD = 1.1  # ratio of held-out squared errors within which the fitted recordings decide
-PROVED = 0.5  # share of the held-out squared error that a name has to remove certainly where more than noise is left
+AS_GOOD = 1.1  # ratio of held-out squared errors within which the fitted recordings, or fewer effects, decide
+PROVED = 0.4  # share of the held-out squared error that a name has to remove certainly where more than noise is left
 
 
 def without_what_hurts(hypotheses: Sequence[Hypothesis], chosen: Hypothesis, prove: Prove) -> Hypothesis:
@@ -25,7 +25,7 @@ def without_what_hurts(hypotheses: Sequence[Hypothesis], chosen: Hypothesis, pro
     parts = [h for h in hypotheses if h.fitted.added and set(h.fitted.added) < set(first.fitted.added)]
     if not parts:
         return first
-    part, part_error = _best(parts, prove)
+    part, part_error = _best(sorted(parts, key=lambda h: len(h.fitted.added)), prove)
     return part if part_error < error else first
 
 

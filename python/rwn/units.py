@@ -120,3 +120,10 @@ def same_dimension(result: Any, unit: str) -> None:
     """Raises pint's DimensionalityError unless `result` (a number or a `sample`) is of the kind of `unit`."""
     wanted = _parse(unit if unit not in ("", "1") else "dimensionless", where="units")
     _registry().Quantity(result).to(wanted)
+
+
+def linear_unit(unit: str) -> str:
+    """The unit of a linear axis in place of that of a shaft: N for N m, kg for kg m^2, m/s for rad/s."""
+    for rotary, linear in (("N m", "N"), ("kg m^2", "kg"), ("rad/s", "m/s"), ("/rad", "/m")):
+        unit = unit.replace(rotary, linear)
+    return unit

@@ -93,6 +93,6 @@ def _nothing_learned(found: Explanation) -> bool:
 
 
 def is_certain(rows: Sequence[HeldoutRow]) -> bool:
-    """Whether recordings that were kept back prove more than half of the squared error removed, at the least."""
+    """Whether recordings that were kept back prove a good part (PROVED) of the squared error removed, at the least."""
     kept_back = bool(rows) and not any(LEFT_OUT in r.recording for r in rows)
     return kept_back and removed_certainly(rows) > PROVED

@@ -1,23 +1,26 @@
 #include "rwn/rates/rule.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace rwn {
+namespace {
+
+constexpr std::array<std::string_view, 3> kMaxima{"running", "pre-pass", "pre-pass-then-running"};  // as in Maxima
+
+}  // namespace
+
+std::string_view to_string(Maxima maxima) { return kMaxima[static_cast<std::size_t>(maxima)]; }
 
 Maxima maxima_by_name(std::string_view name) {
-  if (name == "running") {
-    return Maxima::running;
+  const auto found = std::find(kMaxima.begin(), kMaxima.end(), name);
+  if (found == kMaxima.end()) {
+    throw std::invalid_argument("maxima must be running, pre-pass or pre-pass-then-running, got '" + std::string(name) + "'");
   }
-  if (name == "pre-pass") {
-    return Maxima::pre_pass;
-  }
-  if (name == "pre-pass-then-running") {
-    return Maxima::pre_pass_then_running;
-  }
-  throw std::invalid_argument("maxima must be running, pre-pass or pre-pass-then-running, got '" + std::string(name) + "'");
+  return static_cast<Maxima>(found - kMaxima.begin());
 }
 
 void RateReport::include(double rho, double cond) {

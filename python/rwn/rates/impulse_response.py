@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from rwn import _core
-from rwn.rates.rule import check_fraction
+from rwn.rates.rule import DEFAULTS, check_fraction
+
+_DEFAULTS = DEFAULTS["impulse-response"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,7 +22,7 @@ class ImpulseResponse:
 
     name: ClassVar[str] = "impulse-response"
     fraction: float | None = None
-    shared: bool = True
+    shared: bool = _DEFAULTS["shared"]
 
     def __post_init__(self) -> None:
         if self.fraction is not None:

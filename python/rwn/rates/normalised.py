@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from rwn import _core
-from rwn.rates.rule import check_fraction
+from rwn.rates.rule import DEFAULTS, check_fraction
+
+_DEFAULTS = DEFAULTS["normalised"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,8 +23,8 @@ class Normalised:
     """
 
     name: ClassVar[str] = "normalised"
-    fraction: float = 0.5
-    regularisation: float = 0.01
+    fraction: float = _DEFAULTS["fraction"]
+    regularisation: float = _DEFAULTS["regularisation"]
     scales: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:

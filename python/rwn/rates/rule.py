@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, TypeAlias
+from typing import Any, ClassVar, Protocol, TypeAlias
 
 from rwn import _core
 
@@ -11,6 +11,7 @@ CoreRule: TypeAlias = (
     _core.FixedRates | _core.ThesisRates | _core.ImpulseResponseRates | _core.NormalisedRates
 )
 GUARANTEES: dict[str, str] = dict(_core.rate_rules())
+DEFAULTS: dict[str, dict[str, Any]] = _core.rate_defaults()
 
 
 class RateRule(Protocol):

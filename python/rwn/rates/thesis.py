@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from rwn import _core
-from rwn.rates.rule import check_fraction
+from rwn.rates.rule import DEFAULTS, check_fraction
+
+_DEFAULTS = DEFAULTS["thesis"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,10 +24,10 @@ class Thesis:
     """
 
     name: ClassVar[str] = "thesis"
-    fraction: float = 0.5
-    maxima: Literal["running", "pre-pass", "pre-pass-then-running"] = "running"
-    shared: bool = True
-    printed: bool = False
+    fraction: float = _DEFAULTS["fraction"]
+    maxima: Literal["running", "pre-pass", "pre-pass-then-running"] = _DEFAULTS["maxima"]
+    shared: bool = _DEFAULTS["shared"]
+    printed: bool = _DEFAULTS["printed"]
 
     def __post_init__(self) -> None:
         check_fraction("fraction", self.fraction)

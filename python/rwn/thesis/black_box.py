@@ -10,6 +10,7 @@ of each group by itself; 100 cycles for 10 000. The wanted line is the plain lea
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -22,6 +23,7 @@ from rwn.thesis.linear import thesis_rule
 from rwn.thesis.within_cycle import SHAPES, first_cycle_panel, rates_figure
 
 PAGES = {"bilinear": (6.4572e-6, 1.2912e-5), "euler": (6.8587e-6, 1.6747e-5)}
+RULE = thesis_rule(0.05)
 FIGURES = {"bilinear": (46, 47, 49), "euler": (51, 52, 54)}
 
 
@@ -69,90 +71,122 @@ def free_run(net: rwn.RecurrentNetwork, kind: str, u: Array, y: Array) -> float:
     return float(np.mean((out - y) ** 2))
 
 
-def one(kind: str, settings: Settings) -> tuple[list[Row], list[Figure]]:
-    """Trains and tests with one set of inputs."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Trained:
+    """One set of inputs: what was learned from the chirp, and the sine that it is tested on."""
+
+    kind: str
+    cycles: int
+    x: Array
+    target: Array
+    test_x: Array
+    test: Array
+    test_voltage: Array
+    test_speed: Array
+    start: rwn.RecurrentNetwork
+    training: rwn.OnlineTraining[rwn.RecurrentNetwork]
+
+
+def learn(kind: str, cycles: int) -> Trained:
+    """Trains with one set of inputs, from least squares on."""
     u, test_u = chirp(12.0, 0.1, 4.0), sine(3.0, 1.0)
     y, test_y = speed_of(u), speed_of(test_u)
     x, target = inputs(kind, u, y)
     test_x, test = inputs(kind, test_u, test_y)
-    net = least_squares(x, target, 0)
-    linear = rwn.RecurrentNetwork(
-        b=net.b,
-        a=net.a,
-        w=np.zeros(0),
-        m=np.zeros((0, len(net.a))),
-        d=np.zeros((0, len(net.a))),
-        c=np.zeros((0, len(net.a))),
+    start = least_squares(x, target, 0)
+    return Trained(
+        kind=kind,
+        cycles=cycles,
+        x=x,
+        target=target,
+        test_x=test_x,
+        test=test,
+        test_voltage=test_u,
+        test_speed=test_y,
+        start=start,
+        training=rwn.train_recurrent(start, x, target, rates=RULE, cycles=cycles),
     )
-    cycles = settings.pick(100, 2)
-    run = rwn.train_recurrent(net, x, target, rates=thesis_rule(0.05), cycles=cycles)
-    going_on = rwn.train_recurrent(run.network, test_x, test, rates=thesis_rule(0.05), cycles=1)
-    trained, tested = PAGES[kind]
-    number, rate_number, test_number = FIGURES[kind]
+
+
+def without_wavelets(net: rwn.RecurrentNetwork) -> rwn.RecurrentNetwork:
+    """Its linear part."""
+    none = np.zeros((0, len(net.a)))
+    return rwn.RecurrentNetwork(b=net.b, a=net.a, w=np.zeros(0), m=none, d=none, c=none)
+
+
+def rows(case: Trained) -> list[Row]:
+    """The thesis's numbers, and what plain least squares reaches."""
+    run, net = case.training, case.training.network
+    linear = without_wavelets(case.start)
+    going_on = rwn.train_recurrent(net, case.test_x, case.test, rates=RULE, cycles=1)
+    trained, tested = PAGES[case.kind]
+    number, _, test_number = FIGURES[case.kind]
 
     def row(number: int, what: str, thesis: float, ours: float) -> Row:
         return Row(
             where=f"Figure {number}",
-            case=f"{kind}, {what}",
+            case=f"{case.kind}, {what}",
             thesis=thesis,
             ours=float(ours),
-            count=f"{cycles} cycles; {run.status}",
+            count=f"{case.cycles} cycles; {run.status}",
             reason="the thesis's numbers are tracking errors",
         )
 
     def plain(what: str, ours: float, wanted: float | None) -> Row:
         judge: Literal["wanted", "none"] = "none" if wanted is None else "wanted"
-        case = f"{kind}, least squares, {what}"
         return Row(
             where=f"Figure {test_number}",
-            case=case,
+            case=f"{case.kind}, least squares, {what}",
             ours=float(ours),
             judge=judge,
             wanted=wanted,
             count="one solve",
         )
 
-    rows = [
+    return [
         row(number, "trained, while learning", trained, run.mse_learning[-1]),
         row(number, "trained, frozen", trained, run.mse_frozen[-1]),
         row(test_number, "tested, learning on", tested, going_on.mse_learning[0]),
-        row(test_number, "tested, frozen", tested, run.network.mse(test_x, test)),
-        plain("frozen", linear.mse(test_x, test), 4e-9),
-        plain("free run", free_run(linear, kind, test_u, test_y), None),
+        row(test_number, "tested, frozen", tested, net.mse(case.test_x, case.test)),
+        plain("frozen", linear.mse(case.test_x, case.test), 4e-9),
+        plain("free run", free_run(linear, case.kind, case.test_voltage, case.test_speed), None),
     ]
+
+
+def figures(case: Trained) -> list[Figure]:
+    """Error and rates while learning, and the test."""
     t = T * np.arange(2, SAMPLES)
     shown = [
-        curve(test, t, label="motor", style="k-"),
-        curve(run.network.simulate(test_x), t, label="network", style="--"),
+        curve(case.test, t, label="motor", style="k-"),
+        curve(case.training.network.simulate(case.test_x), t, label="network", style="--"),
     ]
 
     def first_rates(samples: int) -> Array:
-        part = rwn.train_recurrent(net, x[:samples], target[:samples], rates=thesis_rule(0.05))
-        return part.rates
+        return rwn.train_recurrent(case.start, case.x[:samples], case.target[:samples], rates=RULE).rates
 
-    first = first_cycle_panel(first_rates, len(target), SHAPES)
-    figures = [
+    first = first_cycle_panel(first_rates, len(case.target), SHAPES)
+    number, rate_number, test_number = FIGURES[case.kind]
+    return [
         Figure(
             number=number,
-            title=f"MSE, {kind}",
-            panels=[Panel(xlabel="cycle", curves=[curve(run.mse_learning)], log_y=True)],
+            title=f"MSE, {case.kind}",
+            panels=[Panel(xlabel="cycle", curves=[curve(case.training.mse_learning)], log_y=True)],
         ),
-        rates_figure(rate_number, f"Learning rates, {kind}", run, first),
+        rates_figure(rate_number, f"Learning rates, {case.kind}", case.training, first),
         Figure(
             number=test_number,
-            title=f"Test, {kind}, frozen weights",
+            title=f"Test, {case.kind}, frozen weights",
             panels=[Panel(xlabel="time [s]", ylabel="speed [rad/s]", curves=shown)],
         ),
     ]
-    return rows, figures
 
 
 def run(settings: Settings) -> Outcome:
     """Both sets of inputs."""
     speed = np.linspace(-80, 80, 401)
     level = curve([friction(w) for w in speed], speed)
-    rows: list[Row] = []
-    figures = [
+    all_rows: list[Row] = []
+    all_figures = [
         Figure(
             number=44,
             title="Friction",
@@ -160,11 +194,11 @@ def run(settings: Settings) -> Outcome:
         )
     ]
     for k, kind in enumerate(PAGES):
-        new_rows, new_figures = one(kind, settings)
-        rows += new_rows
-        figures += new_figures
+        case = learn(kind, settings.pick(100, 2))
+        all_rows += rows(case)
+        all_figures += figures(case)
         settings.progress((k + 1) / 2)
-    return Outcome(rows=rows, figures=figures)
+    return Outcome(rows=all_rows, figures=all_figures)
 
 
 EXPERIMENT = Experiment(

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rwn.errors import InputError
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -24,12 +26,10 @@ def thesis() -> None:
 @app.command("list")
 def list_experiments() -> None:
     """Lists the experiments with their tables and figures."""
-    from rwn.thesis.registry import EXPERIMENTS
+    from rwn.thesis.registry import EXPERIMENTS, ranges
 
     for e in EXPERIMENTS:
-        tables = ", ".join(map(str, e.tables)) or "-"
-        figures = ", ".join(map(str, e.figures)) or "-"
-        typer.echo(f"{e.name:28} tables {tables:10} figures {figures:24} {e.title}")
+        typer.echo(f"{e.name:20} tables {ranges(e.tables):6} figures {ranges(e.figures):18} {e.title}")
 
 
 @app.command()
@@ -51,11 +51,13 @@ def run(
     from rwn.thesis.registry import select
 
     if [table is not None, figure is not None, everything].count(True) != 1:
-        raise typer.BadParameter("say which: --table N, --figure N or --all")
-    try:
-        experiments = select(table=table, figure=figure)
-    except ValueError as error:
-        raise typer.BadParameter(str(error)) from None
+        raise InputError(
+            "which experiments?",
+            where="rwn thesis run",
+            expected="one of --table N, --figure N and --all",
+            fix="`rwn thesis list` shows what there is",
+        )
+    experiments = select(table=table, figure=figure)
     _run(experiments, out, reduced=reduced, jobs=jobs, page=page or out / "thesis.md")
 
 

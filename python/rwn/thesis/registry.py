@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from rwn.errors import InputError
 from rwn.thesis import (
     better_offline,
     black_box,
@@ -62,7 +65,7 @@ EXPERIMENTS: tuple[Experiment, ...] = tuple(
 def select(*, table: int | None = None, figure: int | None = None) -> list[Experiment]:
     """The experiments that make a table or figure of the thesis; all of them if neither is given.
 
-    Raises ValueError if no experiment makes it.
+    Raises InputError if no experiment makes it.
     """
     chosen = [
         e
@@ -70,14 +73,23 @@ def select(*, table: int | None = None, figure: int | None = None) -> list[Exper
         if (table is None and figure is None) or table in e.tables or figure in e.figures
     ]
     if not chosen:
-        known_tables = sorted({t for e in EXPERIMENTS for t in e.tables})
-        known_figures = sorted({f for e in EXPERIMENTS for f in e.figures})
-        what = f"table {table}" if table is not None else f"figure {figure}"
-        raise ValueError(
-            f"no experiment makes {what}; tables: {_list(known_tables)}; figures: {_list(known_figures)}"
+        what, number = ("table", table) if table is not None else ("figure", figure)
+        known = {n for e in EXPERIMENTS for n in (e.tables if what == "table" else e.figures)}
+        raise InputError(
+            f"no experiment makes {what} {number}",
+            where="rwn thesis run",
+            expected=f"one of {what}s {ranges(known)}",
+            fix="`rwn thesis list` shows what makes which",
         )
     return chosen
 
 
-def _list(numbers: list[int]) -> str:
-    return ", ".join(map(str, numbers)) or "none"
+def ranges(numbers: Iterable[int]) -> str:
+    """Numbers in words, neighbours together: 1-3, 7; - for none."""
+    runs: list[list[int]] = []
+    for n in sorted(numbers):
+        if runs and n == runs[-1][-1] + 1:
+            runs[-1].append(n)
+        else:
+            runs.append([n])
+    return ", ".join(str(r[0]) if len(r) == 1 else f"{r[0]}-{r[-1]}" for r in runs) or "-"

@@ -34,12 +34,13 @@ def write_walk_through(page: Path) -> None:
 
 def text(walked: WalkThrough, folder: str) -> list[str]:
     """The page, paragraph by paragraph."""
-    speed, (recording, noisy_fit) = walked.speed, walked.noisy
-    good = judge(walked.fit, speed, speed)
+    return [*to_the_fit(walked, folder), *from_the_fit(walked, folder)]
+
+
+def to_the_fit(walked: WalkThrough, folder: str) -> list[str]:
+    """What is recorded and believed, where the wavelets go, and what can be found."""
+    speed = walked.speed
     shared, gauged = (fit.condition for fit in walked.linear)
-    loose = judge(walked.loose, speed, recording.speed)
-    noise = judge(noisy_fit, speed, recording.source)
-    before, after = free_run_error(walked)
     first = ", ".join(
         f"{m:+.3g} (width {d:.2g})" for m, d in zip(walked.selected.m[:5], walked.selected.d[:5], strict=True)
     )
@@ -70,6 +71,17 @@ def text(walked: WalkThrough, folder: str) -> list[str]:
         "the network, so that v1 is the whole slope.",
         code(steps.weigh),
         f"It changes the condition of B, J and the weights from {shared:.2g} to {gauged:.2g}.",
+    ]
+
+
+def from_the_fit(walked: WalkThrough, folder: str) -> list[str]:
+    """What was found, the proof on another recording, and what noise does to it."""
+    speed, (recording, noisy_fit) = walked.speed, walked.noisy
+    good = judge(walked.fit, speed, speed)
+    loose = judge(walked.loose, speed, recording.speed)
+    noise = judge(noisy_fit, speed, recording.source)
+    before, after = free_run_error(walked)
+    return [
         "## 5. The fit",
         code(steps.fit),
         table(good),

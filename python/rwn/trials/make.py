@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +12,7 @@ from rwn.trials.dossier import write_trial
 from rwn.trials.plan import FIRST_TEST_SEED, SPLITS, Plan, plans, split_of
 from rwn.trials.seal import ANSWERS, seal
 from rwn.trials.trial import make_trial
+from rwn.trials.workers import workers
 
 Progress = Callable[[int, int, str], None]
 
@@ -60,7 +59,7 @@ def make(
     _same_set(work / "set.json", {"seed": seed, "count": count})
     left = [plan for plan in planned if not (work / f"{plan.name}.json").exists()]
     done = count - len(left)
-    with ProcessPoolExecutor(max_workers=jobs, mp_context=get_context("spawn")) as pool:
+    with workers(jobs) as pool:
         for number, plan in enumerate(pool.map(_make_one, left, [out] * len(left)), start=done + 1):
             if progress is not None:
                 progress(number, count, plan.name)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import shutil
 import traceback
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from multiprocessing import get_context
+from concurrent.futures import as_completed
 from pathlib import Path
 
 from rwn.trials.adapter import diagnose_trial
+from rwn.trials.workers import workers
 
 Progress = Callable[[int, int, str], None]
 Diagnose = Callable[[Path, Path], None]
@@ -46,7 +46,7 @@ def run(
     left = [trial for trial in trials if not (out_of(trial, results) / "diagnosis.json").exists()]
     failed: list[str] = []
     done = len(trials) - len(left)
-    with ProcessPoolExecutor(max_workers=jobs, mp_context=get_context("spawn")) as pool:
+    with workers(jobs) as pool:
         jobs_left = {pool.submit(_one, trial, out_of(trial, results), diagnose): trial for trial in left}
         for job in as_completed(jobs_left):
             trial = jobs_left[job]

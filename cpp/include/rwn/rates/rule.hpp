@@ -14,7 +14,9 @@ namespace rwn {
 
 /// Where the maxima of a bound come from.
 enum class Maxima { running, pre_pass, pre_pass_then_running };
-/// `running`, `pre-pass`, `pre-pass-then-running`. \throws std::invalid_argument for another name.
+/// `running`, `pre-pass`, `pre-pass-then-running`.
+std::string_view to_string(Maxima maxima);
+/// \throws std::invalid_argument for another name.
 Maxima maxima_by_name(std::string_view name);
 
 /// What is wrong with a bound, counted and measured rather than hidden; thresholds are those of the kernels.
