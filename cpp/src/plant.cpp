@@ -253,7 +253,7 @@ void Plant::segment(double begin, double end, double command) {
     double until = end;
     const double gap = target - (voltage_ + slope_ * (begin - voltage_time_));
     const double arrival = begin + std::abs(gap) / p_.slew_rate;
-    if (arrival <= begin) {
+    if (arrival - begin <= 1e-9 * sample_time_) {  // what rounding leaves would be approached for ever
       voltage_ = target;
       slope_ = 0.0;
     } else {
