@@ -61,14 +61,7 @@ def diagnose(
     began = time.perf_counter()
     say = progress or _silent
     jobs = jobs or os.cpu_count() or 1
-    say("looking for mistakes in the recordings", 0.0)
-    made, recordings = _undone(recordings, model)
-    say("refitting the nominal model", 0.05)
-    found = explain(prepare(recordings, model), jobs=jobs, progress=say)
-    late = _late(found, recordings, model)
-    if late:
-        made, recordings = [*made, late], [late.undo(r) for r in recordings]
-        found = explain(prepare(recordings, model), jobs=jobs, progress=say)
+    made, found = _explained(recordings, model, jobs, say)
     say("proving it on data that were not fitted", 0.85)
     for mistake in made:
         heldout = [mistake.undo(r) for r in heldout]
@@ -102,6 +95,21 @@ def diagnose(
 
 def _silent(what: str, done: float) -> None:
     """Progress that nobody asked for."""
+
+
+def _explained(
+    recordings: Sequence[Recording], model: Model, jobs: int, say: Progress
+) -> tuple[list[Mistake], Explanation]:
+    """Mistakes of the recordings, and what explains these when they are undone."""
+    say("looking for mistakes in the recordings", 0.0)
+    made, recordings = _undone(recordings, model)
+    say("refitting the nominal model", 0.05)
+    found = explain(prepare(recordings, model), jobs=jobs, progress=say)
+    late = _late(found, recordings, model)
+    if late:
+        made, recordings = [*made, late], [late.undo(r) for r in recordings]
+        found = explain(prepare(recordings, model), jobs=jobs, progress=say)
+    return made, found
 
 
 def _undone(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
