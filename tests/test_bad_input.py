@@ -370,6 +370,11 @@ def test_judging_by_the_fitted_recording(refuse: Callable[..., str]) -> None:
     assert "given twice" in refuse(_csv(), extra=("--heldout", "TMP/run.csv"))
 
 
+def test_two_files_after_one_heldout(refuse: Callable[..., str]) -> None:
+    line = refuse(_csv(), extra=("--heldout", "b.csv", "c.csv"))
+    assert "'c.csv' follows --heldout b.csv" in line
+
+
 @pytest.mark.parametrize(
     ("arguments", "held"),
     [

@@ -54,6 +54,7 @@ def diagnose(
     from rwn.output import output_folder
     from rwn.provenance import source
 
+    _refuse_strays(sys.argv)
     with output_folder(out, overwrite=overwrite) as aside:
         nominal = read_model(model)
         files = read_recordings([*recordings, *(heldout or [])], nominal)
@@ -68,6 +69,18 @@ def diagnose(
         found = replace(found, sources=tuple(used), command=shlex.join(["rwn", *sys.argv[1:]]))
         _write_results(found, aside)
     _print_verdict(found, out)
+
+
+def _refuse_strays(arguments: list[str]) -> None:
+    """A file after `--heldout FILE` would be fitted to, which is hardly what is meant."""
+    for flag, kept, stray in zip(arguments, arguments[1:], arguments[2:], strict=False):
+        if flag == "--heldout" and not stray.startswith("-"):
+            raise InputError(
+                f"'{stray}' follows --heldout {kept}",
+                where="command line",
+                expected="--heldout before each file that is kept back, files to fit before all options",
+                fix=f"write --heldout {stray}, or move it to the front",
+            )
 
 
 @app.command()
