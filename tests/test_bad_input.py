@@ -161,6 +161,12 @@ MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
         MODEL + "[effects.coulomb-friction]\ncoulomb_torqe = 1.0\n",
         ("'coulomb_torqe'", "did you mean 'coulomb_torque'"),
     ),
+    "two second masses": (
+        MODEL
+        + "[effects.backlash]\ngap = 0.1\nload_inertia = 1e-5\ncontact_rate = 1e3\ncontact_damping_ratio = 0.3\n"
+        + "[effects.shaft-compliance]\nstiffness = 1.0\ndamping = 0.01\nload_inertia = 1e-5\n",
+        ("backlash and shaft-compliance each bring a second mass", "one of them"),
+    ),
     "effect without values": (MODEL + "[effects.coulomb-friction]\n", ("no coulomb_torque", "N m")),
     "unknown load": (MODEL + "[load.pendulm]\nmass = 1.0\n", ("'pendulm'", "did you mean 'pendulum'")),
     "weightless pendulum": (MODEL + "[load.pendulum]\nmass = 0.0\nlength = 0.1\n", ("mass is 0", "positive")),

@@ -50,6 +50,7 @@ py::dict describe_effect() {
   d["source"] = std::string(E::info.source);
   d["parameters"] = describe_all(E::parameters);
   d["turns"] = requires { E::turns; };
+  d["states"] = functions_of<double, E>().hiddens;
   return d;
 }
 

@@ -216,6 +216,14 @@ def _effects(
                     fix=f"add {key} = ...",
                 )
         found[name] = {k: _number(v, _si(entries[k].unit), f"{place} {k}") for k, v in values.items()}
+    second = [name for name in found if getattr(table[name], "states", 0)]
+    if len(second) > 1:
+        raise InputError(
+            f"{' and '.join(second)} each bring a second mass",
+            where=f"{where}, [effects]",
+            expected="one of them",
+            fix=f"remove [effects.{second[-1]}]",
+        )
     return found
 
 

@@ -92,7 +92,7 @@ class Search:
         racers = [
             racer
             for name in names
-            if name not in base.candidate.effects
+            if name not in base.candidate.effects and _has_room(base.candidate, name)
             for racer in self._starts(base, name, orders=keep + 1)
         ]
         rows = self._race(self._glance(base, racers, keep), iterations=4)
@@ -219,6 +219,11 @@ def _promising(rows: Sequence[Row], base_cost: float, least: int = 6, most: int 
     bar = base_cost - 0.5 * max(base_cost - costs[ranked[0]], 0.0)
     kept = {name for k, name in enumerate(ranked[:most]) if k < least or costs[name] < bar}
     return [row for row in rows if row[0].name in kept]
+
+
+def _has_room(this: Candidate, name: str) -> bool:
+    """One effect at most can bring a second mass."""
+    return not this.table[name].states or not any(this.table[other].states for other in this.effects)
 
 
 def _bent(base: Fitted) -> bool:
