@@ -22,7 +22,7 @@ from rwn.mistakes import Mistake
 from rwn.model import Model
 from rwn.prepare import prepare, proof_target
 from rwn.proof import LEFT_OUT, hurts, proved
-from rwn.quantisation import speed_resolution
+from rwn.quantisation import coarse_steps
 from rwn.recording import Recording
 from rwn.refuse import without_what_hurts
 from rwn.stand_in import picture, proved_stand_in
@@ -213,11 +213,8 @@ def _coarse_speed(found: Explanation, chosen: Hypothesis) -> FoundEffect | None:
     """A speed signal that is rounded to steps, read off its values."""
     problem = found.setup.problem
     residuals = problem.residuals(chosen.fitted.vector, chosen.fitted.candidate.active)
-    steps = [
-        speed_resolution(t, r["speed"]) if "speed" in r else 0.0
-        for t, r in zip(problem.targets, residuals, strict=True)
-    ]
-    if not steps or min(steps) == 0.0:
+    steps = coarse_steps(problem, residuals)
+    if not steps:
         return None
     effect, step = table()[QUANTISATION], float(np.median(steps))
     unit, interval = effect.parameters[0].unit, (min(steps) * 0.9999, max(steps) * 1.0001)

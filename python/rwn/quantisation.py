@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.output_error import Target
+from rwn.output_error import OutputError, Target
 
 Array = NDArray[np.float64]
 
@@ -72,6 +74,15 @@ def speed_resolution(target: Target, residual: Array) -> float:
     step = 0.0 if target.speed_is_difference else lattice(target.speed)
     share = step**2 / 12.0 / max(float(np.nanmean(residual**2)), 1e-300)
     return step if share > COARSE else 0.0
+
+
+def coarse_steps(problem: OutputError, residuals: Sequence[Mapping[str, Array]]) -> list[float]:
+    """The step of the speed signal of each recording; empty where it is not coarse in all of them."""
+    steps = [
+        speed_resolution(t, r["speed"]) if "speed" in r else 0.0
+        for t, r in zip(problem.targets, residuals, strict=True)
+    ]
+    return steps if steps and min(steps) > 0.0 else []
 
 
 COARSE = 0.25  # share of the residual's energy from which the rounding of a signal is worth a name

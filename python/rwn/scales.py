@@ -24,6 +24,9 @@ def scales(
     speed = max(_peak(_best(t, o, "speed")) for t, o in zip(targets, outputs, strict=True))
     torque = motor[motor_index("torque_constant")] * current if kind == "dc" else drive
     speed = max(speed, 1e-12)
+    duration = max(float(t.time[-1] - t.time[0]) for t in targets)
+    squares = [np.mean(_best(t, o, "current") ** 2) for t, o in zip(targets, outputs, strict=True)]
+    loss = max(motor[motor_index("resistance")] * float(np.max(squares)), 1e-12)
     return {
         "none": 1.0,
         "torque": max(torque, 1e-12),
@@ -35,7 +38,9 @@ def scales(
         "stiffness": inertia * (0.3 / step) ** 2,
         "drag": torque / speed**2,
         "time_step": step,
-        "duration": max(float(t.time[-1] - t.time[0]) for t in targets),
+        "duration": duration,
+        "loss": 1.0 / loss,
+        "heat": loss * duration,
     }
 
 

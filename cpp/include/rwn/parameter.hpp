@@ -8,12 +8,15 @@ namespace rwn {
 
 /// The quantity that a parameter is measured against, so that bounds and starting values fit a 1 W and a 500 W motor.
 /// torque, speed, voltage, current: the largest of the recordings; inertia, damping, stiffness, drag: made from these
-/// and the motor's inertia; time_step, duration: of the recordings.
-enum class Scale { none, torque, speed, voltage, current, inertia, damping, stiffness, drag, time_step, duration };
+/// and the motor's inertia; time_step, duration: of the recordings; loss: the mean loss of the winding R i^2, in K/W per
+/// kelvin of rise, heat: the loss over a recording, in J/K per kelvin.
+enum class Scale {
+  none, torque, speed, voltage, current, inertia, damping, stiffness, drag, time_step, duration, loss, heat
+};
 
 constexpr std::string_view to_string(Scale scale) {
   constexpr std::string_view names[] = {"none",    "torque",    "speed", "voltage",   "current", "inertia",
-                                        "damping", "stiffness", "drag",  "time_step", "duration"};
+                                        "damping", "stiffness", "drag",  "time_step", "duration", "loss", "heat"};
   return names[static_cast<int>(scale)];
 }
 
