@@ -27,6 +27,7 @@ py::dict describe(const Parameter& p) {
   d["order"] = p.order;
   d["window"] = p.window;
   d["lattice"] = p.lattice;
+  d["idealised"] = p.idealised;
   d["replaces"] = p.replaces < 0 ? py::object(py::none())
                                  : py::cast(std::string(motor_parameters[static_cast<std::size_t>(p.replaces)].name));
   return d;

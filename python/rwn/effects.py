@@ -32,6 +32,7 @@ class Parameter:
     order: bool
     window: bool
     lattice: bool
+    idealised: bool
     replaces: str | None
 
 

@@ -35,8 +35,8 @@ class Equations {
       const auto& call = effects_[k].call;
       varies_ = varies_ || call.varies;
       dry_ = dry_ || call.dry;
-      electrical_ = electrical_ || call.electrical;
-      rates_ = rates_ || call.rate != nullptr || (effects_[k].own != nullptr && call.varies);
+      electrical_ = electrical_ || (kind == Kind::dc && call.electrical && call.varies);
+      rates_ = rates_ || electrical_ || call.rate != nullptr || (effects_[k].own != nullptr && call.varies);
       timed_ = timed_ || call.breaks != nullptr;
       replaced = replaced || call.replaces;
       hiddens_ = hiddens_ || call.hiddens > 0;
@@ -93,7 +93,7 @@ class Equations {
     Terms<S> t;
     const Vector f = nonlinear(s, s.position, 0, t);
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
-    double rate = 0.0;
+    double rate = winding_rate(t, h);
     const Motion<S> x = motion_of(s, s.position);
     for (int k = 0; k < count_; ++k) {
       if (effects_[k].call.rate != nullptr) {
@@ -102,7 +102,7 @@ class Equations {
         rate = std::max(rate, effects_[k].own->rate(effects_[k].p, motor_, x, acceleration, h));
       }
     }
-    return std::clamp(static_cast<int>(std::ceil(h * rate / 0.7)), 1, 16);
+    return std::clamp(static_cast<int>(std::ceil(h * rate / angle_of_a_step)), 1, 16);
   }
 
   /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step.
@@ -180,11 +180,23 @@ class Equations {
   }
 
  private:
+  static constexpr double angle_of_a_step = 0.7;  // of the fastest rate
+  static constexpr double winding_steps = 3.0;    // that a transient of the winding is worth, were it ever so short
+
   struct Constants {
     S torque{}, friction{}, acceleration{};
   };
 
   static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
+
+  /// Where its equation is not linear, the winding's transient within the interval has to be followed: how fast it is.
+  double winding_rate(const Terms<S>& t, double h) const {
+    if constexpr (kind == Kind::dc) {
+      const double rate = value_of(motor_[resistance]) / value_of(motor_[inductance] * t.inductance);
+      return electrical_ ? std::min(rate, winding_steps * angle_of_a_step / h) : 0.0;
+    }
+    return 0.0;
+  }
 
   Motion<S> motion_of(const State& s, const S& start) const {
     Motion<S> x;

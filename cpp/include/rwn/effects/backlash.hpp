@@ -29,16 +29,18 @@ struct Backlash {
                                                    .meaning = "natural frequency of the closed gap",
                                                    .lower = 600.0,
                                                    .upper = 5000.0,
-                                                   .start = 1500.0},
+                                                   .start = 1500.0,
+                                                   .idealised = true},
                                          Parameter{.name = "contact_damping_ratio",
                                                    .unit = "1",
                                                    .meaning = "damping ratio of the closed gap: how little it rebounds",
                                                    .lower = 0.01,
                                                    .upper = 2.0,
-                                                   .start = 0.4}};
+                                                   .start = 0.4,
+                                                   .idealised = true}};
   static constexpr int hiddens = 2;                  // twist theta - theta_L [rad], load speed [rad/s]
   static constexpr double load_viscous_share = 0.3;  // of B, on the load side
-  static constexpr double touch = 0.005;             // part of half the gap over which the contact takes hold
+  static constexpr double touch = 0.0005;            // part of half the gap over which the contact takes hold
 
   template <class S>
   static void apply(const S* p, const Motor<S>& m, const Motion<S>& x, Terms<S>& t) {

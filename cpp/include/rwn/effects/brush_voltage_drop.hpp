@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "rwn/effect.hpp"
 
 namespace rwn {
@@ -22,7 +25,8 @@ struct BrushVoltageDrop {
                                                    .lower = 1e-3,
                                                    .upper = 0.2,
                                                    .start = 0.02,
-                                                   .scale = Scale::current}};
+                                                   .scale = Scale::current,
+                                                   .idealised = true}};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
@@ -30,6 +34,17 @@ struct BrushVoltageDrop {
     const S share = tanh(x.current / p[1]);
     t.drop += p[0] * share;
     t.drop_slope += value_of(p[0]) / value_of(p[1]) * (1.0 - value_of(share) * value_of(share));
+  }
+  /// The drop changes sign within a step where the current does: how often it passes the transition then.
+  template <class S>
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double) {
+    const double transition = value_of(p[1]), i = value_of(x.current);
+    const double drive = value_of(x.input) - value_of(m[back_emf_constant]) * value_of(x.speed);
+    const double drop = value_of(p[0]) * std::tanh(i / transition);
+    const double settled = (drive - drop) / value_of(m[resistance]);
+    const double reach = 4.0 * transition;
+    if (std::min(i, settled) > reach || std::max(i, settled) < -reach) return 0.0;
+    return std::abs(drive - drop - value_of(m[resistance]) * i) / (value_of(m[inductance]) * transition);
   }
 };
 
