@@ -178,15 +178,6 @@ EQUATIONS = {
         Machine(braking=lambda t, i, w, th: 5e-4 * np.sqrt(abs(w)) * np.sign(w)),
     ),
     "torque-constant-drift": ({"rate": 2.0}, BOTH_WAYS, Machine(flux=lambda t, i, w, th: 1.0 + 2.0 * t)),
-    "resonance-absorber": (
-        {"inertia": 0.3 * J, "stiffness": 0.3, "damping": 2e-4},
-        BOTH_WAYS,
-        Machine(
-            extras=2,
-            extra=lambda t, i, w, th, wa, tha: ((0.3 * (th - tha) + 2e-4 * (w - wa)) / (0.3 * J), wa),
-            coupling=lambda t, i, w, th, wa, tha: 0.3 * (th - tha) + 2e-4 * (w - wa),
-        ),
-    ),
     "viscous-friction-drift": (
         {"excess": 2e-4, "time_constant": 0.05},
         BOTH_WAYS,

@@ -55,10 +55,6 @@ double Plant::fastest_rate(double voltage_scale) const {
     const double impacts = p_.gap > 0.0 ? 4.0 : 1.0;  // the contact force jumps
     rate = std::max(rate, impacts * (std::sqrt(p_.stiffness / reduced) + p_.damping / reduced));
   }
-  if (p_.absorber_inertia > 0.0) {
-    const double reduced = p_.inertia * p_.absorber_inertia / (p_.inertia + p_.absorber_inertia);
-    rate = std::max(rate, std::sqrt(p_.absorber_stiffness / reduced) + p_.absorber_damping / reduced);
-  }
   if (lugre_) rate = std::max(rate, std::sqrt(p_.bristle_stiffness / motor_side) + p_.bristle_damping / motor_side);
   return std::max(rate, p_.stribeck_excess / (p_.stribeck_speed * motor_side));
 }
@@ -134,9 +130,6 @@ double Plant::loads(const State& x, double t) const {
   if (p_.reluctance_torque != 0.0) torque += p_.reluctance_torque * x[current] * x[current];
   if (p_.inertia_variation != 0.0) torque -= p_.inertia_variation * std::sin(2.0 * x[position]) * w * w;
   if (two_mass_) torque += shaft_torque(x);
-  if (p_.absorber_inertia > 0.0) {
-    torque += p_.absorber_stiffness * x[absorber_twist] + p_.absorber_damping * (w - x[absorber_speed]);
-  }
   return torque;
 }
 
@@ -164,10 +157,6 @@ Plant::State Plant::derivative(const State& x, double t) const {
   if (two_mass_) {
     d[load_speed] = (shaft_torque(x) - p_.load_viscous * x[load_speed]) / p_.load_inertia;
     d[load_position] = x[load_speed];
-  }
-  if (p_.absorber_inertia > 0.0) {
-    d[absorber_speed] = (p_.absorber_stiffness * x[absorber_twist] + p_.absorber_damping * (x[speed] - x[absorber_speed])) / p_.absorber_inertia;
-    d[absorber_twist] = x[speed] - x[absorber_speed];
   }
   if (p_.speed_lag > 0.0) d[lagged] = (x[speed] - x[lagged]) / p_.speed_lag;
   return d;

@@ -15,7 +15,7 @@ const std::vector<PlantParameterName>& plant_parameter_names() {
       RWN_NAME(load_start), RWN_NAME(load_end), RWN_NAME(inertia_variation), RWN_NAME(periodic_amplitude),
       RWN_NAME(periodic_frequency), RWN_NAME(periodic_phase), RWN_NAME(reluctance_torque), RWN_NAME(viscous_excess),
       RWN_NAME(viscous_time), RWN_NAME(load_inertia), RWN_NAME(load_viscous), RWN_NAME(stiffness), RWN_NAME(damping),
-      RWN_NAME(gap), RWN_NAME(absorber_inertia), RWN_NAME(absorber_stiffness), RWN_NAME(absorber_damping),
+      RWN_NAME(gap),
       RWN_NAME(brush_drop), RWN_NAME(brush_current), RWN_NAME(thermal_resistance), RWN_NAME(heat_capacity),
       RWN_NAME(temperature_coefficient), RWN_NAME(saturation_current), RWN_NAME(ripple_amplitude),
       RWN_NAME(ripple_harmonic), RWN_NAME(flux_drift), RWN_NAME(delay), RWN_NAME(compression), RWN_NAME(deadzone),

@@ -51,10 +51,6 @@ struct PlantParameters {
   double stiffness = 0.0;
   double damping = 0.0;
   double gap = 0.0;
-  // A tuned mass hanging on the rotor, in addition to `inertia`.
-  double absorber_inertia = 0.0;
-  double absorber_stiffness = 0.0;
-  double absorber_damping = 0.0;
   // Electrical.
   double brush_drop = 0.0;
   double brush_current = 0.1;

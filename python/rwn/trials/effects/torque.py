@@ -150,7 +150,7 @@ EFFECTS = (
         scale=times("gap"),
         limits={"gap": (0.0, 3.0)},
         fixed=frozenset({"contact_rate", "contact_damping"}),
-        rivals=("shaft-compliance", "presliding-hysteresis", "resonance-absorber"),
+        rivals=("shaft-compliance", "presliding-hysteresis"),
         two_mass=True,
     ),
     Effect(
@@ -160,7 +160,7 @@ EFFECTS = (
         draw=_draw_shaft,
         build=_shaft,
         scale=_scale_shaft,
-        rivals=("backlash", "speed-sensor-lag", "input-delay", "resonance-absorber"),
+        rivals=("backlash", "speed-sensor-lag", "input-delay"),
         two_mass=True,
     ),
 )

@@ -31,16 +31,6 @@ def _draw_flux(rng: Rng, s: Situation) -> Values:
     return {"rate": sign * log_uniform(rng, 0.03, 0.2) / s.duration}
 
 
-def _draw_absorber(rng: Rng, s: Situation) -> Values:
-    inertia = s.motor.inertia * rng.uniform(0.1, 0.4)
-    resonance = min(log_uniform(rng, 1.0, 6.0) / s.motor.time_constant, 0.5 * s.rate)
-    return {
-        "inertia": inertia,
-        "stiffness": inertia * resonance**2,
-        "damping": 2.0 * log_uniform(rng, 0.02, 0.15) * inertia * resonance,
-    }
-
-
 def _draw_warming(rng: Rng, s: Situation) -> Values:
     return {
         "excess": s.torque / s.speed * log_uniform(rng, 0.05, 0.5),
@@ -101,16 +91,6 @@ EFFECTS = (
         scale=times("rate"),
         linear=frozenset({"rate"}),
         rivals=("resistance-heating", "load-disturbance"),
-        named=False,
-    ),
-    Effect(
-        name="resonance-absorber",
-        equation="mechanical",
-        units={"inertia": "kg m^2", "stiffness": "N m/rad", "damping": "N m s/rad"},
-        draw=_draw_absorber,
-        build=renamed(inertia="absorber_inertia", stiffness="absorber_stiffness", damping="absorber_damping"),
-        scale=times("inertia", "stiffness", "damping"),
-        rivals=("shaft-compliance", "backlash"),
         named=False,
     ),
     Effect(
