@@ -22,7 +22,6 @@ from rwn.mistakes import Mistake
 from rwn.model import Model
 from rwn.prepare import prepare, proof_target
 from rwn.proof import LEFT_OUT, hurts, proved
-from rwn.quantisation import coarse_steps
 from rwn.recording import Recording
 from rwn.refuse import without_what_hurts
 from rwn.stand_in import picture, proved_stand_in
@@ -163,7 +162,7 @@ def _report(
     if not is_certain(rows):
         share = whole(found, chosen)
         physics = tuple(replace(e, probability=share * e.probability) for e in physics)
-    steps = _coarse_speed(found, chosen)
+    steps = _coarse_speed(found)
     if steps and verdict in ("adequate", "missing-physics"):
         physics, verdict = (*physics, steps), "missing-physics"
     names = tuple(dict.fromkeys([e.name for e in physics[:1]] + [_lead(h, chosen) for h in same[1:]]))
@@ -209,11 +208,9 @@ def _lead(h: Hypothesis, chosen: Hypothesis) -> str:
     return own[0] if own else h.fitted.added[0]
 
 
-def _coarse_speed(found: Explanation, chosen: Hypothesis) -> FoundEffect | None:
+def _coarse_speed(found: Explanation) -> FoundEffect | None:
     """A speed signal that is rounded to steps, read off its values."""
-    problem = found.setup.problem
-    residuals = problem.residuals(chosen.fitted.vector, chosen.fitted.candidate.active)
-    steps = coarse_steps(problem, residuals)
+    steps = found.speed_steps
     if not steps:
         return None
     effect, step = table()[QUANTISATION], float(np.median(steps))
@@ -251,6 +248,11 @@ def _warnings(
         texts.append(
             f"something smaller is left over: the residual of the corrected model is coloured "
             f"({found.left.effective:.0f} independent samples of {found.left.count})"
+        )
+    for f in found.strained[:1]:
+        texts.append(
+            f"{' + '.join(f.added)} fits better, but {', '.join(f.limits_met)} ran into a limit: there the law bends "
+            "towards one that it is not, and it is not named"
         )
     for u, value in zip(chosen.fitted.candidate.unknowns, chosen.fitted.minimum.values, strict=True):
         if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and "." not in u.name:

@@ -106,10 +106,10 @@ def weigh(
     effective = left.effective if left.at_the_floor else min(left.effective, MISSPECIFIED)
     scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
     least = min(f.cost for f in fits)
-    base = min(len(f.candidate.unknowns) for f in fits)
+    base = min(map(_seen, fits))
     scores = []
     for f in fits:
-        unknowns = len(f.candidate.unknowns) - base
+        unknowns = _seen(f) - base
         names = sum((prior or {}).get(name, 0.0) for name in f.added)
         scores.append(
             -(f.cost - least) / scale
@@ -124,3 +124,8 @@ def weigh(
         for f, s, p in zip(fits, scores, weights, strict=True)
     ]
     return sorted(rows, key=lambda h: -h.score)
+
+
+def _seen(fitted: Fitted) -> int:
+    """How many unknowns the recordings depend on: the offset of a current that nobody recorded is not one."""
+    return int(np.count_nonzero(np.diag(fitted.minimum.data_information)))

@@ -11,10 +11,12 @@ from rwn import evidence
 from rwn.candidate import candidate, fit
 from rwn.effects import table
 from rwn.evidence import Hypothesis, Statistics
-from rwn.output_error import Target
+from rwn.polish import polished
 from rwn.prepare import Setup, noise_levels, windowed
+from rwn.rounding import as_shown, steps_shown, unrounded_fits
 from rwn.search import Fitted, Search
 from rwn.temper import tempered
+from rwn.tracks import retracked
 
 Progress = Callable[[str, float], None]
 
@@ -22,7 +24,7 @@ WORTH = 0.2  # share of what is left that another effect has to remove
 MOST_EFFECTS = 3
 FAR_OFF = 100.0  # squared error in units of the noise, from which short windows are tried too
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
-MOST_TRACKS = 4  # times that the angle is simulated anew
+HALF_A_TURN = 0.5  # travel in revolutions, from which a law of the angle is more than a load and a spring
 PLAIN = "coulomb-friction"  # what the other laws of dry friction elaborate
 
 
@@ -35,6 +37,8 @@ class Explanation:
     hypotheses: tuple[Hypothesis, ...]
     left: Statistics  # residual of the best
     before: Statistics  # residual of the refitted nominal
+    speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
+    strained: tuple[Fitted, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
 
     @property
     def nothing_missing(self) -> Hypothesis:
@@ -60,7 +64,7 @@ def explain(
         fits = _distinct([*fits, *search.explain(offset, wanted)])
     if _far_off(search, min([nominal, *fits], key=lambda f: f.cost)):
         fits = _distinct([*fits, *_by_windows(search, nominal, wanted)])
-    search, nominal, fits = _retracked(*_reweighted(search, nominal, fits))
+    search, nominal, fits = _settled(search, nominal, fits, setup)
     before = evidence.statistics(search.problem, nominal)
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
@@ -77,9 +81,12 @@ def explain(
         best = min(fits, key=lambda f: f.cost)
         left = evidence.statistics(search.problem, best)
         layer = sorted(more, key=lambda f: f.cost)[:2]
-    search, nominal, fits = _retracked(*_reweighted(search, nominal, fits))
+    search, nominal, fits = _settled(search, nominal, fits, setup)
     best = min([nominal, *fits], key=lambda f: f.cost)
     fits = _distinct([*fits, *_simpler(search, best)])
+    strained = [f for f in fits if f.limits_met]
+    fits = [f for f in fits if not f.limits_met]
+    best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
     hypotheses = evidence.weigh([nominal, *fits], left, rivals=len(wanted), prior=_prior(setup))
     return Explanation(
@@ -88,7 +95,17 @@ def explain(
         hypotheses=tuple(hypotheses),
         left=left,
         before=before,
+        speed_steps=steps_shown(search.problem, setup.problem, best),
+        strained=tuple(f for f in strained if f.cost < best.cost),
     )
+
+
+def _settled(
+    search: Search, nominal: Fitted, fits: list[Fitted], setup: Setup
+) -> tuple[Search, Fitted, list[Fitted]]:
+    """The fits under the noise, along the angle and to the speed that the best of them makes probable."""
+    search = replace(search, problem=as_shown(search.problem, setup.problem))
+    return unrounded_fits(*polished(*retracked(*_reweighted(search, nominal, fits))), setup.problem)
 
 
 def _far_off(search: Search, best: Fitted) -> bool:
@@ -127,7 +144,7 @@ def _applies(name: str, setup: Setup) -> bool:
     if any(p.lattice for p in effect.parameters):
         return False  # read off the values, not fitted
     if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
-        return _revolutions(setup) > 0.75  # what comes back once a revolution has to have come back
+        return _revolutions(setup) > HALF_A_TURN
     if name == "viscous-friction":
         return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
     signals = {s for t in setup.problem.targets for s in t.recorded}
@@ -173,7 +190,7 @@ def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Se
     change = max(change, abs(np.log(other.problem.colour / search.problem.colour)) / 30.0)
     if change < 0.03:
         return search, nominal, fits
-    kept = fits[:12]
+    kept = sorted(fits, key=lambda f: f.cost)[:12]
     again = [other.refit(f, other.problem) for f in [nominal, *kept]]
     return other, again[0], sorted(again[1:], key=lambda f: f.cost)
 
@@ -216,53 +233,6 @@ def _motor(fitted: Fitted) -> dict[str, float]:
     """The motor as fitted."""
     pairs = zip(fitted.candidate.unknowns, fitted.minimum.values, strict=True)
     return {u.name: float(v) for u, v in pairs if "." not in u.name}
-
-
-def _retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
-    """The same fits with another angle where none was recorded: one that the best fit simulates, or each fit its own.
-
-    The integral of a noisy speed wanders, and that of a late sensor is late: thirty periods a revolution further on, it
-    has lost the phase. Effects on their own angle are the exact equations, but only near the solution a smooth problem.
-    """
-    best = min([nominal, *fits], key=lambda f: f.cost)
-    if not _turns(best) or any(t.position.size for t in search.problem.targets):
-        return search, nominal, fits
-    other, again = search, best
-    for _ in range(MOST_TRACKS):
-        tried = _tracked(other, again)
-        refitted = tried.refit(again, tried.problem)
-        if refitted.cost > again.cost - 2.0:
-            break
-        other, again = tried, refitted
-    free = replace(search, problem=replace(search.problem, targets=tuple(map(_on_its_own, search.problem.targets))))
-    freed = free.refit(again, free.problem)
-    if freed.cost < again.cost - 2.0:
-        other, again = free, freed
-    if other is search:
-        return search, nominal, fits
-    first = other.refit(nominal, other.problem)
-    rest = [again if f is best else other.refit(f, other.problem) for f in fits[:12]]
-    return other, first, sorted(rest, key=lambda f: f.cost)
-
-
-def _on_its_own(target: Target) -> Target:
-    return replace(target, follows=False)
-
-
-def _turns(fitted: Fitted) -> bool:
-    """Whether an effect of this explanation depends on the angle."""
-    return any(fitted.candidate.table[name].turns for name in fitted.added)
-
-
-def _tracked(search: Search, fitted: Fitted) -> Search:
-    """The search on targets whose angle is the one that `fitted` simulates."""
-    problem = search.problem
-    active = fitted.candidate.active
-    angles = [problem.simulate(t, fitted.vector, active).signals["position"] for t in problem.targets]
-    targets = tuple(
-        replace(t, angle=np.ascontiguousarray(a), follows=True) for t, a in zip(problem.targets, angles, strict=True)
-    )
-    return replace(search, problem=replace(problem, targets=targets))
 
 
 def _distinct(fits: list[Fitted]) -> list[Fitted]:

@@ -53,7 +53,7 @@ def angle_spectrum(
             continue
         angle = problem.angle_per_position * target.angle
         r = residual["speed"]
-        drive = _drive(problem, target) if with_current else np.ones(r.size)
+        drive = current_of(problem, motor, target) if with_current else np.ones(r.size)
         a, b = drive_filter(problem, motor, float(np.median(np.diff(target.time))))
         for k, order in enumerate(orders):
             pair = np.stack([np.cos(order * angle), np.sin(order * angle)]) * drive
@@ -99,10 +99,14 @@ def _lacking_torque(problem: OutputError, vector: Array, active: Sequence[int], 
     return lacking
 
 
-def _drive(problem: OutputError, target: Target) -> Array:
-    if problem.kind != "dc" or not target.current.size:
+def current_of(problem: OutputError, motor: Array, target: Target) -> Array:
+    """What drives: the force of an axis, the recorded current, or what voltage and speed make of it."""
+    if problem.kind != "dc":
         return target.input
-    return target.current
+    if target.current.size:
+        return target.current
+    emf: Array = motor[motor_index("back_emf_constant")] * target.speed
+    return (target.input - emf) / float(motor[motor_index("resistance")])
 
 
 def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,4 +86,39 @@ def coarse_steps(problem: OutputError, residuals: Sequence[Mapping[str, Array]])
     return steps if steps and min(steps) > 0.0 else []
 
 
+def noise_before_rounding(target: Target, residual: Array, step: float) -> float:
+    """The noise before the rounding of a coarse speed, in steps: the one that leaves least of a residual."""
+    left = [float(np.nanmean((residual - _mean_error(target, residual, step, n)) ** 2)) for n in NOISES]
+    return NOISES[int(np.argmin(left))]
+
+
+def unrounded(target: Target, residual: Array, step: float, noise: float) -> Target:
+    """The recording less the error that the rounding of its speed makes on average at each simulated value.
+
+    A slow speed between two steps is shown wrong in the same way for long, which no noise level describes.
+
+    Args:
+        target: a recording whose speed is coarse.
+        residual: shape (n), shown minus simulated speed, rad/s.
+        step: of the shown speed, rad/s.
+        noise: standard deviation before the rounding, in steps.
+    """
+    return replace(target, speed=target.speed - _mean_error(target, residual, step, noise))
+
+
+def _mean_error(target: Target, residual: Array, step: float, noise: float) -> Array:
+    cells = (target.speed - residual - target.speed[0]) / step  # simulated, on the lattice of the shown one
+    return step * mean_rounding_error(cells, noise)
+
+
+def mean_rounding_error(cells: Array, noise: float) -> Array:
+    """Mean of round(x + n) - x for Gaussian noise n, both in steps (Widrow, Kollar 2008, ch. 4)."""
+    k = np.arange(1, HARMONICS + 1)
+    weights = (-1.0) ** k / (np.pi * k) * np.exp(-2.0 * (np.pi * k * noise) ** 2)
+    error: Array = np.sin(2.0 * np.pi * np.multiply.outer(cells, k)) @ weights
+    return error
+
+
+NOISES = (0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6)  # before the rounding, in steps
+HARMONICS = 40
 COARSE = 0.25  # share of the residual's energy from which the rounding of a signal is worth a name

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rwn import hints
 from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
 from rwn.effects import Effect
-from rwn.least_squares import Minimum
+from rwn.least_squares import Minimum, Unknown
 from rwn.output_error import OutputError, Target
 
 Array = NDArray[np.float64]
@@ -34,6 +34,7 @@ Row = tuple[Racer, Minimum]
 
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
+LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 GLANCE = 2500  # samples on which starts of one effect are told apart
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 
@@ -55,6 +56,18 @@ class Fitted:
     def vector(self) -> Array:
         """The whole parameter vector at the minimum."""
         return self.candidate.with_values(self.minimum.values)
+
+    @property
+    def limits_met(self) -> tuple[str, ...]:
+        """Parameters of the added effects that ran into a limit: there a law bends towards one that it is not."""
+        shapes = {
+            f"{name}.{p.name}"
+            for name in self.added
+            for p in self.candidate.table[name].parameters
+            if not (p.cyclic or p.window or p.idealised)
+        }
+        pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
+        return tuple(u.name for u, v in pairs if u.name in shapes and _meets(u, v))
 
     def value(self, name: str) -> float:
         """A fitted unknown by name ("inertia", "coulomb-friction.coulomb_torque")."""
@@ -193,6 +206,11 @@ class Search:
     def _windows(self, base: Fitted) -> list[tuple[float, float]]:
         residuals = self.problem.residuals(base.vector, base.candidate.active)
         return hints.windows(self.problem, base.vector, residuals)
+
+
+def _meets(unknown: Unknown, value: float) -> bool:
+    """Whether a value lies on a limit; at 0 a law merely loses a part (its damping, its strength)."""
+    return any(limit != 0.0 and abs(value - limit) < LIMIT * abs(limit) for limit in (unknown.lower, unknown.upper))
 
 
 def _kind(racer: Racer) -> tuple[str, float]:

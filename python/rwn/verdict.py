@@ -16,7 +16,6 @@ from rwn.diagnosis import HeldoutRow, Verdict
 from rwn.evidence import Hypothesis, join
 from rwn.explain import Explanation, plainer
 from rwn.proof import LEFT_OUT
-from rwn.quantisation import coarse_steps
 from rwn.refuse import PROVED, removed_certainly
 
 HALF_TRUE = 0.02  # share of the removable squared error left by a name that is as likely wrong as right
@@ -24,7 +23,6 @@ REMOVED = 1.0 - HALF_TRUE  # share that a name has to remove where more than noi
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
 ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
 DOUBTFUL = 2.0  # squared error of a signal, in units of its noise, from which it is off at all
-ROUNDING = 1.3  # squared error, in units of its noise, up to which a coarse signal may have been rounded only
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
 
 
@@ -45,7 +43,7 @@ def verdict_of(found: Explanation, chosen: Hypothesis, *, certain: bool = False)
     `certain`: held-out recordings prove the explanation, so that it need not remove all.
     """
     after = chosen.fitted.minimum.chi2 / max(found.left.count, 1)
-    left_over = _left_over(found, chosen)
+    left_over = not found.left.at_the_floor
     if not chosen.fitted.added:
         if left_over and after > 1.0 + 2.0 * MATERIAL:
             return "unexplained"
@@ -53,15 +51,6 @@ def verdict_of(found: Explanation, chosen: Hypothesis, *, certain: bool = False)
     removed = _removed(found, chosen)
     enough = PARTLY if certain else REMOVED
     return "unexplained" if left_over and removed < enough else "missing-physics"
-
-
-def _left_over(found: Explanation, chosen: Hypothesis) -> bool:
-    """Whether more than noise is left, and than the rounding of a coarse speed, which is coloured where it is slow."""
-    if found.left.at_the_floor:
-        return False
-    problem = found.setup.problem
-    residuals = problem.residuals(chosen.fitted.vector, chosen.fitted.candidate.active)
-    return not coarse_steps(problem, residuals) or max(_variances(found, chosen).values()) > ROUNDING
 
 
 def _removed(found: Explanation, chosen: Hypothesis) -> float:
@@ -80,7 +69,7 @@ def whole(found: Explanation, chosen: Hypothesis) -> float:
     A right name leaves noise; a cubic drag called quadratic leaves some per cent of the mismatch. That it is half at
     2 % was set on the development trials of seed 3.
     """
-    if not _left_over(found, chosen):
+    if found.left.at_the_floor:
         return 1.0
     return 1.0 / (1.0 + ((1.0 - _removed(found, chosen)) / HALF_TRUE) ** 2)
 

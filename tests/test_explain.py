@@ -1,0 +1,79 @@
+"""How explanations are searched and weighed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn import evidence, hints
+from rwn.explain import explain
+from rwn.prepare import Setup, prepare
+from rwn.search import Fitted, Search
+
+DEMO = Path(rwn.__file__).parent / "demo"
+
+
+def _silent(what: str, done: float) -> None:
+    pass
+
+
+@pytest.fixture(scope="module")
+def setup() -> Setup:
+    model = rwn.read_model(DEMO / "model.toml")
+    return prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model)
+
+
+def _fitted(setup: Setup, name: str) -> Fitted:
+    search = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales)
+    return search.explain(search.fit_nominal(), [name])[0]
+
+
+def test_a_law_on_a_limit_of_its_parameters_is_known(setup: Setup) -> None:
+    fitted = _fitted(setup, "stribeck-friction")
+    names = [u.name for u in fitted.candidate.unknowns]
+    k = names.index("stribeck-friction.stribeck_speed")
+    values = fitted.minimum.values.copy()
+    values[k] = fitted.candidate.unknowns[k].upper
+    strained = replace(fitted, minimum=replace(fitted.minimum, values=values))
+    assert strained.limits_met == ("stribeck-friction.stribeck_speed",)
+    values = values.copy()
+    values[k] *= 0.9
+    assert replace(fitted, minimum=replace(fitted.minimum, values=values)).limits_met == ()
+
+
+def test_what_no_recording_depends_on_costs_an_explanation_nothing(setup: Setup) -> None:
+    """The offset of a current that nobody recorded."""
+    unseen = replace(setup.problem, targets=tuple(replace(t, current=np.empty(0)) for t in setup.problem.targets))
+    both = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales)
+    alone = replace(both, problem=unseen)
+    counts = []
+    for search in (both, alone):
+        found = search.explain(search.fit_nominal(), ["sensor-bias"])
+        left = evidence.statistics(search.problem, found[0])
+        weighed = evidence.weigh([search.fit_nominal(), *found], left, rivals=1)
+        biased = next(h for h in weighed if h.fitted.added)
+        counts.append(round((biased.score + biased.misfit) / np.log(max(_effective(search, found[0]), 2.0)), 6))
+    assert counts == [-1.0, -0.5]
+
+
+def _effective(search: Search, fitted: Fitted) -> float:
+    left = evidence.statistics(search.problem, fitted)
+    return left.effective if left.at_the_floor else min(left.effective, evidence.MISSPECIFIED)
+
+
+def test_a_current_that_is_not_recorded_is_made_of_voltage_and_speed(setup: Setup) -> None:
+    target = setup.problem.targets[0]
+    vector = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales).fit_nominal().vector
+    made = hints.current_of(setup.problem, vector, replace(target, current=np.empty(0)))
+    assert np.corrcoef(made, target.current)[0, 1] > 0.99
+
+
+def test_explanations_are_reported_best_first(setup: Setup) -> None:
+    found = explain(setup, progress=_silent, names=["coulomb-friction", "quadratic-drag", "input-delay"])
+    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+    assert [h.score for h in found.hypotheses] == sorted((h.score for h in found.hypotheses), reverse=True)
+    assert not any(h.fitted.limits_met for h in found.hypotheses)
