@@ -28,7 +28,7 @@ def setup() -> Setup:
 
 
 def _fitted(setup: Setup, name: str) -> Fitted:
-    search = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales)
+    search = Search.of(setup)
     return search.explain(search.fit_nominal(), [name])[0]
 
 
@@ -48,7 +48,7 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(setup: Setup) -> None:
 def test_what_no_recording_depends_on_costs_an_explanation_nothing(setup: Setup) -> None:
     """The offset of a current that nobody recorded."""
     unseen = replace(setup.problem, targets=tuple(replace(t, current=np.empty(0)) for t in setup.problem.targets))
-    both = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales)
+    both = Search.of(setup)
     alone = replace(both, problem=unseen)
     counts = []
     for search in (both, alone):
@@ -67,7 +67,7 @@ def _effective(search: Search, fitted: Fitted) -> float:
 
 def test_a_current_that_is_not_recorded_is_made_of_voltage_and_speed(setup: Setup) -> None:
     target = setup.problem.targets[0]
-    vector = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales).fit_nominal().vector
+    vector = Search.of(setup).fit_nominal().vector
     made = hints.current_of(setup.problem, vector, replace(target, current=np.empty(0)))
     assert np.corrcoef(made, target.current)[0, 1] > 0.99
 

@@ -91,7 +91,7 @@ def cost(recording: rwn.Recording, model: rwn.Model) -> tuple[dict[str, float], 
     setup = prepare([recording], model)
     noise = {name: 0.01 * float(np.std(recording.signals[name])) for name in setup.problem.targets[0].recorded}
     problem = replace(setup.problem, noise=noise)
-    return noise, Search(problem=problem, nominal=setup.nominal, scales=setup.scales).fit_nominal().cost
+    return noise, Search.of(setup, problem=problem).fit_nominal().cost
 
 
 @pytest.mark.parametrize(

@@ -50,7 +50,7 @@ def explain(
     setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None
 ) -> Explanation:
     """Fits the nominal model, every single effect, and what still helps beside the best ones."""
-    search = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales, jobs=jobs)
+    search = Search.of(setup, jobs=jobs)
     search = _with_noise(search, search.fit_nominal())
     nominal = search.fit_nominal()
     within = tempered(search, nominal)

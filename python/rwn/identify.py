@@ -32,7 +32,7 @@ def identify(recordings: Sequence[Recording], model: Model) -> Fit:
     Intervals are 95 %, widened for what the residual's variance and colour say; declared uncertainties are priors.
     """
     setup = prepare(recordings, model)
-    search = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales)
+    search = Search.of(setup)
     fitted = search.fit_nominal()
     levels = noise_levels(
         setup.problem.targets, setup.problem.residuals(fitted.vector, fitted.candidate.active)

@@ -140,7 +140,7 @@ def relative_error(recordings: Sequence[Recording], model: Model) -> float:
 def _cost(setup: Setup, noise: Mapping[str, float]) -> float:
     """Squared error of the refitted nominal model in units of the noise, and its departure from the data sheet."""
     problem = replace(setup.problem, noise=dict(noise))
-    return Search(problem=problem, nominal=setup.nominal, scales=setup.scales).fit_nominal().cost
+    return Search.of(setup, problem=problem).fit_nominal().cost
 
 
 def _levels(setup: Setup) -> dict[str, float]:
@@ -247,7 +247,7 @@ def _out_of_step(recordings: Sequence[Recording], model: Model) -> Iterator[Mist
         return
     setup = prepare(recordings, model)
     problem = replace(setup.problem, noise=_levels(setup))
-    fitted = Search(problem=problem, nominal=setup.nominal, scales=setup.scales).fit_nominal()
+    fitted = Search.of(setup, problem=problem).fit_nominal()
     lags = {}
     for signal in setup.whole.targets[0].recorded:
         if signal != "position":

@@ -39,7 +39,7 @@ def proved(
                 return ()
             rows += _rows(other[0], other[0].nominal, other[1], [target], model, seed=seed, first=first)
             continue
-        search = Search(problem=problem, nominal=found.setup.nominal, scales=found.setup.scales)
+        search = Search.of(found.setup, problem=problem)
         nominal = search.refit(found.nominal, problem)
         fitted = search.refit(chosen.fitted, problem) if chosen.fitted.added else chosen.fitted
         rows += _rows(found, nominal, fitted, [target], model, seed=seed, first=first)
@@ -59,7 +59,7 @@ def _rows(
     first: int = 0,
 ) -> tuple[HeldoutRow, ...]:  # fmt: skip
     setup = found.setup
-    given = Search(problem=setup.problem, nominal=setup.nominal, scales=setup.scales).fit_start()
+    given = Search.of(setup).fit_start()
     units = {
         "current": "A",
         "speed": "m/s" if model.linear else "rad/s",

@@ -17,6 +17,7 @@ from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
 from rwn.effects import Effect
 from rwn.least_squares import Minimum, Unknown
 from rwn.output_error import OutputError, Target
+from rwn.prepare import Setup
 
 Array = NDArray[np.float64]
 Start = Mapping[str, float]
@@ -83,6 +84,11 @@ class Search:
     nominal: Nominal
     scales: Mapping[str, float]
     jobs: int = 2
+
+    @classmethod
+    def of(cls, setup: Setup, *, problem: OutputError | None = None, jobs: int = 2) -> Search:
+        """The search of a prepared problem, or of `problem` in its place (other weights, other recordings)."""
+        return cls(problem=problem or setup.problem, nominal=setup.nominal, scales=setup.scales, jobs=jobs)
 
     def fit_nominal(self) -> Fitted:
         """The nominal structure alone."""
