@@ -34,11 +34,12 @@ def deviations(fitted: Fitted, variance: float, correlation_time: float) -> Arra
 
 
 def estimates(fitted: Fitted, variance: float, correlation_time: float) -> dict[str, Estimate]:
-    """Value and 95 % interval of every unknown, cut at its bounds."""
+    """Value and 95 % interval of every unknown on which something depends, cut at its bounds."""
+    seen = np.diag(fitted.minimum.information) > 0.0
     spread = np.hypot(deviations(fitted, variance, correlation_time), _systematic(fitted))
     found = {}
-    for u, value, std in zip(fitted.candidate.unknowns, fitted.minimum.values, spread, strict=True):
-        if u.nuisance:
+    for u, value, std, known in zip(fitted.candidate.unknowns, fitted.minimum.values, spread, seen, strict=True):
+        if u.nuisance or not known:
             continue
         if u.logarithmic and value > 0.0:
             factor = float(np.exp(min(1.96 * std / value, 50.0)))

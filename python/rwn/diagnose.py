@@ -80,7 +80,7 @@ def diagnose(
     network = None
     if verdict == "unexplained":
         say("drawing what has no name", 0.9)
-        network = proved_stand_in(found, model, proof, seed=seed)
+        network = proved_stand_in(found, model, proof, seed=seed, jobs=jobs)
     if network:
         drawn, rows = network
         found, chosen, model = drawn.found, drawn.chosen, drawn.model

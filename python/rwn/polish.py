@@ -9,6 +9,7 @@ import numpy as np
 
 from rwn.candidate import Candidate, fit
 from rwn.search import Fitted, Search
+from rwn.threads import side_by_side
 
 FACTORS = (0.8, 1.3)
 ROUNDS = 5
@@ -21,8 +22,9 @@ def polished(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Searc
     best = min([nominal, *fits], key=lambda f: f.cost)
     first = best
     for _ in range(ROUNDS):
-        tries = list(_neighbours(best))
-        ends = search.map(lambda c: fit(search.problem, c, max_iterations=ITERATIONS), tries)
+        ends = side_by_side(
+            lambda c: fit(search.problem, c, max_iterations=ITERATIONS), _neighbours(best), jobs=search.jobs
+        )
         again = min(ends, key=lambda m: m.cost, default=best.minimum)
         if again.cost > (1.0 - GAIN) * best.cost:
             break

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import NamedTuple
@@ -18,6 +17,7 @@ from rwn.effects import Effect
 from rwn.least_squares import Minimum, Unknown
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
+from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
 Start = Mapping[str, float]
@@ -99,13 +99,6 @@ class Search:
         """The nominal structure as given, not fitted."""
         return candidate(self.nominal, (), self.scales)
 
-    def map(self, function: Callable[[Candidate], Minimum], candidates: Sequence[Candidate]) -> list[Minimum]:
-        """Independent fits side by side; the core releases the interpreter."""
-        if self.jobs <= 1:
-            return [function(c) for c in candidates]
-        with ThreadPoolExecutor(self.jobs) as pool:
-            return list(pool.map(function, candidates))
-
     def explain(self, base: Fitted, names: Iterable[str], *, keep: int = 2) -> list[Fitted]:
         """`base` with each of `names` added, fitted from several starts; best first."""
         racers = [
@@ -147,8 +140,8 @@ class Search:
     ) -> list[Row]:
         """Some iterations of every racer; each row starts the next leg where this one ended."""
         on = problem or self.problem
-        ends = self.map(
-            lambda c: fit(on, c, max_iterations=iterations, tolerance=RESOLUTION), [r.candidate for r in racers]
+        ends = side_by_side(
+            lambda r: fit(on, r.candidate, max_iterations=iterations, tolerance=RESOLUTION), racers, jobs=self.jobs
         )
         return [
             (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,7 @@ from rwn.prepare import Setup
 from rwn.proof import proved
 from rwn.refuse import heldout_error
 from rwn.search import Fitted
+from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
 
@@ -57,26 +59,29 @@ class StandIn:
         return self.chosen.fitted.cost
 
 
-def stand_in(found: Explanation, model: Model, *, at: Place | None = None) -> StandIn | None:
+def stand_in(found: Explanation, model: Model, *, at: Place | None = None, jobs: int = 1) -> StandIn | None:
     """The network that explains most; None where none explains enough. `at`: this place and no other."""
     parts = -(-MANY // PART)
     crowded = len(model.own_effects) + parts > _core.max_own_effects
     if model.kind == "lti" or crowded or len(model.effects) + parts > _core.max_active_effects:
         return None
-    heats = [_fit(found, model, place, FEW, 5) for place in ([at] if at else places(found.setup, model))]
+    tried = [at] if at else places(found.setup, model)
+    heats = side_by_side(lambda place: _fit(found, model, place, FEW, 5), tried, jobs=jobs)
     for count, kept in ((FEW, 2), (MANY, 1)):
         best_first = sorted(heats, key=lambda heat: heat.end.cost)
-        heats = [_fit(found, model, h.place, count, 20, start=h) for h in best_first[:kept]]
-    whole, apart = (_kept(found, model, heats[0], orthogonal=o) for o in (False, True))
+        heats = side_by_side(partial(_grown, found, model, count), best_first[:kept], jobs=jobs)
+    whole, apart = side_by_side(
+        lambda orthogonal: _kept(found, model, heats[0], orthogonal=orthogonal), (False, True), jobs=jobs
+    )
     best = apart if apart.cost <= FREE * whole.cost else whole
     return best if best.cost < WORTH * found.nominal.cost else None
 
 
 def proved_stand_in(
-    found: Explanation, model: Model, heldout: Sequence[Target], *, seed: int
+    found: Explanation, model: Model, heldout: Sequence[Target], *, seed: int, jobs: int = 1
 ) -> tuple[StandIn, tuple[HeldoutRow, ...]] | None:
     """The network with its proof; None where there is none that helps on recordings that it was not fitted to."""
-    made = stand_in(found, model)
+    made = stand_in(found, model, jobs=jobs)
     if made is None:
         return None
 
@@ -167,6 +172,11 @@ def _fit(
     )
     this = replace(this, unknowns=unknowns)
     return _Heat(place=place, this=this, end=fit(setup.problem, this, max_iterations=iterations))
+
+
+def _grown(found: Explanation, model: Model, count: int, heat: _Heat) -> _Heat:
+    """The same place with `count` wavelets, fitted further."""
+    return _fit(found, model, heat.place, count, 20, start=heat)
 
 
 def picture(made: StandIn) -> Plot:
