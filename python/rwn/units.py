@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
+import threading
 from typing import Any
 
 from rwn.errors import InputError, closest
@@ -24,11 +25,19 @@ _COMMON = (
 )
 
 
-@functools.cache
 def _registry() -> Any:
+    with _ONE:  # quantities of two registries do not go together, and threads ask for it at once
+        return _made()
+
+
+@functools.cache
+def _made() -> Any:
     import pint
 
     return pint.UnitRegistry()
+
+
+_ONE = threading.Lock()
 
 
 def _parse(text: str, *, where: object) -> Any:
