@@ -24,7 +24,7 @@ from rwn.trials.excitations import CLOSED_LOOP, KINDS, OPEN_LOOP
 from rwn.trials.grade import clean_speed, grade_folder, load_answers
 from rwn.trials.make import make
 from rwn.trials.motors import MOTORS, plant_of
-from rwn.trials.plan import SHARES, Plan, plans
+from rwn.trials.plan import SHARES, Plan, plans, redealt
 from rwn.trials.plant import simulate
 from rwn.trials.run import run
 from rwn.trials.seal import ANSWERS, SealBrokenError, seal, unseal
@@ -303,3 +303,12 @@ def test_demonstration_recordings_can_be_made_again(tmp_path: Path) -> None:
         assert list(fresh) == list(old)
         for signal, values in fresh.items():
             np.testing.assert_allclose(values, old[signal], rtol=2e-5, atol=1e-6)
+
+
+def test_effects_that_no_bench_shows_are_dealt_again() -> None:
+    for plan in plans(5, 60):
+        other = redealt(plan, 12)
+        assert other == redealt(plan, 12)
+        assert (other.mode, other.visibility, other.name) == (plan.mode, plan.visibility, plan.name)
+        assert len(other.effects) == len(plan.effects)
+        assert (other.effects != plan.effects) == bool(plan.effects)

@@ -5,7 +5,7 @@ Seeds below `FIRST_TEST_SEED` are for development, the others for tests: nobody 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -66,10 +66,22 @@ class _Deck:
         return self._left.pop()
 
 
+def redealt(plan: Plan, turn: int) -> Plan:
+    """The same trial with other effects of its kind: for those that no bench shows as planned."""
+    rng = np.random.default_rng([SPLITS.index(split_of(plan.seed)), plan.seed, plan.index, turn, 1])
+    choices = {1: [(name,) for name in (UNNAMED if plan.mode == "novel" else NAMED)], 2: _pairs()}
+    among = [effects for effects in choices.get(len(plan.effects), []) if effects != plan.effects]
+    return replace(plan, effects=among[int(rng.integers(len(among)))]) if among else plan
+
+
+def _pairs() -> list[tuple[str, ...]]:
+    return [(a, b) for a, b in combinations(NAMED, 2) if compatible(EFFECTS[a], EFFECTS[b])]
+
+
 def plans(seed: int, count: int) -> list[Plan]:
     """The trials of `seed`; the first ones do not depend on how many follow only in kind, not in order."""
     rng = np.random.default_rng([SPLITS.index(split_of(seed)), seed])
-    pairs = [(a, b) for a, b in combinations(NAMED, 2) if compatible(EFFECTS[a], EFFECTS[b])]
+    pairs = _pairs()
     named, unnamed, paired = _Deck(rng, len(NAMED)), _Deck(rng, len(UNNAMED)), _Deck(rng, len(pairs))
     levels = {mode: _Deck(rng, len(VISIBILITIES)) for mode in SHARES}
     out = []

@@ -12,7 +12,7 @@ from rwn.trials.bench import Experiment, Noise, Recording, measure
 from rwn.trials.conceal import Nominal, nominal_as
 from rwn.trials.effects import EFFECTS, Effect
 from rwn.trials.motors import plant_of
-from rwn.trials.plan import SPLITS, Plan, split_of
+from rwn.trials.plan import SPLITS, Plan, redealt, split_of
 from rwn.trials.plant import Trace, Values, simulate
 from rwn.trials.refit import ENOUGH, Fit, Problem, fit_rival, left_over
 from rwn.trials.scene import draw_noise, draw_scene
@@ -21,7 +21,8 @@ Rng = np.random.Generator
 Cast = list[tuple[Effect, Values]]
 
 NEEDED = 1.3  # of two effects, each alone must leave at least this
-ATTEMPTS = 200
+PATIENCE = 12  # benches that are tried before other effects are dealt
+ATTEMPTS = 20 * PATIENCE
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,8 @@ class Trial:
 def make_trial(plan: Plan) -> Trial:
     """The trial of `plan`; draws again until motor, bench and effect make it possible."""
     for attempt in range(ATTEMPTS):
+        if attempt and attempt % PATIENCE == 0:
+            plan = redealt(plan, attempt)
         stream = (SPLITS.index(split_of(plan.seed)), plan.seed, plan.index, attempt)
         try:
             return _Composer(plan, stream).compose()
