@@ -30,7 +30,7 @@ from rwn.trials.run import run
 from rwn.trials.seal import ANSWERS, SealBrokenError, seal, unseal
 from rwn.trials.trial import make_trial
 
-SEED, COUNT = 27, 6  # one trial of every mode
+SEED, COUNT = 179, 6  # one trial of every mode
 RESULT = "diagnosis.json"
 
 

@@ -69,8 +69,9 @@ class _Deck:
 def redealt(plan: Plan, turn: int) -> Plan:
     """The same trial with other effects of its kind: for those that no bench shows as planned."""
     rng = np.random.default_rng([SPLITS.index(split_of(plan.seed)), plan.seed, plan.index, turn, 1])
-    choices = {1: [(name,) for name in (UNNAMED if plan.mode == "novel" else NAMED)], 2: _pairs()}
-    among = [effects for effects in choices.get(len(plan.effects), []) if effects != plan.effects]
+    singles: list[tuple[str, ...]] = [(name,) for name in (UNNAMED if plan.mode == "novel" else NAMED)]
+    choices = {0: [], 1: singles, 2: _pairs()}[len(plan.effects)]
+    among = [effects for effects in choices if effects != plan.effects]
     return replace(plan, effects=among[int(rng.integers(len(among)))]) if among else plan
 
 
