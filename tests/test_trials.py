@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,7 @@ from rwn.trials.conceal import SINGLE
 from rwn.trials.dossier import read_columns
 from rwn.trials.effects import EFFECTS, NAMED, UNNAMED
 from rwn.trials.excitations import CLOSED_LOOP, KINDS, OPEN_LOOP
-from rwn.trials.grade import clean_speed, grade_folder, load_answers
+from rwn.trials.grade import clean_speed, grade_folder, grade_folders, load_answers
 from rwn.trials.make import make
 from rwn.trials.motors import MOTORS, plant_of
 from rwn.trials.plan import SHARES, Plan, plans, redealt
@@ -209,6 +210,21 @@ def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Pat
     assert "not evidence" in text
     tables.reliability_plot(grade_folder(made[0], results=tmp_path), tmp_path / "plot.html")
     assert "calibrated" in (tmp_path / "plot.html").read_text()
+
+
+def test_several_sets_count_as_one(made: tuple[Path, str], shared: Path, tmp_path: Path) -> None:
+    shutil.copytree(made[0], tmp_path / "copy")
+    run(shared / "cases", results=tmp_path / "results" / "cases", jobs=1, diagnose=tell_the_truth)
+    with pytest.raises(ValueError, match="mix"):
+        grade_folders([made[0], shared / "cases"], results=tmp_path / "results")
+    with pytest.raises(ValueError, match="same seed"):
+        grade_folders([made[0], tmp_path / "copy"])
+    shutil.copytree(shared / "cases", tmp_path / "again")
+    run(tmp_path / "again", results=tmp_path / "results" / "again", jobs=1, diagnose=always_backlash)
+    both = grade_folders([shared / "cases", tmp_path / "again"], results=tmp_path / "results")
+    assert len(both.grades) == 28
+    assert {g.case for g in both.grades if g.exact} >= {"cases/case_01"}
+    assert len({g.case for g in both.grades}) == 28
 
 
 def test_trial_without_a_diagnosis_counts_as_wrong(made: tuple[Path, str], tmp_path: Path) -> None:

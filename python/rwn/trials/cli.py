@@ -55,18 +55,21 @@ def run(folder: Folder, results: Results = None, jobs: Jobs = 2) -> None:
 
 @app.command()
 def score(
-    folder: Folder,
-    results: Results = None,
+    folders: Annotated[list[Path], typer.Argument(help="Folders of trials; several count as one set.", exists=True)],
+    results: Annotated[
+        Path | None,
+        typer.Option(help="Where the diagnoses are; of several FOLDERS, in a folder for each (default: TRIAL/out)."),
+    ] = None,
     plot: Annotated[Path | None, typer.Option(help="HTML file for the reliability plot.")] = None,
 ) -> None:
     """Open the sealed answers (or the answer.json files) and print how good the diagnoses are."""
     from rich.console import Console
 
-    from rwn.trials.grade import grade_folder
+    from rwn.trials.grade import grade_folders
     from rwn.trials.tables import reliability_plot, show
 
     try:
-        graded = grade_folder(folder, results=results)
+        graded = grade_folders(folders, results=results)
     except (ValueError, OSError) as error:
         _stop(error)
     show(graded, Console(width=None if sys.stdout.isatty() else 150))  # a file has room

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -83,7 +83,7 @@ class Grade:
 
 @dataclass(frozen=True)
 class Graded:
-    seed: int | None
+    seeds: tuple[int, ...]  # none where the answers lie open
     split: str | None
     grades: list[Grade]
 
@@ -108,7 +108,27 @@ def grade_folder(folder: Path, *, results: Path | None = None) -> Graded:
         for trial in trial_folders(folder)
         if trial.name in answers
     ]
-    return Graded(about.get("seed"), about.get("split"), grades)
+    return Graded((about["seed"],) if "seed" in about else (), about.get("split"), grades)
+
+
+def grade_folders(folders: Sequence[Path], *, results: Path | None = None) -> Graded:
+    """Several sets as one; with more than one, `results` holds a folder for each, of the same name.
+
+    Raises ValueError where development and test sets would be mixed.
+    """
+    several = len(folders) > 1
+    sets = [grade_folder(f, results=results / f.name if results and several else results) for f in folders]
+    if len({s.split for s in sets}) > 1:
+        raise ValueError("the folders mix development and test sets (or open answers); score each kind alone")
+    seeds = tuple(seed for s in sets for seed in s.seeds)
+    if len(set(seeds)) < len(seeds):
+        raise ValueError(f"two folders hold the same seed (seeds {', '.join(map(str, seeds))}); give each set once")
+    grades = [
+        replace(g, case=f"{folder.name}/{g.case}") if several else g
+        for folder, one in zip(folders, sets, strict=True)
+        for g in one.grades
+    ]
+    return Graded(seeds, sets[0].split, grades)
 
 
 def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:

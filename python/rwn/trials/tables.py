@@ -36,10 +36,11 @@ def show(graded: Graded, console: Console) -> None:
 def _heading(graded: Graded) -> str:
     missing = sum(g.verdict == NO_RESULT for g in graded.grades)
     trials = f"{len(graded.grades)} trials" + (f" ({missing} WITHOUT A DIAGNOSIS)" if missing else "")
-    if graded.seed is None:
+    if not graded.seeds:
         return f"{trials} with open answers"
     note = "" if graded.split == "test" else f" (not evidence: test seeds start at {FIRST_TEST_SEED})"
-    return f"{trials}, seed {graded.seed}, {graded.split} split{note}"
+    seeds = f"seed{'s' if len(graded.seeds) > 1 else ''} {', '.join(map(str, graded.seeds))}"
+    return f"{trials}, {seeds}, {graded.split} split{note}"
 
 
 def _targets(grades: list[Grade]) -> Table:
