@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rwn/effect.hpp"
+#include "rwn/periodic.hpp"
 
 namespace rwn {
 
@@ -8,14 +9,7 @@ struct CoggingTorque {
   static constexpr EffectInfo info{"cogging-torque", Site::torque, "T = -A sin(N theta + p)",
                                    "torque of the magnets on the slots, or a position-periodic force",
                                    "Gieras, Permanent Magnet Motor Technology, ch. 6"};
-  static constexpr std::array parameters{Parameter{.name = "amplitude",
-                                                   .unit = "N m",
-                                                   .meaning = "peak torque",
-                                                   .lower = 0.0,
-                                                   .upper = 1.0,
-                                                   .start = 0.03,
-                                                   .scale = Scale::torque,
-                                                   .strength = true},
+  static constexpr std::array parameters{periodic::peak_torque,
                                          Parameter{.name = "periods_per_rev",
                                                    .unit = "1",
                                                    .meaning = "periods per revolution (per metre on a linear axis)",
@@ -23,14 +17,7 @@ struct CoggingTorque {
                                                    .upper = 1000.0,
                                                    .start = 12.0,
                                                    .order = true},
-                                         Parameter{.name = "phase",
-                                                   .unit = "rad",
-                                                   .meaning = "at position 0",
-                                                   .lower = -6.4,
-                                                   .upper = 6.4,
-                                                   .start = 0.0,
-                                                   .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
-                                                   .cyclic = true}};
+                                         periodic::phase};
   static constexpr bool turns = true;
 
   template <class S>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rwn/effect.hpp"
+#include "rwn/periodic.hpp"
 
 namespace rwn {
 
@@ -23,14 +24,7 @@ struct PositionDependentFriction {
                                                    .upper = 1.0,
                                                    .start = 0.3,
                                                    .strength = true},
-                                         Parameter{.name = "phase",
-                                                   .unit = "rad",
-                                                   .meaning = "at position 0",
-                                                   .lower = -6.4,
-                                                   .upper = 6.4,
-                                                   .start = 0.0,
-                                                   .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
-                                                   .cyclic = true}};
+                                         periodic::phase};
   static constexpr bool dry = true;
   static constexpr bool turns = true;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rwn/effect.hpp"
+#include "rwn/periodic.hpp"
 
 namespace rwn {
 
@@ -22,14 +23,7 @@ struct TorqueRipple {
                                                    .upper = 1000.0,
                                                    .start = 12.0,
                                                    .order = true},
-                                         Parameter{.name = "phase",
-                                                   .unit = "rad",
-                                                   .meaning = "at position 0",
-                                                   .lower = -6.4,
-                                                   .upper = 6.4,
-                                                   .start = 0.0,
-                                                   .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
-                                                   .cyclic = true}};
+                                         periodic::phase};
   static constexpr bool turns = true;
 
   template <class S>

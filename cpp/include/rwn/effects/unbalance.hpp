@@ -1,28 +1,14 @@
 #pragma once
 
 #include "rwn/effect.hpp"
+#include "rwn/periodic.hpp"
 
 namespace rwn {
 
 struct Unbalance {
   static constexpr EffectInfo info{"unbalance", Site::torque, "T = -A sin(theta + p)",
                                    "an off-centre mass in gravity: one period per revolution", "Newton"};
-  static constexpr std::array parameters{Parameter{.name = "amplitude",
-                                                   .unit = "N m",
-                                                   .meaning = "peak torque",
-                                                   .lower = 0.0,
-                                                   .upper = 1.0,
-                                                   .start = 0.03,
-                                                   .scale = Scale::torque,
-                                                   .strength = true},
-                                         Parameter{.name = "phase",
-                                                   .unit = "rad",
-                                                   .meaning = "at position 0",
-                                                   .lower = -6.4,
-                                                   .upper = 6.4,
-                                                   .start = 0.0,
-                                                   .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
-                                                   .cyclic = true}};
+  static constexpr std::array parameters{periodic::peak_torque, periodic::phase};
   static constexpr bool turns = true;
 
   template <class S>
