@@ -60,12 +60,15 @@ class Fitted:
 
     @property
     def limits_met(self) -> tuple[str, ...]:
-        """Parameters of the added effects that ran into a limit: there a law bends towards one that it is not."""
+        """Shapes of the added effects that ran into a limit: there a law bends towards one that it is not.
+
+        How strong an effect is says nothing of its law; its limits are those of belief.
+        """
         shapes = {
             f"{name}.{p.name}"
             for name in self.added
             for p in self.candidate.table[name].parameters
-            if not (p.cyclic or p.window or p.idealised)
+            if not (p.strength or p.replaces or p.cyclic or p.window or p.idealised)
         }
         pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
         return tuple(u.name for u, v in pairs if u.name in shapes and _meets(u, v))
