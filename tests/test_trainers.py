@@ -45,7 +45,8 @@ def test_gradient_descent_parity(wavelet: Wavelet, shape: dict[str, int], seed: 
 def test_pattern_descent_parity_over_1000_samples(wavelet: Wavelet, shape: dict[str, int], seed: int) -> None:
     network, twin, rng = random_network(wavelet, **shape, seed=seed)
     x, y = rng.normal(size=(250, shape["inputs"])), rng.normal(size=(250, shape["outputs"]))
-    options = {"rate": 1e-4, "momentum": 0.6, "shape_momentum": 0.8, "iterations": 4}
+    # slow enough that no dilation passes zero, where two trajectories part however close they are
+    options = {"rate": 3e-5, "momentum": 0.6, "shape_momentum": 0.8, "iterations": 4}
     training = PatternDescent(**options).train(network, x, y)
     want, history = reference.pattern_descent(twin, x, y, **options)
     assert relative(training.network.parameters, want.parameters) < 1e-12
