@@ -80,7 +80,7 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
   for (int effect : task.active) {
     if (effect < effect_count) states += all_effect_functions<double>[static_cast<std::size_t>(effect)].hiddens;
   }
-  require(states <= 2, "simulate: two effects bring a second mass");
+  require(states <= max_hiddens, "simulate: two effects bring a second mass");
   for (int index : task.by) require(index >= 0 && index < parameter_count(), "simulate: no such parameter");
   for (const auto& signal : {output.current, output.speed, output.position}) {
     require(signal.empty() || signal.size() == n, "simulate: an output differs in length from time");

@@ -14,7 +14,7 @@ from rwn.evidence import Hypothesis, Statistics
 from rwn.polish import polished
 from rwn.prepare import Setup, noise_levels, windowed
 from rwn.rounding import as_shown, steps_shown, unrounded_fits
-from rwn.search import Fitted, Search
+from rwn.search import Fitted, Search, foremost
 from rwn.temper import tempered
 from rwn.tracks import retracked
 
@@ -190,8 +190,7 @@ def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Se
     change = max(change, abs(np.log(other.problem.colour / search.problem.colour)) / 30.0)
     if change < 0.03:
         return search, nominal, fits
-    kept = sorted(fits, key=lambda f: f.cost)[:12]
-    again = [other.refit(f, other.problem) for f in [nominal, *kept]]
+    again = [other.refit(f, other.problem) for f in [nominal, *foremost(fits)]]
     return other, again[0], sorted(again[1:], key=lambda f: f.cost)
 
 

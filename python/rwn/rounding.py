@@ -7,10 +7,9 @@ from dataclasses import replace
 
 from rwn.output_error import OutputError
 from rwn.quantisation import coarse_steps, noise_before_rounding, unrounded
-from rwn.search import Fitted, Search
+from rwn.search import Fitted, Search, foremost
 
 ROUNDS = 6  # fits, each to the speed less the rounding error of the last
-KEPT = 12  # explanations worth the fits
 
 
 def unrounded_fits(
@@ -31,8 +30,7 @@ def unrounded_fits(
         noise_before_rounding(t, r["speed"], step)
         for t, r, step in zip(problem.targets, residuals, steps, strict=True)
     ]
-    kept = sorted(fits, key=lambda f: f.cost)[:KEPT]
-    settled = [_settled(search, f, problem, steps, noises) for f in (nominal, *kept)]
+    settled = [_settled(search, f, problem, steps, noises) for f in (nominal, *foremost(fits))]
     _, on = min(settled, key=lambda pair: pair[0].cost)
     return replace(search, problem=on), settled[0][0], sorted((f for f, _ in settled[1:]), key=lambda f: f.cost)
 

@@ -35,6 +35,7 @@ Row = tuple[Racer, Minimum]
 
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
+KEPT = 12  # explanations that are worth fitting again
 LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 GLANCE = 2500  # samples on which starts of one effect are told apart
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
@@ -208,6 +209,11 @@ class Search:
     def _windows(self, base: Fitted) -> list[tuple[float, float]]:
         residuals = self.problem.residuals(base.vector, base.candidate.active)
         return hints.windows(self.problem, base.vector, residuals)
+
+
+def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
+    """The explanations that are worth fitting again under other conditions, best first."""
+    return sorted(fits, key=lambda f: f.cost)[:KEPT]
 
 
 def _meets(unknown: Unknown, value: float) -> bool:

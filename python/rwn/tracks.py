@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from rwn.output_error import Target
-from rwn.search import Fitted, Search
+from rwn.search import Fitted, Search, foremost
 
 MOST_TRACKS = 4  # times that the angle is simulated anew
 
@@ -35,7 +35,7 @@ def retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Sear
     if other is search:
         return search, nominal, fits
     first = other.refit(nominal, other.problem)
-    rest = [again if f is best else other.refit(f, other.problem) for f in sorted(fits, key=lambda f: f.cost)[:12]]
+    rest = [again if f is best else other.refit(f, other.problem) for f in foremost(fits)]
     return other, first, sorted(rest, key=lambda f: f.cost)
 
 

@@ -20,7 +20,7 @@ from rwn.refuse import PROVED, removed_certainly
 
 HALF_TRUE = 0.02  # share of the removable squared error left by a name that is as likely wrong as right
 REMOVED = 1.0 - HALF_TRUE  # share that a name has to remove where more than noise is left
-PARTLY = 0.5  # the same where held-out recordings prove it: real machines have other effects beside the largest one
+PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
 ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
 DOUBTFUL = 2.0  # squared error of a signal, in units of its noise, from which it is off at all
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics

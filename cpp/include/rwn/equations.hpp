@@ -14,7 +14,7 @@ struct DriveState {
   static constexpr int n = kind == Kind::dc ? 2 : 1;
   SmallVector<S, n> x{};  // current (dc only), speed
   S position{};
-  std::array<S, 2> hidden{};
+  std::array<S, max_hiddens> hidden{};
   std::array<S, max_memories> memory{};
   double direction = 0.0;  // of sliding; 0 sticks
 };

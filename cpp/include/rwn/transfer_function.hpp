@@ -30,7 +30,7 @@ class TransferFunction {
   struct State {
     std::array<S, max_order> x{};  // scaled: x_i / rate^{i-1}
     S position{};                  // not modelled
-    std::array<S, 2> hidden{};
+    std::array<S, max_hiddens> hidden{};
     std::array<S, max_memories> memory{};
   };
 

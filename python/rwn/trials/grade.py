@@ -114,7 +114,7 @@ def grade_folder(folder: Path, *, results: Path | None = None) -> Graded:
 def grade_folders(folders: Sequence[Path], *, results: Path | None = None) -> Graded:
     """Several sets as one; with more than one, `results` holds a folder for each, of the same name.
 
-    Raises ValueError where development and test sets would be mixed.
+    Raises ValueError where development and test sets would be mixed, or one seed counted twice.
     """
     several = len(folders) > 1
     sets = [grade_folder(f, results=results / f.name if results and several else results) for f in folders]
