@@ -18,7 +18,7 @@ TYPICAL = {
 }  # fmt: skip
 STEP, PARTS = 6e-4, 8
 EXACT = 1e-4
-LESS_EXACT = {"backlash": 2e-3, "resistance-heating": 3e-4}  # a contact met a little late; heat held over a step
+LESS_EXACT = {"backlash": 2e-3}  # a contact met a little late
 JUMPS = ("sensor-quantization",)
 
 

@@ -32,29 +32,33 @@ struct ResistanceHeating {
                                                    .upper = 0.02,
                                                    .start = 0.00393,
                                                    .fixed = true}};
-  /// Mean of i^2 over a step in which the current goes from `a` to `b` as the winding does, exponentially.
+  /// Mean of i^2 over a step: the current goes exponentially to where it settles, which the speed moves meanwhile.
   template <class S>
-  static S mean_square(const Motor<S>& m, const S& h, const S& a, const S& b) {
+  static S mean_square(const Motor<S>& m, const S& h, const Motion<S>& before, const Motion<S>& after) {
     using std::exp;
-    const S rate = h * m[resistance] / m[inductance];
+    const S a = before.current, b = after.current, rate = h * m[resistance] / m[inductance];
     if (value_of(rate) < 0.05) return (a * a + a * b + b * b) / 3.0;
-    const S left = exp(-rate);
-    const S end = (b - a * left) / (1.0 - left);
-    const S gap = a - end;
-    return end * end + 2.0 * end * gap * (1.0 - left) / rate + gap * gap * (1.0 - left * left) / (2.0 * rate);
+    const S left = exp(-rate), mean = (1.0 - left) / rate;  // of the decaying part
+    const S ramp = -m[back_emf_constant] * (after.speed - before.speed) / m[resistance];
+    const S gap = (a - b + ramp) / (1.0 - left), settled = a - gap;
+    return settled * settled + settled * ramp + ramp * ramp / 3.0 +
+           2.0 * gap * (settled * mean + ramp * (mean - left) / rate) +
+           gap * gap * (1.0 - left * left) / (2.0 * rate);
   }
-  static constexpr int memories = 1;  // winding temperature above ambient [K]
+  static constexpr int memories = 2;  // winding temperature above ambient now and in the middle of the next step [K]
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
-    t.resistance += p[2] * x.memory[0];
+    t.resistance += p[2] * x.memory[1];
   }
   template <class S>
   static void finish(const S* p, const Motor<S>& m, const S& h, const Motion<S>& before, const Motion<S>& after,
                      S* memory) {
     using std::exp;
-    const S settled = p[0] * m[resistance] * (1.0 + p[2] * memory[0]) * mean_square(m, h, before.current, after.current);
-    memory[0] = settled + (memory[0] - settled) * exp(-(h / (p[0] * p[1])));
+    const S power = m[resistance] * (1.0 + p[2] * memory[1]) * mean_square(m, h, before, after);
+    const S settled = p[0] * power, half = exp(-(h / (2.0 * p[0] * p[1])));
+    memory[0] = settled + (memory[0] - settled) * half * half;
+    memory[1] = settled + (memory[0] - settled) * half;
   }
 };
 
