@@ -23,6 +23,7 @@ Progress = Callable[[str, float], None]
 WORTH = 0.2  # share of what is left that another effect has to remove
 MOST_EFFECTS = 3
 FAR_OFF = 100.0  # squared error in units of the noise, from which short windows are tried too
+PATIENCE = 4  # in short windows, where the misfit is large and the first steps of a fit are short
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
 HALF_A_TURN = 0.5  # travel in revolutions, from which a law of the angle is more than a load and a spring
 PLAIN = "coulomb-friction"  # what the other laws of dry friction elaborate
@@ -116,7 +117,8 @@ def _far_off(search: Search, best: Fitted) -> bool:
 
 def _by_windows(search: Search, nominal: Fitted, wanted: Sequence[str]) -> list[Fitted]:
     """Every effect fitted in short windows, each from the recorded motion, and from there in free run."""
-    windows = replace(search, problem=replace(search.problem, targets=tuple(map(windowed, search.problem.targets))))
+    targets = tuple(map(windowed, search.problem.targets))
+    windows = replace(search, problem=replace(search.problem, targets=targets), patience=PATIENCE)
     windows = _with_noise(windows, windows.refit(nominal, windows.problem))
     fits = windows.explain(windows.refit(nominal, windows.problem), wanted)
     return [search.refit(f, search.problem) for f in fits]

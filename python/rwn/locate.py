@@ -11,14 +11,15 @@ from numpy.typing import NDArray
 from rwn.diagnosis import Region
 from rwn.effects import motor_index
 from rwn.output_error import OutputError, Target
-from rwn.prepare import motion
+from rwn.prepare import motion, smoothing_over
+from rwn.smoothing import smooth
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Unknown:
-    """What the refitted nominal equations leave over on one recording, (n,) each, smoothed over about 31 samples."""
+    """What the refitted nominal equations leave over on one recording, (n,) each, smoothed over at most 31 samples."""
 
     time: Array
     speed: Array
@@ -45,21 +46,22 @@ def unknown_inputs(
             time=target.time, speed=speed, acceleration=acceleration, current=np.zeros(speed.size),
             angle=np.zeros(speed.size), torque=target.speed - left, voltage=np.empty(0),
         )  # fmt: skip
+    length = smoothing_over(target)  # the same for all signals: then the linear equations still hold
     value = {name: float(vector[motor_index(name)]) for name in _MOTOR}
     voltage = np.empty(0)
     current = np.zeros(speed.size)
     if problem.kind == "axis":
-        drive = _smooth(target.input)
+        drive = smooth(target.input, length)
     else:
         if target.current.size:
-            current = _smooth(target.current)
+            current = smooth(target.current, length)
             slope = np.gradient(current, target.time)
             voltage = (
-                _smooth(target.input) - value["resistance"] * current - value["inductance"] * slope
+                smooth(target.input, length) - value["resistance"] * current - value["inductance"] * slope
                 - value["back_emf_constant"] * speed
             )  # fmt: skip
         else:
-            current = (_smooth(target.input) - value["back_emf_constant"] * speed) / value["resistance"]
+            current = (smooth(target.input, length) - value["back_emf_constant"] * speed) / value["resistance"]
         drive = value["torque_constant"] * current
     friction = value["viscous_friction"] * speed + value["coulomb_friction"] * np.sign(speed)
     return Unknown(
@@ -77,14 +79,6 @@ _MOTOR = (
     "resistance", "inductance", "torque_constant", "back_emf_constant", "inertia", "viscous_friction",
     "coulomb_friction",
 )  # fmt: skip
-
-
-def _smooth(signal: Array) -> Array:
-    from scipy.signal import savgol_filter  # late: the command line starts without it
-
-    length = min(31, signal.size - 1 - signal.size % 2)
-    result: Array = savgol_filter(signal, length, 3) if length >= 5 else signal
-    return result
 
 
 def regions(unknown: Sequence[Unknown], *, linear: bool = False) -> tuple[Region, ...]:

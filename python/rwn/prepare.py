@@ -15,6 +15,7 @@ from rwn.output_error import OutputError, Target
 from rwn.quantisation import counted, lattice, quantisation
 from rwn.recording import Recording
 from rwn.scales import scales
+from rwn.smoothing import LENGTHS, smooth, smoothing_length
 from rwn.transfer_error import TransferError
 from rwn.transfer_start import first_guesses
 
@@ -135,19 +136,19 @@ def windowed(whole: Target, length: int = WINDOW) -> Target:
 
 
 def motion(target: Target) -> tuple[Array, Array]:
-    """Smoothed speed and acceleration (n,) of a recording (Savitzky-Golay over about 31 samples, order 3)."""
-    from scipy.signal import savgol_filter  # late: the command line starts without it
-
-    n = target.time.size
-    step = float(np.median(np.diff(target.time)))
-    length = min(31, n - 1 - n % 2)
-    if length < 5:
-        return np.zeros(n), np.zeros(n)
+    """Smoothed speed and acceleration (n,) of a recording."""
+    step, length = float(np.median(np.diff(target.time))), smoothing_over(target)
     if target.position.size and not target.speed.size:
-        speed = savgol_filter(target.position, length, 3, deriv=1, delta=step)
-        return speed, savgol_filter(target.position, length, 3, deriv=2, delta=step)
-    smooth = savgol_filter(target.speed, length, 3)
-    return smooth, savgol_filter(target.speed, length, 3, deriv=1, delta=step)
+        speed = smooth(target.position, length, derivative=1, step=step)
+        return speed, smooth(target.position, length, derivative=2, step=step)
+    return smooth(target.speed, length), smooth(target.speed, length, derivative=1, step=step)
+
+
+def smoothing_over(target: Target) -> int:
+    """Samples over which a recording is smoothed: what its speed allows; for the derivatives of a position the most."""
+    if not target.speed.size:
+        return LENGTHS[0]
+    return smoothing_length(target.speed, resolution=quantisation(target, "speed"))
 
 
 def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Array]]) -> dict[str, float]:

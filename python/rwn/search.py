@@ -88,6 +88,7 @@ class Search:
     nominal: Nominal
     scales: Mapping[str, float]
     jobs: int = 2
+    patience: int = 1  # how many times the usual iterations a start gets before it is given up
 
     @classmethod
     def of(cls, setup: Setup, *, problem: OutputError | None = None, jobs: int = 2) -> Search:
@@ -111,7 +112,7 @@ class Search:
             if name not in base.candidate.effects and _has_room(base.candidate, name)
             for racer in self._starts(base, name, orders=keep + 1)
         ]
-        rows = self._race(self._glance(base, racers, keep), iterations=4)
+        rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience)
         rows = _promising(_best_of_each(rows, keep), base.cost)
         finals = self._race([racer for racer, _ in rows], iterations=60)
         found = [
@@ -127,7 +128,7 @@ class Search:
         if not crowded:
             return list(racers)
         part = replace(self.problem, targets=tuple(self._parts(base)))
-        rows = _best_of_each(self._race(crowded, iterations=1, problem=part), keep)
+        rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
         return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
 
     def _parts(self, base: Fitted) -> Iterator[Target]:

@@ -11,10 +11,10 @@ struct InputDelay {
                                                    .unit = "s",
                                                    .meaning = "need not be a whole number of samples",
                                                    .lower = 0.0,
-                                                   .upper = 50.0,
+                                                   .upper = 500.0,
                                                    .start = 1.3,
                                                    .scale = Scale::time_step,
-                                                   .scan = {0.4, 1.4, 3.5},
+                                                   .scan = {0.4, 1.4, 3.5, 12.0, 40.0, 120.0},
                                                    .strength = true}};
   static constexpr bool varies = false;
 
