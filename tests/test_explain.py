@@ -45,6 +45,17 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(setup: Setup) -> None:
     assert replace(fitted, minimum=replace(fitted.minimum, values=values)).limits_met == ()
 
 
+def test_an_effect_without_strength_is_idle(setup: Setup) -> None:
+    fitted = _fitted(setup, "position-dependent-friction")
+    k = [u.name for u in fitted.candidate.unknowns].index("position-dependent-friction.variation")
+    values = fitted.minimum.values.copy()
+    values[k] = 0.1
+    assert replace(fitted, minimum=replace(fitted.minimum, values=values)).idle == ()
+    values = values.copy()
+    values[k] = 0.0
+    assert replace(fitted, minimum=replace(fitted.minimum, values=values)).idle == ("position-dependent-friction",)
+
+
 def test_what_no_recording_depends_on_costs_an_explanation_nothing(setup: Setup) -> None:
     """The offset of a current that nobody recorded."""
     unseen = replace(setup.problem, targets=tuple(replace(t, current=np.empty(0)) for t in setup.problem.targets))

@@ -86,7 +86,7 @@ def explain(
     best = min([nominal, *fits], key=lambda f: f.cost)
     fits = _distinct([*fits, *_simpler(search, best)])
     strained = [f for f in fits if f.limits_met]
-    fits = [f for f in fits if not f.limits_met]
+    fits = [f for f in fits if not f.limits_met and not f.idle]
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
     hypotheses = evidence.weigh([nominal, *fits], left, rivals=len(wanted), prior=_prior(setup))

@@ -36,6 +36,7 @@ Row = tuple[Racer, Minimum]
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
+IDLE = 1e-6  # strength, relative to its upper limit, that is none
 LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 GLANCE = 2500  # samples on which starts of one effect are told apart
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
@@ -73,6 +74,17 @@ class Fitted:
         }
         pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
         return tuple(u.name for u, v in pairs if u.name in shapes and _meets(u, v))
+
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """Added effects that ended without strength: they say nothing beyond what they take over."""
+        pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
+        reached = {u.name: abs(v) > IDLE * u.upper for u, v in pairs}
+        strengths = {
+            name: [reached[f"{name}.{p.name}"] for p in self.candidate.table[name].parameters if p.strength]
+            for name in self.added
+        }
+        return tuple(name for name, strong in strengths.items() if strong and not any(strong))
 
     def value(self, name: str) -> float:
         """A fitted unknown by name ("inertia", "coulomb-friction.coulomb_torque")."""
