@@ -159,9 +159,8 @@ def _report(
     named = verdict == "missing-physics"
     same = ambiguous(found, chosen) if named else ()
     physics = found_effects(found, chosen) if chosen.fitted.added and named else ()
-    if not is_certain(rows):
-        share = whole(found, chosen)
-        physics = tuple(replace(e, probability=share * e.probability) for e in physics)
+    share = whole(found, chosen, certain=is_certain(rows))
+    physics = tuple(replace(e, probability=share * e.probability) for e in physics)
     steps = _coarse_speed(found)
     if steps and verdict in ("adequate", "missing-physics"):
         physics, verdict = (*physics, steps), "missing-physics"

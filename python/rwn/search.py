@@ -17,6 +17,7 @@ from rwn.effects import Effect
 from rwn.least_squares import Minimum, Unknown
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
+from rwn.rough import settled
 from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
@@ -126,7 +127,7 @@ class Search:
         ]
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience)
         rows = _promising(_best_of_each(rows, keep), base.cost)
-        finals = self._race([racer for racer, _ in rows], iterations=60)
+        finals = self._race([racer for racer, _ in self._over_rough(rows)], iterations=60)
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
             for racer, m in sorted(finals, key=lambda row: row[1].cost)
@@ -163,6 +164,14 @@ class Search:
         return [
             (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
             for racer, m in zip(racers, ends, strict=True)
+        ]
+
+    def _over_rough(self, rows: Sequence[Row]) -> list[Row]:
+        """Starts whose error is rough, brought near before they are fitted."""
+        ends = side_by_side(lambda row: settled(self.problem, row[0].candidate, row[1], turns=2), rows, jobs=self.jobs)
+        return [
+            (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
+            for (racer, _), m in zip(rows, ends, strict=True)
         ]
 
     def refit(self, this: Fitted, problem: OutputError) -> Fitted:
