@@ -223,10 +223,11 @@ class Search:
             spectrum = hints.torque_spectrum(self.problem, base.vector, base.candidate.active, grid)
             return hints.orders_of(spectrum, grid, count)
         residuals = self.problem.residuals(base.vector, base.candidate.active)
-        spectrum = hints.angle_spectrum(
-            self.problem, base.vector, residuals, grid, with_current=effect.site == "flux"
-        )
-        return hints.orders_of(spectrum, grid, count)
+        found: list[float] = []
+        for with_current in (True, False) if effect.site == "flux" else (False,):  # a current may be known badly
+            spectrum = hints.angle_spectrum(self.problem, base.vector, residuals, grid, with_current=with_current)
+            found += hints.orders_of(spectrum, grid, count)
+        return list(dict.fromkeys(found))
 
     def _windows(self, base: Fitted) -> list[tuple[float, float]]:
         residuals = self.problem.residuals(base.vector, base.candidate.active)
