@@ -52,7 +52,8 @@ class Noisy:
         """Levenberg-Marquardt from selected wavelets, as many as the noise lets one see.
 
         `simulated` first fits with the smoothed speed as the network's input, then with the speed that the model
-        itself simulates, which no noise of the measurement reaches; m and d move in the last stage.
+        itself simulates, which no noise of the measurement reaches; m and d move in the last stage. A stage that gets
+        stuck is not taken: its advice is to free fewer groups.
         """
         source = self.speed if feed == "measured" else self.source
         network = self.select(motor, linear, source)
@@ -62,7 +63,10 @@ class Noisy:
         if feed == "simulated":
             for moving in (learn, (*learn, "m", "d")):
                 further = replace(trainer, weights_first=False)
-                best = self.step(further, best.network, moving, source, "simulated")
+                step = self.step(further, best.network, moving, source, "simulated")
+                if step.status == "stuck":  # a wavelet has become so steep that the motion is unstable in it
+                    break
+                best = step
         return best
 
     def step(
