@@ -17,6 +17,8 @@ from rwn.trainers import StructuredFit, StructuredLevenbergMarquardt
 
 RATIOS = (60.0, 50.0, 40.0, 30.0, 20.0, 10.0)  # signal to noise [dB]
 FEWEST, MOST = 7, 31  # wavelets; the noise decides between them
+WIDTH = 41  # samples of the smoothed speed
+SEEN = 3.0  # narrowest wavelet, in units of the noise of the speed that it is selected along
 SIZE = 0.1  # expected of every w [N m]
 Feed = Literal["simulated", "smoothed", "measured"]
 
@@ -27,7 +29,7 @@ def noisy(x: Array, decibel: float, rng: np.random.Generator) -> tuple[Array, fl
     return x + sigma * rng.normal(size=len(x)), sigma
 
 
-def smoothed(x: Array, width: int = 41) -> Array:
+def smoothed(x: Array, width: int = WIDTH) -> Array:
     """Moving average, centred."""
     padded = np.pad(x, width // 2, mode="edge")
     return np.convolve(padded, np.full(width, 1 / width), mode="valid")
@@ -92,9 +94,16 @@ class Noisy:
     def select(
         self, motor: rwn.MotorParameters, linear: tuple[str, ...], source: Array
     ) -> rwn.StructuredNetwork:
-        """The motor with wavelets selected until the next would explain no more than noise; at least FEWEST."""
+        """The motor with wavelets selected until the next would explain no more than noise; at least FEWEST.
+
+        Wavelets narrower than SEEN times the noise of `source` are left out: it smears what they would show.
+        """
         wrong = rwn.StructuredNetwork.from_motor(motor, sample_time=T)
-        for way, most in ((StructuredSelection(noise=self.noise), MOST), (StructuredSelection(), FEWEST)):
+        spread = self.noise if source is self.speed else self.noise / np.sqrt(WIDTH)
+        scales = np.log2(StructuredSelection().zeta * np.ptp(source) / (SEEN * spread))
+        levels = int(np.clip(1 + scales, 2, StructuredSelection().levels))
+        enough = StructuredSelection(levels=levels, noise=self.noise)
+        for way, most in ((enough, MOST), (StructuredSelection(levels=levels), FEWEST)):
             network = way.start(
                 wrong, self.voltage, self.speed, wavelets=most, linear=linear, network_speed=source
             )
