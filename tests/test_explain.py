@@ -10,6 +10,7 @@ import pytest
 
 import rwn
 from rwn import evidence, hints
+from rwn.candidate import candidate, fit
 from rwn.explain import explain
 from rwn.prepare import Setup, prepare
 from rwn.search import Fitted, Search
@@ -54,6 +55,16 @@ def test_an_effect_without_strength_is_idle(setup: Setup) -> None:
     values = values.copy()
     values[k] = 0.0
     assert replace(fitted, minimum=replace(fitted.minimum, values=values)).idle == ("position-dependent-friction",)
+
+
+@pytest.mark.parametrize("name", ["presliding-hysteresis", "shaft-compliance", "input-delay"])
+def test_a_strength_far_from_its_upper_limit_is_a_strength(setup: Setup, name: str) -> None:
+    """A stiffness may be a millionth of the stiffest thinkable."""
+    effect = setup.nominal.table[name]
+    values = {p.name: p.start * 1e-3 for p in effect.parameters}
+    this = candidate(setup.nominal, (name,), setup.scales, {name: values})
+    weak = Fitted(added=(name,), candidate=this, minimum=fit(setup.problem, this, max_iterations=0))
+    assert weak.idle == ()
 
 
 def test_what_no_recording_depends_on_costs_an_explanation_nothing(setup: Setup) -> None:

@@ -37,7 +37,7 @@ Row = tuple[Racer, Minimum]
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
-IDLE = 1e-6  # strength, relative to its upper limit, that is none
+IDLE = 1e-9  # strength, relative to its upper limit, that is none
 LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 GLANCE = 2500  # samples on which starts of one effect are told apart
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
@@ -80,7 +80,7 @@ class Fitted:
     def idle(self) -> tuple[str, ...]:
         """Added effects that ended without strength: they say nothing beyond what they take over."""
         pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
-        reached = {u.name: abs(v) > IDLE * u.upper for u, v in pairs}
+        reached = {u.name: u.lower > 0.0 or abs(v) > IDLE * u.upper for u, v in pairs}
         strengths = {
             name: [reached[f"{name}.{p.name}"] for p in self.candidate.table[name].parameters if p.strength]
             for name in self.added
