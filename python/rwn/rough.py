@@ -53,7 +53,8 @@ def _without_derivatives(problem: OutputError, this: Candidate, values: Array) -
 
     def error(z: Array) -> float:
         residuals = problem.residuals(this.with_values(put(z)), this.active)
-        return sum(float(np.sum((r / problem.noise[s]) ** 2)) for each in residuals for s, r in each.items())
+        with np.errstate(over="ignore"):  # a run that diverged is infinitely wrong
+            return sum(float(np.sum((r / problem.noise[s]) ** 2)) for each in residuals for s, r in each.items())
 
     first = np.log(values[where])
     corners = np.vstack([first, first - FIRST * np.eye(len(where))])
