@@ -1,0 +1,57 @@
+"""Fits where a contact makes the error rough."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.candidate import Candidate, candidate, fit
+from rwn.model import Model
+from rwn.output_error import OutputError
+from rwn.prepare import prepare
+from rwn.rough import rough, settled
+from rwn.search import Search
+
+MOTOR = {"resistance": 1.1, "inductance": 4e-4, "torque_constant": 0.037, "back_emf_constant": 0.037,
+         "inertia": 2.8e-5, "viscous_friction": 4e-6}  # fmt: skip
+PLAY = {"gap": 0.02, "load_inertia": 1e-5, "contact_rate": 950.0, "contact_damping_ratio": 0.25}
+
+
+@pytest.fixture(scope="module")
+def search() -> Search:
+    rng = np.random.default_rng(11)
+    time = 5e-4 * np.arange(3000)
+    true = Model(kind="dc", parameters=MOTOR, effects={"backlash": PLAY})
+    voltage = 4.0 * np.repeat(rng.uniform(-1.0, 1.0, 60), 50)
+    seen = rwn.simulate(true, rwn.Recording(name="play.csv", time=time, signals={"voltage": voltage})).signals
+    noisy = {s: seen[s] + 0.01 * np.std(seen[s]) * rng.standard_normal(time.size) for s in ("current", "speed")}
+    recording = rwn.Recording(name="play.csv", time=time, signals={"voltage": voltage, **noisy})
+    return Search.of(prepare([recording], Model(kind="dc", parameters=MOTOR)))
+
+
+def _start(search: Search, name: str, values: dict[str, float]) -> tuple[OutputError, Candidate]:
+    return search.problem, candidate(search.nominal, (name,), search.scales, {name: values})
+
+
+def test_turns_without_derivatives_reach_what_derivatives_do_not(search: Search) -> None:
+    problem, this = _start(search, "backlash", {**PLAY, "gap": 0.03, "contact_rate": 1500.0})
+    stopped = fit(problem, this)
+    found = settled(problem, this, stopped, turns=3)
+    k = [u.name for u in this.unknowns].index("backlash.gap")
+    assert stopped.values[k] != pytest.approx(PLAY["gap"], rel=0.05)
+    assert found.values[k] == pytest.approx(PLAY["gap"], rel=0.01)
+    assert found.cost < stopped.cost
+
+
+def test_a_smooth_error_is_left_to_derivatives(search: Search) -> None:
+    problem, this = _start(search, "coulomb-friction", {"coulomb_torque": 1e-3})
+    assert rough(this) == []
+    stopped = fit(problem, this)
+    assert settled(problem, this, stopped, turns=3) is stopped
+
+
+def test_a_turn_never_loses(search: Search) -> None:
+    problem, this = _start(search, "backlash", PLAY)
+    best = fit(problem, this, max_iterations=0)
+    assert settled(problem, this, best, turns=1).cost <= best.cost
