@@ -90,7 +90,14 @@ def online_rows(
         ),
         Row(where="Table 20", case=f"total slope, {how}", ours=slope, count=count, judge="none", unit="%"),
         Row(where="Figure 106", case=f"friction rms [N m], {how}", ours=rms, count=count, judge="none"),
-        Row(where="Figure 104", case=f"test MSE, {how}", thesis=0.0017, ours=net.mse(*test), count=count),
+        Row(
+            where="Figure 104",
+            case=f"test MSE, {how}",
+            thesis=0.0017,
+            ours=net.mse(*test),
+            count=count,
+            reason="follows J and B: depends on the fraction and the number of cycles",
+        ),
     ]
 
 
