@@ -21,12 +21,12 @@ from rwn.locate import regions, unknown_inputs
 from rwn.mistakes import Mistake
 from rwn.model import Model
 from rwn.prepare import prepare, proof_target
-from rwn.proof import LEFT_OUT, hurts, proved
+from rwn.proof import LEFT_OUT, proved
 from rwn.recording import Recording
 from rwn.refuse import without_what_hurts
 from rwn.stand_in import picture, proved_stand_in
 from rwn.unknown_law import laws
-from rwn.verdict import choose, is_certain, verdict_of, verdict_without_a_name, whole
+from rwn.verdict import choose, is_certain, refused, verdict_of, verdict_without_a_name, whole
 
 NO_NETWORK = (
     "no wavelet network over one state helps on recordings that were not fitted: corrected.toml holds the refitted "
@@ -72,7 +72,7 @@ def diagnose(
         )
     rows = proved(found, chosen, proof, model, seed=seed)
     verdict = verdict_of(found, chosen, certain=is_certain(rows))
-    if chosen.fitted.added and (verdict != "missing-physics" or hurts(rows)):
+    if chosen.fitted.added and (verdict != "missing-physics" or refused(found, chosen, rows)):
         # a name that is not given is not shown, proved or written to corrected.toml either
         chosen = found.nothing_missing
         verdict = verdict if verdict == "unexplained" else verdict_without_a_name(found)
@@ -88,8 +88,8 @@ def diagnose(
     report = _report(found, chosen, verdict, made, rows, model, seed, time.perf_counter() - began)
     if network:
         return replace(report, stand_in=drawn.place.words, curves=(*report.curves, picture(drawn)))
-    refused = (NO_NETWORK,) if verdict == "unexplained" and model.kind != "lti" else ()
-    return replace(report, warnings=(*report.warnings, *refused))
+    without = (NO_NETWORK,) if verdict == "unexplained" and model.kind != "lti" else ()
+    return replace(report, warnings=(*report.warnings, *without))
 
 
 def _silent(what: str, done: float) -> None:

@@ -1,7 +1,6 @@
 """From explanations to a verdict: which one is chosen, whether it is enough, and how far it may be the whole truth.
 
-The constants were set on the example cases, the development trials (seeds 2 and 3) and two real machines (EMPS and
-FRA233); only trials of test seeds judge them.
+docs/method.md tells what the constants were set on; only trials of test seeds that nobody has looked into judge them.
 """
 
 from __future__ import annotations
@@ -15,23 +14,27 @@ from rwn.correct import deviations
 from rwn.diagnosis import HeldoutRow, Verdict
 from rwn.evidence import Hypothesis, join
 from rwn.explain import Explanation, plainer
-from rwn.proof import LEFT_OUT
+from rwn.proof import LEFT_OUT, hurts
 from rwn.refuse import PROVED, removed_certainly
 
 HALF_TRUE = 0.02  # share of the removable squared error left by a name that is as likely wrong as right
 REMOVED = 1.0 - HALF_TRUE  # share that a name has to remove where more than noise is left
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
 ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
+INEXACT = 0.002  # relative change in squared error that the simulation's own error may make
 DOUBTFUL = 2.0  # squared error of a signal, in units of its noise, from which it is off at all
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
 
 
 def choose(found: Explanation) -> Hypothesis:
-    """The most probable explanation, with plain friction where its elaboration is hardly more so; nothing where the
-    gain is not material."""
+    """The most probable explanation, with plain friction where its elaboration is hardly more so or fits no better;
+    nothing where the gain is not material."""
     first = found.hypotheses[0]
     plain = [h for h in found.hypotheses if set(h.fitted.added) == plainer(first.fitted.added)]
-    if plain and plain[0].probability > first.probability / ELABORATE:
+    if plain and (
+        plain[0].probability > first.probability / ELABORATE
+        or plain[0].fitted.minimum.chi2 < (1.0 + INEXACT) * first.fitted.minimum.chi2
+    ):
         first = plain[0]
     gain = 1.0 - first.fitted.minimum.chi2 / found.nothing_missing.fitted.minimum.chi2
     return found.nothing_missing if gain < MATERIAL else first
@@ -51,6 +54,17 @@ def verdict_of(found: Explanation, chosen: Hypothesis, *, certain: bool = False)
     removed = _removed(found, chosen)
     enough = PARTLY if certain else REMOVED
     return "unexplained" if left_over and removed < enough else "missing-physics"
+
+
+def refused(found: Explanation, chosen: Hypothesis, rows: Sequence[HeldoutRow]) -> bool:
+    """Whether data that were not fitted refuse a name.
+
+    Recordings that were kept back always may. A part left out of the fit may not where the name explains the whole: a
+    free run that goes on for long can lose the motion for parameters that are a little off (a cog too far).
+    """
+    off = found.before.variance > DOUBTFUL
+    explains = off and _removed(found, chosen) > REMOVED
+    return hurts(rows) and not (explains and all(LEFT_OUT in r.recording for r in rows))
 
 
 def _removed(found: Explanation, chosen: Hypothesis) -> float:
