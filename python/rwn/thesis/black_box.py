@@ -4,7 +4,7 @@ rule.
 Open in the thesis, and chosen here: Coulomb friction 0.044 N m without stiction and B = 0.06 ("viscous
 and Coulomb"); T = 0.1 ms; 3 wavelets over the range of every input, w small random, c = 0; a and b start
 from least squares (from random a the Euler inputs never converge); running maxima at 0.05 of the bound
-of each group by itself; 100 cycles for 10 000. The wanted line is the plain least-squares network (w =
+of each group by itself; all 10 000 cycles. The wanted line is the plain least-squares network (w =
 0), and its free run, which the thesis does not give.
 """
 
@@ -194,7 +194,7 @@ def run(settings: Settings) -> Outcome:
         )
     ]
     for k, kind in enumerate(PAGES):
-        case = learn(kind, settings.pick(100, 2))
+        case = learn(kind, settings.pick(10_000, 2))
         all_rows += rows(case)
         all_figures += figures(case)
         settings.progress((k + 1) / 2)
