@@ -17,8 +17,7 @@ from rwn.explain import Explanation, plainer
 from rwn.proof import LEFT_OUT, hurts
 from rwn.refuse import PROVED, removed_certainly
 
-HALF_TRUE = 0.02  # share of the removable squared error left by a name that is as likely wrong as right
-REMOVED = 1.0 - HALF_TRUE  # share that a name has to remove where more than noise is left
+REMOVED = 0.98  # share of the removable squared error that a name has to remove where more than noise is left
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
 ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
 INEXACT = 0.002  # relative change in squared error that the simulation's own error may make
@@ -51,9 +50,13 @@ def verdict_of(found: Explanation, chosen: Hypothesis, *, certain: bool = False)
         if left_over and after > 1.0 + 2.0 * MATERIAL:
             return "unexplained"
         return "insufficient-excitation" if _nothing_learned(found) else "adequate"
-    removed = _removed(found, chosen)
-    enough = PARTLY if certain else REMOVED
-    return "unexplained" if left_over and removed < enough else "missing-physics"
+    enough = _removed(found, chosen) >= _enough(certain)
+    return "unexplained" if left_over and not enough else "missing-physics"
+
+
+def _enough(certain: bool) -> float:
+    """Share of the removable squared error that a name has to remove."""
+    return PARTLY if certain else REMOVED
 
 
 def refused(found: Explanation, chosen: Hypothesis, rows: Sequence[HeldoutRow]) -> bool:
@@ -85,7 +88,7 @@ def whole(found: Explanation, chosen: Hypothesis, *, certain: bool = False) -> f
     """
     if found.left.at_the_floor:
         return 1.0
-    half = 1.0 - PARTLY if certain else HALF_TRUE
+    half = 1.0 - _enough(certain)
     return 1.0 / (1.0 + ((1.0 - _removed(found, chosen)) / half) ** 2)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rwn.machines.machine import Error, Machine, Outcome, Say, data_file, error_of, judged, nominal_model
 from rwn.recording import Recording
+from rwn.smoothing import LENGTHS, smooth
 
 Array = NDArray[np.float64]
 COUNTS = 8192  # per revolution
@@ -61,11 +62,9 @@ def _predicted(fitted: Recording, shown: Recording, orders: list[int]) -> Array:
 
 
 def _columns(recording: Recording, orders: list[int]) -> Array:
-    from scipy.signal import savgol_filter
-
     angle = recording.signals["position"]
     step = float(np.median(np.diff(recording.time)))
-    speed, acceleration = (savgol_filter(angle, 31, 3, deriv=d, delta=step) for d in (1, 2))
+    speed, acceleration = (smooth(angle, LENGTHS[0], derivative=d, step=step) for d in (1, 2))
     waves = [wave(k * angle) for k in orders for wave in (np.cos, np.sin)]
     return np.column_stack([np.ones(angle.size), speed, acceleration, *waves])
 

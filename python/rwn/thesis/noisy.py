@@ -100,10 +100,10 @@ class Noisy:
         """
         wrong = rwn.StructuredNetwork.from_motor(motor, sample_time=T)
         spread = self.noise if source is self.speed else self.noise / np.sqrt(WIDTH)
-        scales = np.log2(StructuredSelection().zeta * np.ptp(source) / (SEEN * spread))
-        levels = int(np.clip(1 + scales, 2, StructuredSelection().levels))
-        enough = StructuredSelection(levels=levels, noise=self.noise)
-        for way, most in ((enough, MOST), (StructuredSelection(levels=levels), FEWEST)):
+        every = StructuredSelection()
+        scales = np.log2(every.zeta * np.ptp(source) / (SEEN * spread))
+        seen = replace(every, levels=int(np.clip(1 + scales, 2, every.levels)))
+        for way, most in ((replace(seen, noise=self.noise), MOST), (seen, FEWEST)):
             network = way.start(
                 wrong, self.voltage, self.speed, wavelets=most, linear=linear, network_speed=source
             )

@@ -1,0 +1,59 @@
+"""Which explanation is named, and what refuses a name."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import rwn
+from rwn import verdict
+from rwn.diagnosis import HeldoutRow
+from rwn.evidence import Hypothesis
+from rwn.explain import Explanation, explain
+from rwn.prepare import prepare
+from rwn.proof import LEFT_OUT
+
+DEMO = Path(rwn.__file__).parent / "demo"
+
+
+@pytest.fixture(scope="module")
+def found() -> Explanation:
+    model = rwn.read_model(DEMO / "model.toml")
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    return explain(
+        prepare([recording], model), progress=lambda *_: None, names=["coulomb-friction", "asymmetric-friction"]
+    )
+
+
+def _of(found: Explanation, name: str) -> Hypothesis:
+    return next(h for h in found.hypotheses if h.fitted.added == (name,))
+
+
+@pytest.mark.parametrize(("worse", "named"), [(1e-3, "coulomb-friction"), (1e-2, "asymmetric-friction")])
+def test_plain_friction_unless_its_elaboration_fits_better_than_the_simulation_is_exact(
+    found: Explanation, worse: float, named: str
+) -> None:
+    elaborate, plain = _of(found, "asymmetric-friction"), _of(found, "coulomb-friction")
+    minimum = replace(plain.fitted.minimum, chi2=(1.0 + worse) * elaborate.fitted.minimum.chi2)
+    plain = replace(plain, fitted=replace(plain.fitted, minimum=minimum), probability=0.01)
+    pair = (replace(elaborate, probability=0.99), plain, found.nothing_missing)
+    assert verdict.choose(replace(found, hypotheses=pair)).fitted.added == (named,)
+
+
+def _row(recording: str) -> HeldoutRow:
+    return HeldoutRow(
+        recording=recording, region="all", signal="speed", unit="rad/s", samples=100, nominal=1.0, refitted=1.0,
+        corrected=2.0, noise_floor=0.1, gain=-1.0, gain_interval=(-1.5, -0.5),
+    )  # fmt: skip
+
+
+def test_what_was_kept_back_refuses_a_name_and_a_part_left_out_does_not_where_it_explains_the_whole(
+    found: Explanation,
+) -> None:
+    name = _of(found, "coulomb-friction")
+    assert verdict.refused(found, name, [_row("heldout.csv")])
+    assert not verdict.refused(found, name, [_row(f"train.csv {LEFT_OUT}")])
+    explains_little = replace(name, fitted=found.nothing_missing.fitted)
+    assert verdict.refused(found, explains_little, [_row(f"train.csv {LEFT_OUT}")])
