@@ -51,7 +51,9 @@ std::pair<double, std::array<double, max_own_parameters>> evaluate_formula(
   std::array<S, formula_depth> stack;
   const auto length = static_cast<int>(effect.program.size());
   const S y = evaluate(effect.program.data(), length, static_cast<const S*>(p.data()), motor, x, stack.data());
-  return {y.v, y.d};
+  std::array<double, 8> slopes;
+  for (std::size_t k = 0; k < slopes.size(); ++k) slopes[k] = y.d[static_cast<int>(k)];
+  return {y.v, slopes};
 }
 
 }  // namespace

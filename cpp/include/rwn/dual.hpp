@@ -1,98 +1,139 @@
 // Forward-mode dual numbers: a value and its derivatives by N parameters, so that one set of equations gives both.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
+
+#define RWN_INLINE [[gnu::always_inline]] inline
 
 namespace rwn {
 
-/// No derivatives at all; takes no room (an empty std::array does).
-struct NoSlopes {
-  double& operator[](std::size_t) { __builtin_unreachable(); }
-  double operator[](std::size_t) const { __builtin_unreachable(); }
-  const double* begin() const { return nullptr; }
-  const double* end() const { return nullptr; }
+#if defined(__AVX512F__)
+inline constexpr int vector_width = 8;
+#elif defined(__AVX2__)
+inline constexpr int vector_width = 4;
+#else
+inline constexpr int vector_width = 2;
+#endif
+
+/// N derivatives (rounded up to whole vectors) in the processor's own vectors. In an array of numbers they would be
+/// copied in pieces that straddle what has just been stored, and wait for it every time.
+template <int N, class Isa>
+struct Slopes {
+  using Vector [[gnu::vector_size(vector_width * sizeof(double))]] = double;
+  static constexpr int count = (N + vector_width - 1) / vector_width;
+  Vector part[count]{};
+
+  double operator[](int k) const { return part[k / vector_width][k % vector_width]; }
+  void set(int k, double value) { part[k / vector_width][k % vector_width] = value; }
+  RWN_INLINE Slopes& operator+=(const Slopes& o) {
+    for (int k = 0; k < count; ++k) part[k] += o.part[k];
+    return *this;
+  }
+  RWN_INLINE Slopes& operator-=(const Slopes& o) {
+    for (int k = 0; k < count; ++k) part[k] -= o.part[k];
+    return *this;
+  }
+  RWN_INLINE friend Slopes operator+(Slopes a, const Slopes& b) { return a += b; }
+  RWN_INLINE friend Slopes operator-(Slopes a, const Slopes& b) { return a -= b; }
+  RWN_INLINE friend Slopes operator-(Slopes a) {
+    for (Vector& each : a.part) each = -each;
+    return a;
+  }
+  RWN_INLINE friend Slopes operator*(double factor, Slopes a) {
+    for (Vector& each : a.part) each *= factor;
+    return a;
+  }
 };
 
-/// Value `v` and partial derivatives `d[0..N)`. `Isa` is a tag that keeps instantiations of different instruction sets
-/// apart, so that the linker never merges them; N = 0 is a plain number at no cost.
+/// No derivatives at all; takes no room.
+template <class Isa>
+struct Slopes<0, Isa> {
+  double operator[](int) const { __builtin_unreachable(); }
+  void set(int, double) {}
+  RWN_INLINE Slopes& operator+=(Slopes) { return *this; }
+  RWN_INLINE Slopes& operator-=(Slopes) { return *this; }
+  RWN_INLINE friend Slopes operator+(Slopes, Slopes) { return {}; }
+  RWN_INLINE friend Slopes operator-(Slopes, Slopes) { return {}; }
+  RWN_INLINE friend Slopes operator-(Slopes) { return {}; }
+  RWN_INLINE friend Slopes operator*(double, Slopes) { return {}; }
+};
+
+/// Value `v` and partial derivatives `d[0..N)`. `Isa` is a tag that keeps instantiations of different
+/// instruction sets apart, so that the linker never merges them; N = 0 is a plain number at no cost.
 template <int N, class Isa>
 struct Dual {
+  [[no_unique_address]] Slopes<N, Isa> d{};
   double v = 0.0;
-  [[no_unique_address]] std::conditional_t<N == 0, NoSlopes, std::array<double, N>> d{};
 
   Dual() = default;
   Dual(double value) : v(value) {}  // NOLINT: constants mix with duals in the equations
 
   static Dual variable(double value, int index) {
     Dual x(value);
-    if (index >= 0 && index < N) {
-      x.d[static_cast<std::size_t>(index)] = 1.0;
-    }
+    if (index >= 0 && index < N) x.d.set(index, 1.0);
     return x;
   }
 
   /// f(x) given f and f' at the value.
-  Dual chain(double f, double slope) const {
+  RWN_INLINE Dual chain(double f, double slope) const {
     Dual y(f);
-    for (std::size_t k = 0; k < N; ++k) y.d[k] = slope * d[k];
+    y.d = slope * d;
     return y;
   }
 
   /// Slopes that are infinite or undefined (of a root or logarithm at zero) become 0.
   void clear_wild_slopes() {
-    for (std::size_t k = 0; k < N; ++k) d[k] = std::isfinite(d[k]) ? d[k] : 0.0;
+    for (int k = 0; k < N; ++k) d.set(k, std::isfinite(d[k]) ? d[k] : 0.0);
   }
 
-  Dual& operator+=(const Dual& o) {
+  RWN_INLINE Dual& operator+=(const Dual& o) {
     v += o.v;
-    for (std::size_t k = 0; k < N; ++k) d[k] += o.d[k];
+    d += o.d;
     return *this;
   }
-  Dual& operator-=(const Dual& o) {
+  RWN_INLINE Dual& operator-=(const Dual& o) {
     v -= o.v;
-    for (std::size_t k = 0; k < N; ++k) d[k] -= o.d[k];
+    d -= o.d;
     return *this;
   }
-  Dual& operator*=(const Dual& o) { return *this = *this * o; }
-  Dual& operator/=(const Dual& o) { return *this = *this / o; }
-  Dual& operator*=(double o) {
+  RWN_INLINE Dual& operator*=(const Dual& o) { return *this = *this * o; }
+  RWN_INLINE Dual& operator/=(const Dual& o) { return *this = *this / o; }
+  RWN_INLINE Dual& operator*=(double o) {
     v *= o;
-    for (std::size_t k = 0; k < N; ++k) d[k] *= o;
+    d = o * d;
     return *this;
   }
 
-  friend Dual operator+(Dual a, const Dual& b) { return a += b; }
-  friend Dual operator-(Dual a, const Dual& b) { return a -= b; }
-  friend Dual operator+(Dual a, double b) {
+  RWN_INLINE friend Dual operator+(Dual a, const Dual& b) { return a += b; }
+  RWN_INLINE friend Dual operator-(Dual a, const Dual& b) { return a -= b; }
+  RWN_INLINE friend Dual operator+(Dual a, double b) {
     a.v += b;
     return a;
   }
-  friend Dual operator+(double a, Dual b) { return b + a; }
-  friend Dual operator-(Dual a, double b) { return a + (-b); }
-  friend Dual operator-(double a, const Dual& b) {
+  RWN_INLINE friend Dual operator+(double a, Dual b) { return b + a; }
+  RWN_INLINE friend Dual operator-(Dual a, double b) { return a + (-b); }
+  RWN_INLINE friend Dual operator-(double a, const Dual& b) {
     Dual y(a - b.v);
-    for (std::size_t k = 0; k < N; ++k) y.d[k] = -b.d[k];
+    y.d = -b.d;
     return y;
   }
-  friend Dual operator-(const Dual& a) { return 0.0 - a; }
-  friend Dual operator*(const Dual& a, const Dual& b) {
+  RWN_INLINE friend Dual operator-(const Dual& a) { return 0.0 - a; }
+  RWN_INLINE friend Dual operator*(const Dual& a, const Dual& b) {
     Dual y(a.v * b.v);
-    for (std::size_t k = 0; k < N; ++k) y.d[k] = a.d[k] * b.v + a.v * b.d[k];
+    y.d = b.v * a.d + a.v * b.d;
     return y;
   }
-  friend Dual operator*(Dual a, double b) { return a *= b; }
-  friend Dual operator*(double a, Dual b) { return b *= a; }
-  friend Dual operator/(const Dual& a, const Dual& b) {
+  RWN_INLINE friend Dual operator*(Dual a, double b) { return a *= b; }
+  RWN_INLINE friend Dual operator*(double a, Dual b) { return b *= a; }
+  RWN_INLINE friend Dual operator/(const Dual& a, const Dual& b) {
     const double inverse = 1.0 / b.v;
     Dual y(a.v * inverse);
-    for (std::size_t k = 0; k < N; ++k) y.d[k] = (a.d[k] - y.v * b.d[k]) * inverse;
+    y.d = inverse * (a.d - y.v * b.d);
     return y;
   }
-  friend Dual operator/(const Dual& a, double b) { return a * (1.0 / b); }
-  friend Dual operator/(double a, const Dual& b) {
+  RWN_INLINE friend Dual operator/(const Dual& a, double b) { return a * (1.0 / b); }
+  RWN_INLINE friend Dual operator/(double a, const Dual& b) {
     const double inverse = 1.0 / b.v;
     return b.chain(a * inverse, -a * inverse * inverse);
   }
@@ -122,7 +163,7 @@ struct Dual {
     const double by_a = a.v != 0.0 ? b.v * f / a.v : b.v == 1.0 ? 1.0 : 0.0;
     const double by_b = a.v > 0.0 ? f * std::log(a.v) : 0.0;
     Dual y(f);
-    for (std::size_t k = 0; k < N; ++k) y.d[k] = by_a * a.d[k] + by_b * b.d[k];
+    y.d = by_a * a.d + by_b * b.d;
     return y;
   }
   friend Dual abs(const Dual& x) { return x.v < 0.0 ? -x : x; }
@@ -137,10 +178,12 @@ inline double value_of(double x) { return x; }
 /// True where no derivative is carried.
 template <int N, class Isa>
 bool is_constant(const Dual<N, Isa>& x) {
-  for (double slope : x.d) {
-    if (slope != 0.0) return false;
+  for (int k = 0; k < N; ++k) {
+    if (x.d[k] != 0.0) return false;
   }
   return true;
 }
+
+inline bool is_constant(double) { return true; }
 
 }  // namespace rwn

@@ -9,19 +9,26 @@
 
 namespace rwn {
 
+/// What moves within a step.
 template <class S, Kind kind>
-struct DriveState {
+struct MovingState {
   static constexpr int n = kind == Kind::dc ? 2 : 1;
   SmallVector<S, n> x{};  // current (dc only), speed
   S position{};
   std::array<S, max_hiddens> hidden{};
-  std::array<S, max_memories> memory{};
   double direction = 0.0;  // of sliding; 0 sticks
+};
+
+/// The same with what effects remember from step to step.
+template <class S, Kind kind>
+struct DriveState : MovingState<S, kind> {
+  std::array<S, max_memories> memory{};
 };
 
 template <class S, Kind kind>
 class Equations {
  public:
+  using Moving = MovingState<S, kind>;
   using State = DriveState<S, kind>;
   static constexpr int n = State::n;
   static constexpr std::size_t w = n - 1;  // index of speed in x
@@ -91,7 +98,7 @@ class Equations {
   int step_count(const State& s, double h) const {
     if (!rates_) return 1;
     Terms<S> t;
-    const Vector f = nonlinear(s, s.position, 0, t);
+    const Vector f = nonlinear(s, s.memory.data(), s.position, 0, t);
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
     double rate = winding_rate(t, h);
     const Motion<S> x = motion_of(s, s.position);
@@ -105,9 +112,9 @@ class Equations {
     return std::clamp(static_cast<int>(std::ceil(h * rate / angle_of_a_step)), 1, 16);
   }
 
-  /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step.
-  Vector nonlinear(const State& s, const S& start, int level, Terms<S>& t) const {
-    t = terms_of(s, start);
+  /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`, which is fresh.
+  Vector nonlinear(const Moving& s, const S* memory, const S& start, int level, Terms<S>& t) const {
+    put_terms(t, s, memory, start);
     Vector f;
     if constexpr (kind == Kind::dc) {
       const S back_emf = motor_[back_emf_constant] * s.x[1];
@@ -143,7 +150,7 @@ class Equations {
 
   double acceleration(const State& s) const {
     Terms<S> t;
-    const Vector f = nonlinear(s, s.position, 0, t);
+    const Vector f = nonlinear(s, s.memory.data(), s.position, 0, t);
     return value_of(f[w]) + value_of(linear_acceleration(s));
   }
 
@@ -198,7 +205,7 @@ class Equations {
     return 0.0;
   }
 
-  Motion<S> motion_of(const State& s, const S& start) const {
+  Motion<S> motion_of(const Moving& s, const S& start) const {
     Motion<S> x;
     x.time = time_;
     x.direction = s.direction;
@@ -216,19 +223,23 @@ class Equations {
 
   Terms<S> terms_of(const State& s, const S& start) const {
     Terms<S> t;
+    put_terms(t, s, s.memory.data(), start);
+    return t;
+  }
+
+  void put_terms(Terms<S>& t, const Moving& s, const S* memory, const S& start) const {
     t.friction = base_friction_;
     Motion<S> x = motion_of(s, start);
     for (int k = 0; k < count_; ++k) {
       if (effects_[k].own != nullptr) effects_[k].own->apply(effects_[k].p, motor_, x, t);
       if (effects_[k].call.apply == nullptr) continue;
-      x.memory = s.memory.data() + effects_[k].memory;
+      x.memory = memory + effects_[k].memory;
       effects_[k].call.apply(effects_[k].p, motor_, x, t);
     }
     if (pendulum_) {
       using std::sin;
       t.torque -= motor_[pendulum_torque] * sin(s.position);
     }
-    return t;
   }
 
   /// Terms of sliding in `direction` where they depend on nothing else; made once.
@@ -244,12 +255,12 @@ class Equations {
     return c;
   }
 
-  S drive_torque(const State& s, const Terms<S>& t) const {
+  S drive_torque(const Moving& s, const Terms<S>& t) const {
     if constexpr (kind == Kind::dc) return motor_[torque_constant] * t.flux * s.x[0];
     return input_ * t.flux;
   }
 
-  S linear_acceleration(const State& s) const {
+  S linear_acceleration(const Moving& s) const {
     S torque = -(motor_[viscous_friction] * s.x[w]);
     if constexpr (kind == Kind::dc) torque += motor_[torque_constant] * s.x[0];
     return torque * inverse_inertia_;

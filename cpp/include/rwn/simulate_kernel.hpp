@@ -234,7 +234,7 @@ class Simulation {
       if (slopes == nullptr) return;
       const int count = std::min(N, slice_.columns - slice_.column);
       double* row = slopes + static_cast<std::ptrdiff_t>(k) * slice_.columns + slice_.column;
-      for (int j = 0; j < count; ++j) row[j] = y.d[static_cast<std::size_t>(j)];
+      for (int j = 0; j < count; ++j) row[j] = y.d[j];
     }
   }
 

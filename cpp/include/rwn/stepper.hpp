@@ -11,6 +11,7 @@ namespace rwn {
 template <class S, Kind kind>
 class Stepper {
  public:
+  using Moving = MovingState<S, kind>;
   using State = DriveState<S, kind>;
   using Vector = typename Equations<S, kind>::Vector;
   using Matrix = typename Equations<S, kind>::Matrix;
@@ -50,16 +51,17 @@ class Stepper {
     const int level = equations_.choose_level(s);
     const auto& o = operators_.over(h, level, stick);
     const S& start = s.position;
+    const S* memory = s.memory.data();  // as of the start of the step
     Terms<S> t0, ta, tb, tc;
-    const Vector f0 = equations_.nonlinear(s, start, level, t0);
-    const State a = stage(s, o.eh, s.x, o.p1h, f0, 0.5 * h, s.x[w], t0);
-    const Vector fa = equations_.nonlinear(a, start, level, ta);
-    const State b = stage(s, o.eh, s.x, o.p1h, fa, 0.5 * h, a.x[w], ta);
-    const Vector fb = equations_.nonlinear(b, start, level, tb);
+    const Vector f0 = equations_.nonlinear(s, memory, start, level, t0);
+    const Moving a = stage(s, o.eh, s.x, o.p1h, f0, 0.5 * h, s.x[w], t0);
+    const Vector fa = equations_.nonlinear(a, memory, start, level, ta);
+    const Moving b = stage(s, o.eh, s.x, o.p1h, fa, 0.5 * h, a.x[w], ta);
+    const Vector fb = equations_.nonlinear(b, memory, start, level, tb);
     Vector mixed = fb;
     for (std::size_t j = 0; j < n; ++j) mixed[j] = 2.0 * fb[j] - f0[j];
-    const State c = stage(s, o.eh, a.x, o.p1h, mixed, h, b.x[w], tb);
-    const Vector fc = equations_.nonlinear(c, start, level, tc);
+    const Moving c = stage(s, o.eh, a.x, o.p1h, mixed, h, b.x[w], tb);
+    const Vector fc = equations_.nonlinear(c, memory, start, level, tc);
 
     State next = s;
     next.x = Vector{};
@@ -80,15 +82,15 @@ class Stepper {
     return next;
   }
 
-  State stage(const State& s, const Matrix& e, const Vector& from, const Matrix& p1, const Vector& f, const S& h,
-              const S& speed, const Terms<S>& t) const {
-    State r = s;
-    r.x = Vector{};
+  Moving stage(const Moving& s, const Matrix& e, const Vector& from, const Matrix& p1, const Vector& f, const S& h,
+               const S& speed, const Terms<S>& t) const {
+    Moving r;
+    r.direction = s.direction;
     add_product<S, n>(r.x, e, from);
     add_product<S, n>(r.x, p1, f);
-    r.position += h * speed;
+    r.position = s.position + h * speed;
     if (equations_.hiddens()) {
-      for (std::size_t k = 0; k < r.hidden.size(); ++k) r.hidden[k] += h * t.hidden_rate[k];
+      for (std::size_t k = 0; k < r.hidden.size(); ++k) r.hidden[k] = s.hidden[k] + h * t.hidden_rate[k];
     }
     return r;
   }

@@ -90,15 +90,6 @@ class TransferFunction {
     }
   }
 
-  static bool is_constant(const S& x) {
-    if constexpr (requires { x.d; }) {
-      for (double slope : x.d) {
-        if (slope != 0.0) return false;
-      }
-    }
-    return true;
-  }
-
   /// Steps of constant length are kept; those whose length carries derivatives (an input delay) are made anew.
   const Step& step_of(const S& h) {
     const double length = value_of(h);

@@ -40,7 +40,10 @@ class Scene:
         return plant
 
     def run(self, experiments: Sequence[Experiment], plant: Values) -> list[Trace]:
-        traces = [self.setup.run(experiment, plant) for experiment in experiments]
+        try:
+            traces = [self.setup.run(experiment, plant) for experiment in experiments]
+        except ValueError as error:  # two effects that leave no inertia on the motor side
+            raise UnsuitableError("no such machine") from error
         top = 3.0 * self.situation.voltage / self.setup.motor.torque_constant
         if not all(np.all(np.isfinite(t.speed)) and np.max(np.abs(t.speed)) < top for t in traces):
             raise UnsuitableError("the drive runs away")

@@ -60,6 +60,8 @@ class _Composer:
         plant = self.scene.plant(cast)
         train = self.scene.run(self.scene.train, plant)
         heldout = self.scene.run(self.scene.heldout, plant)
+        if not all(np.ptp(t.speed) > 0.0 for t in heldout):
+            raise UnsuitableError("a held-out run never moves")
         fit = refit(self.scene, train, noise)
         if len(cast) > 1:
             self._both_needed(cast, train, noise)
