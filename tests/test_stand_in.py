@@ -45,7 +45,7 @@ def waved() -> rwn.Diagnosis:
 def test_a_torque_without_a_name_is_corrected_by_a_network(waved: rwn.Diagnosis) -> None:
     assert waved.verdict == "unexplained"
     assert waved.effects == ()
-    assert waved.stand_in == "a torque over speed"
+    assert waved.stand_in == "a wavelet network, a torque over speed"
     rows = [r for r in waved.heldout if r.region == "all"]
     assert {r.signal for r in rows} == {"speed", "current"}
     for row in rows:
@@ -76,7 +76,7 @@ def test_the_network_is_an_own_effect_of_the_file(waved: rwn.Diagnosis, tmp_path
 def test_the_sentence_says_so(waved: rwn.Diagnosis) -> None:
     text = words.verdict_sentence(waved)
     assert "no name" in text
-    assert "wavelet network stands for it, a torque over speed" in text
+    assert "stands for it: a wavelet network, a torque over speed" in text
     assert "reduces" in text
 
 

@@ -23,7 +23,7 @@ from rwn.model import Model
 from rwn.prepare import prepare, proof_target
 from rwn.proof import LEFT_OUT, proved
 from rwn.recording import Recording
-from rwn.refuse import without_what_hurts
+from rwn.refuse import heldout_error, removed_certainly, without_what_hurts
 from rwn.stand_in import picture, proved_stand_in
 from rwn.unknown_law import laws
 from rwn.verdict import choose, is_certain, refused, verdict_of, verdict_without_a_name, whole
@@ -68,32 +68,46 @@ def diagnose(
     chosen = choose(found)
     if proof:
         chosen = without_what_hurts(
-            found.hypotheses, chosen, lambda h: proved(found, h, proof, model, seed=seed)
+            found.hypotheses, chosen, lambda h: proved(found, h, proof, model, seed=seed, jobs=jobs)
         )
-    rows = proved(found, chosen, proof, model, seed=seed)
+    rows = proved(found, chosen, proof, model, seed=seed, jobs=jobs)
     verdict = verdict_of(found, chosen, certain=is_certain(rows))
+    partly = None
     if chosen.fitted.added and (verdict != "missing-physics" or refused(found, chosen, rows)):
-        # a name that is not given is not shown, proved or written to corrected.toml either
+        # a name that is not given is not shown or proved; it may still stand in for what has no name
+        partly = (chosen, rows) if is_certain(rows) else None
         chosen = found.nothing_missing
         verdict = verdict if verdict == "unexplained" else verdict_without_a_name(found)
-        rows = proved(found, chosen, proof, model, seed=seed)
+        rows = proved(found, chosen, proof, model, seed=seed, jobs=jobs)
     network = None
     if verdict == "unexplained":
         say("drawing what has no name", 0.9)
         network = proved_stand_in(found, model, proof, seed=seed, jobs=jobs)
+        if partly and heldout_error(partly[1]) <= heldout_error(network[1] if network else rows):
+            network, (chosen, rows) = None, partly
     if network:
         drawn, rows = network
         found, chosen, model = drawn.found, drawn.chosen, drawn.model
     say("drawing", 0.95)
     report = _report(found, chosen, verdict, made, rows, model, seed, time.perf_counter() - began)
     if network:
-        return replace(report, stand_in=drawn.place.words, curves=(*report.curves, picture(drawn)))
+        return replace(
+            report, stand_in=f"a wavelet network, {drawn.place.words}", curves=(*report.curves, picture(drawn))
+        )
+    if verdict == "unexplained" and chosen.fitted.added:
+        return replace(report, stand_in=_leading(chosen, rows))
     without = (NO_NETWORK,) if verdict == "unexplained" and model.kind != "lti" else ()
     return replace(report, warnings=(*report.warnings, *without))
 
 
 def _silent(what: str, done: float) -> None:
     """Progress that nobody asked for."""
+
+
+def _leading(chosen: Hypothesis, rows: Sequence[HeldoutRow]) -> str:
+    """A name that explains a good part and not the whole."""
+    part = f"{removed_certainly(rows):.0%}"
+    return f"{' + '.join(chosen.fitted.added)}, proved to remove {part} of the held-out squared error and not the whole"
 
 
 def _explained(

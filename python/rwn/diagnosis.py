@@ -178,7 +178,7 @@ class Diagnosis:
     seed: int = 0
     version: str = ""
     elapsed: float = 0.0  # [s]; like command, left out of the JSON
-    stand_in: str = ""  # where nothing has a name: what the wavelet network in corrected.toml is, "a torque over speed"
+    stand_in: str = ""  # what stands in corrected.toml for what has no name: "a wavelet network, a torque over speed"
     corrected: Any = None  # the corrected rwn.Model; written to corrected.toml, left out of the JSON
 
     def to_json(self) -> bytes:

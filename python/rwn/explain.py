@@ -16,6 +16,7 @@ from rwn.prepare import Setup, noise_levels, windowed
 from rwn.rounding import as_shown, steps_shown, unrounded_fits
 from rwn.search import Fitted, Search, foremost
 from rwn.temper import tempered
+from rwn.threads import side_by_side
 from rwn.tracks import retracked
 
 Progress = Callable[[str, float], None]
@@ -25,7 +26,7 @@ MOST_EFFECTS = 3
 FAR_OFF = 100.0  # squared error in units of the noise, from which short windows are tried too
 PATIENCE = 4  # in short windows, where the misfit is large and the first steps of a fit are short
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
-HALF_A_TURN = 0.5  # travel in revolutions, from which a law of the angle is more than a load and a spring
+HALF_A_TURN = 0.5  # travel in revolutions, from which a torque of the angle is more than a load and a spring
 PLAIN = "coulomb-friction"  # what the other laws of dry friction elaborate
 
 
@@ -121,7 +122,7 @@ def _by_windows(search: Search, nominal: Fitted, wanted: Sequence[str]) -> list[
     windows = replace(search, problem=replace(search.problem, targets=targets), patience=PATIENCE)
     windows = _with_noise(windows, windows.refit(nominal, windows.problem))
     fits = windows.explain(windows.refit(nominal, windows.problem), wanted)
-    return [search.refit(f, search.problem) for f in fits]
+    return search.refit_all(fits)
 
 
 def _beside(search: Search, layer: Sequence[Fitted], wanted: Sequence[str], fits: Sequence[Fitted]) -> list[Fitted]:
@@ -146,6 +147,8 @@ def _applies(name: str, setup: Setup) -> bool:
     if any(p.lattice for p in effect.parameters):
         return False  # read off the values, not fitted
     if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
+        if any(p.replaces for p in effect.parameters) and setup.problem.angle_per_position == 1.0:
+            return True  # of a shaft that rubs, a part of a turn shows where it rubs more
         return _revolutions(setup) > HALF_A_TURN
     if name == "viscous-friction":
         return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
@@ -192,8 +195,8 @@ def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Se
     change = max(change, abs(np.log(other.problem.colour / search.problem.colour)) / 30.0)
     if change < 0.03:
         return search, nominal, fits
-    again = [other.refit(f, other.problem) for f in [nominal, *foremost(fits)]]
-    return other, again[0], sorted(again[1:], key=lambda f: f.cost)
+    first, *rest = other.refit_all([nominal, *foremost(fits)])
+    return other, first, sorted(rest, key=lambda f: f.cost)
 
 
 def _simpler(search: Search, best: Fitted) -> list[Fitted]:
@@ -205,12 +208,13 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
         return []
     sets = [best.added, *(tuple(n for n in best.added if n != name) for name in best.added)]
     plain = [tuple(sorted(plainer(names))) for names in sets]
-    found = []
-    for names in dict.fromkeys([*sets[1:], *plain]):
+
+    def less(names: tuple[str, ...]) -> Fitted:
         starts = {n: _values(best, n) for n in names if n in best.added}
-        less = candidate(search.nominal, names, search.scales, starts, _motor(best))
-        found.append(Fitted(added=names, candidate=less, minimum=fit(search.problem, less)))
-    return found
+        this = candidate(search.nominal, names, search.scales, starts, _motor(best))
+        return Fitted(added=names, candidate=this, minimum=fit(search.problem, this))
+
+    return side_by_side(less, dict.fromkeys([*sets[1:], *plain]), jobs=search.jobs)
 
 
 def _replaces(name: str) -> set[str]:

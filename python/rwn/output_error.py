@@ -128,6 +128,10 @@ class OutputError:
             found.append({s: target.signal(s) - out[s] for s in target.recorded})
         return found
 
+    def error(self, vector: Array, active: Sequence[int]) -> float:
+        """Weighted squared error; infinite where a run diverged."""
+        return self.normal(vector, active, ()).chi2
+
     def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations by the parameters `by`, summed over the recordings."""
         chi2, count, gradient, curvature = 0.0, 0, np.zeros(len(by)), np.zeros((len(by), len(by)))

@@ -14,8 +14,10 @@ from rwn.heldout import Contender, heldout_rows
 from rwn.model import Model
 from rwn.output_error import OutputError, Target
 from rwn.search import Fitted, Search
+from rwn.threads import side_by_side
 
 Again = Callable[[OutputError], tuple[Explanation, Fitted] | None]
+Fold = tuple[OutputError, Target, int]  # what is fitted, what is simulated, first sample that was not fitted
 
 LEFT_OUT = "(left out)"  # marks what a fold did not fit
 FITTED_PART = 0.7  # of a lone recording, when its rest has to serve as proof
@@ -23,27 +25,30 @@ FITTED_PART = 0.7  # of a lone recording, when its rest has to serve as proof
 
 def proved(
     found: Explanation, chosen: Hypothesis, heldout: Sequence[Target], model: Model, *, seed: int,
-    again: Again | None = None,
+    again: Again | None = None, jobs: int = 1,
 ) -> tuple[HeldoutRow, ...]:  # fmt: skip
     """Rows on the held-out recordings; without any, every recording is judged by fits that did not see it.
 
-    `again`: how the correction is found anew from some of the recordings (default: its parameters are fitted anew).
+    `again`: how the correction is found anew from some of the recordings (default: its parameters are fitted anew);
+    nothing is proved where it finds none.
     """
     if heldout:
         return _rows(found, found.nominal, chosen.fitted, heldout, model, seed=seed)
-    rows: list[HeldoutRow] = []
-    for problem, target, first in _folds(found):
+
+    def fold(case: Fold) -> tuple[HeldoutRow, ...] | None:
+        problem, target, first = case
         if again is not None:
             other = again(problem)
             if other is None:
-                return ()
-            rows += _rows(other[0], other[0].nominal, other[1], [target], model, seed=seed, first=first)
-            continue
+                return None
+            return _rows(other[0], other[0].nominal, other[1], [target], model, seed=seed, first=first)
         search = Search.of(found.setup, problem=problem)
         nominal = search.refit(found.nominal, problem)
         fitted = search.refit(chosen.fitted, problem) if chosen.fitted.added else chosen.fitted
-        rows += _rows(found, nominal, fitted, [target], model, seed=seed, first=first)
-    return tuple(rows)
+        return _rows(found, nominal, fitted, [target], model, seed=seed, first=first)
+
+    parts = side_by_side(fold, _folds(found), jobs=jobs)
+    return tuple(row for part in parts for row in part or ()) if None not in parts else ()
 
 
 def hurts(rows: Sequence[HeldoutRow]) -> bool:
@@ -81,8 +86,8 @@ def _contender(fitted: Fitted) -> Contender:
     return Contender(vector=fitted.vector, active=tuple(fitted.candidate.active))
 
 
-def _folds(found: Explanation) -> Iterator[tuple[OutputError, Target, int]]:
-    """(what is fitted, what is simulated, first sample that was not fitted), one recording left out at a time."""
+def _folds(found: Explanation) -> Iterator[Fold]:
+    """One recording left out at a time, or the last part of a lone one."""
     problem, whole = found.setup.problem, found.setup.whole
     if len(whole.targets) > 1:
         for k, target in enumerate(whole.targets):

@@ -52,9 +52,7 @@ def _without_derivatives(problem: OutputError, this: Candidate, values: Array) -
         return moved
 
     def error(z: Array) -> float:
-        residuals = problem.residuals(this.with_values(put(z)), this.active)
-        with np.errstate(over="ignore"):  # a run that diverged is infinitely wrong
-            return sum(float(np.sum((r / problem.noise[s]) ** 2)) for each in residuals for s, r in each.items())
+        return problem.error(this.with_values(put(z)), this.active)
 
     first = np.log(values[where])
     corners = np.vstack([first, first - FIRST * np.eye(len(where))])

@@ -8,6 +8,7 @@ from dataclasses import replace
 from rwn.output_error import OutputError
 from rwn.quantisation import coarse_steps, noise_before_rounding, unrounded
 from rwn.search import Fitted, Search, foremost
+from rwn.threads import side_by_side
 
 ROUNDS = 6  # fits, each to the speed less the rounding error of the last
 
@@ -30,7 +31,9 @@ def unrounded_fits(
         noise_before_rounding(t, r["speed"], step)
         for t, r, step in zip(problem.targets, residuals, steps, strict=True)
     ]
-    settled = [_settled(search, f, problem, steps, noises) for f in (nominal, *foremost(fits))]
+    settled = side_by_side(
+        lambda f: _settled(search, f, problem, steps, noises), (nominal, *foremost(fits)), jobs=search.jobs
+    )
     _, on = min(settled, key=lambda pair: pair[0].cost)
     return replace(search, problem=on), settled[0][0], sorted((f for f, _ in settled[1:]), key=lambda f: f.cost)
 

@@ -40,6 +40,7 @@ KEPT = 12  # explanations that are worth fitting again
 IDLE = 1e-9  # strength, relative to its upper limit, that is none
 LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 GLANCE = 2500  # samples on which starts of one effect are told apart
+SIGHTED = 4  # starts of a periodic effect that are worth an iteration, of each order
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 
 
@@ -141,8 +142,19 @@ class Search:
         if not crowded:
             return list(racers)
         part = replace(self.problem, targets=tuple(self._parts(base)))
+        crowded = self._sighted(crowded, part)
         rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
         return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
+
+    def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
+        """Of the starts of a periodic effect the SIGHTED best of each order, before anything is fitted."""
+        periodic = [r for r in racers if r.order]
+        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), periodic, jobs=self.jobs)
+        groups: dict[tuple[str, float], list[tuple[float, int]]] = {}
+        for k, (racer, cost) in enumerate(zip(periodic, ends, strict=True)):
+            groups.setdefault(_kind(racer), []).append((cost, k))
+        best = {k for group in groups.values() for _, k in sorted(group)[:SIGHTED]}
+        return [*(r for r in racers if not r.order), *(r for k, r in enumerate(periodic) if k in best)]
 
     def _parts(self, base: Fitted) -> Iterator[Target]:
         """The beginning of every recording: GLANCE samples in all, or until enough of what `base` leaves is in it."""
@@ -178,6 +190,10 @@ class Search:
         """The same explanation fitted to another problem (other weights, other recordings)."""
         start = this.candidate.starting_at(this.minimum.values)
         return Fitted(added=this.added, candidate=start, minimum=fit(problem, start))
+
+    def refit_all(self, these: Sequence[Fitted]) -> list[Fitted]:
+        """Explanations of another search fitted to this one's problem."""
+        return side_by_side(lambda this: self.refit(this, self.problem), these, jobs=self.jobs)
 
     def _starts(self, base: Fitted, name: str, *, orders: int) -> list[Racer]:
         effect = self.nominal.table[name]

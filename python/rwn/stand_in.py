@@ -89,7 +89,7 @@ def proved_stand_in(
         other = _refitted_to(problem, found, model, made.place)
         return (other.found, other.chosen.fitted) if other else None
 
-    rows = proved(made.found, made.chosen, heldout, made.model, seed=seed, again=again)
+    rows = proved(made.found, made.chosen, heldout, made.model, seed=seed, again=again, jobs=jobs)
     return (made, rows) if _helps(rows) else None
 
 

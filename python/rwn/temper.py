@@ -15,16 +15,24 @@ from rwn import evidence
 from rwn.search import Fitted, Search
 
 BELIEVABLE = 4.0  # declared standard deviations that a parameter may move
+WHITE = 2.0  # variance times correlation time below which nothing but noise is left
 
 
 def tempered(search: Search, fitted: Fitted) -> Search:
     """`search` with priors weighed against what `fitted` leaves, once a fit has left what is believable."""
     if search.problem.colour == 1.0 and farthest(fitted) < BELIEVABLE:
         return search
-    left = evidence.statistics(search.problem, fitted)
-    colour = max(1.0, left.variance * left.correlation_time)
+    colour = _colour(search, fitted)
+    free = search.refit(fitted, replace(search.problem, colour=1.0))
+    if _colour(search, free) < WHITE:  # what was left were the priors' own doing
+        colour = 1.0
     # exactly 1 would forget that the fits had run away once
     return replace(search, problem=replace(search.problem, colour=max(colour, 1.0 + 1e-9)))
+
+
+def _colour(search: Search, fitted: Fitted) -> float:
+    left = evidence.statistics(search.problem, fitted)
+    return max(1.0, left.variance * left.correlation_time)
 
 
 def farthest(fitted: Fitted) -> float:

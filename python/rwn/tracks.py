@@ -34,9 +34,8 @@ def retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Sear
         other, again = free, freed
     if other is search:
         return search, nominal, fits
-    first = other.refit(nominal, other.problem)
-    rest = [again if f is best else other.refit(f, other.problem) for f in foremost(fits)]
-    return other, first, sorted(rest, key=lambda f: f.cost)
+    first, *rest = other.refit_all([nominal, *(f for f in foremost(fits) if f is not best)])
+    return other, first, sorted([again, *rest], key=lambda f: f.cost)
 
 
 def _on_its_own(target: Target) -> Target:

@@ -152,7 +152,7 @@ def _adequate(found: Diagnosis) -> str:
 
 def _unexplained(found: Diagnosis) -> str:
     what = found.location.description or f"something in the {found.equation} equation"
-    drawn = f" In corrected.toml a wavelet network stands for it, {found.stand_in}." if found.stand_in else ""
+    drawn = f" In corrected.toml stands for it: {found.stand_in}." if found.stand_in else ""
     return f"Something is missing that has no name here: {what}.{drawn}{_gain(found)}"
 
 

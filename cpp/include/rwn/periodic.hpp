@@ -13,6 +13,12 @@ inline constexpr Parameter peak_torque{.name = "amplitude",
                                        .start = 0.03,
                                        .scale = Scale::torque,
                                        .strength = true};
+/// The same, tried from weak to strong: a strong one traps the motor, and no small step leads there.
+inline constexpr Parameter any_peak_torque = [] {
+  Parameter p = peak_torque;
+  p.scan = {0.03, 0.15, 0.6};
+  return p;
+}();
 inline constexpr Parameter phase{.name = "phase",
                                  .unit = "rad",
                                  .meaning = "at position 0",

@@ -9,7 +9,7 @@ struct CoggingTorque {
   static constexpr EffectInfo info{"cogging-torque", Site::torque, "T = -A sin(N theta + p)",
                                    "torque of the magnets on the slots, or a position-periodic force",
                                    "Gieras, Permanent Magnet Motor Technology, ch. 6"};
-  static constexpr std::array parameters{periodic::peak_torque,
+  static constexpr std::array parameters{periodic::any_peak_torque,
                                          Parameter{.name = "periods_per_rev",
                                                    .unit = "1",
                                                    .meaning = "periods per revolution (per metre on a linear axis)",

@@ -11,10 +11,10 @@ struct VoltageSaturation {
                                                    .unit = "V",
                                                    .meaning = "largest voltage",
                                                    .lower = 0.05,
-                                                   .upper = 1.0,
+                                                   .upper = 1.5,  // the scale leaves out the highest peaks
                                                    .start = 0.8,
                                                    .scale = Scale::voltage,
-                                                   .scan = {0.5, 0.7, 0.85, 0.95},
+                                                   .scan = {0.5, 0.7, 0.85, 0.95, 1.02},
                                                    .strength = true}};
   static constexpr bool varies = false;
 
