@@ -12,8 +12,10 @@ import rwn
 from rwn import evidence, hints
 from rwn.candidate import candidate, fit
 from rwn.explain import explain
+from rwn.model import Model
 from rwn.prepare import Setup, prepare
 from rwn.search import Fitted, Search
+from rwn.temper import tempered
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -99,3 +101,41 @@ def test_explanations_are_reported_best_first(setup: Setup) -> None:
     assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
     assert [h.score for h in found.hypotheses] == sorted((h.score for h in found.hypotheses), reverse=True)
     assert not any(h.fitted.limits_met for h in found.hypotheses)
+
+
+def test_priors_give_way_where_nothing_but_noise_is_left() -> None:
+    """A data sheet that is wrong by nine standard deviations, and a fit that weak priors leave at the noise."""
+    motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
+             "inertia": 2e-5, "viscous_friction": 2e-5}  # fmt: skip
+    sheet = Model(
+        kind="dc", parameters={**motor, "viscous_friction": 2e-5 * np.exp(0.9)}, uncertainty={"viscous_friction": 0.1}
+    )
+    rng = np.random.default_rng(5)
+    time = 1e-3 * np.arange(3000)
+    voltage = 3.0 * np.repeat(rng.uniform(-1.0, 1.0, 60), 50)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    speed = rwn.simulate(Model(kind="dc", parameters=motor), run).signals["speed"]
+    noisy = replace(run, signals={"voltage": voltage, "speed": speed + 0.05 * rng.standard_normal(time.size)})
+    search = Search.of(prepare([noisy], sheet))
+    for noise, gives_way in ((0.05, True), (0.01, False)):  # at the noise, and where something is missing
+        strong = replace(search, problem=replace(search.problem, noise={"speed": noise}, colour=1000.0))
+        left = tempered(strong, strong.fit_nominal()).problem.colour
+        assert (left < 1.1) == gives_way
+
+
+def test_a_strong_cog_is_found() -> None:
+    motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
+             "inertia": 2e-5, "viscous_friction": 2e-5}  # fmt: skip
+    cog = {"amplitude": 0.012, "periods_per_rev": 7.0, "phase": 2.3}
+    time = 5e-4 * np.arange(4000)
+    voltage = 2.0 * np.sin(2 * np.pi * 1.5 * time)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    seen = rwn.simulate(Model(kind="dc", parameters=motor, effects={"cogging-torque": cog}), run).signals
+    rng = np.random.default_rng(3)
+    noisy = {s: seen[s] + 0.01 * np.std(seen[s]) * rng.standard_normal(time.size) for s in ("current", "speed")}
+    recorded = replace(run, signals={"voltage": voltage, **noisy, "position": seen["position"]})
+    sheet = Model(kind="dc", parameters=motor, uncertainty={"viscous_friction": 0.3, "inertia": 0.1})
+    found = explain(prepare([recorded], sheet), progress=_silent, names=["cogging-torque", "coulomb-friction"])
+    best = found.hypotheses[0].fitted
+    assert best.added == ("cogging-torque",)
+    assert best.value("cogging-torque.amplitude") == pytest.approx(cog["amplitude"], rel=0.02)

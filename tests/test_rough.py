@@ -7,11 +7,12 @@ import pytest
 
 import rwn
 from rwn.candidate import Candidate, candidate, fit
+from rwn.correct import IDEALISED, estimates
 from rwn.model import Model
 from rwn.output_error import OutputError
 from rwn.prepare import prepare
 from rwn.rough import rough, settled
-from rwn.search import Search
+from rwn.search import Fitted, Search
 
 MOTOR = {"resistance": 1.1, "inductance": 4e-4, "torque_constant": 0.037, "back_emf_constant": 0.037,
          "inertia": 2.8e-5, "viscous_friction": 4e-6}  # fmt: skip
@@ -55,3 +56,13 @@ def test_a_turn_never_loses(search: Search) -> None:
     problem, this = _start(search, "backlash", PLAY)
     best = fit(problem, this, max_iterations=0)
     assert settled(problem, this, best, turns=1).cost <= best.cost
+
+
+def test_no_interval_of_a_contact_is_narrower_than_the_contact_is_exact(search: Search) -> None:
+    problem, this = _start(search, "backlash", PLAY)
+    fitted = Fitted(added=("backlash",), candidate=this, minimum=fit(problem, this))
+    found = estimates(fitted, 1.0, 1.0)
+    gap = found["backlash.gap"]
+    assert gap.interval is not None
+    assert gap.interval[0] < PLAY["gap"] < gap.interval[1]
+    assert np.log(gap.interval[1] / gap.interval[0]) > 2 * 1.96 * IDEALISED

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,11 @@ def wavy(speed: float, _: float) -> float:
 def once_a_turn(_: float, angle: float) -> float:
     """A catch at one angle, much narrower than any sine."""
     return -0.08 * float(np.sin(angle) * np.exp(-((np.sin(angle / 2.0) / 0.2) ** 2)))
+
+
+def rubbing_and_caught(speed: float, angle: float) -> float:
+    """Dry friction beside a torque that depends on speed and angle at once."""
+    return -0.03 * float(np.tanh(speed / 0.3)) - 0.1 * float(np.sin(speed / 9.0) * np.sin(7 * angle))
 
 
 @pytest.fixture(scope="module")
@@ -108,6 +114,21 @@ def test_a_network_that_does_not_help_elsewhere_is_not_kept() -> None:
     found = explain(prepare(runs[:2], NOMINAL), progress=_silent, names=NONE)
     assert stand_in(found, NOMINAL) is not None
     assert proved_stand_in(found, NOMINAL, [proof_target(runs[2], NOMINAL)], seed=0) is None
+
+
+def test_a_name_that_is_proved_and_not_the_whole_stands_in(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(import_module("rwn.diagnose"), "proved_stand_in", lambda *_, **__: None)
+    runs = [recorded(seed, rubbing_and_caught, samples=1200) for seed in range(3)]
+    found = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
+    assert found.verdict == "unexplained"
+    assert found.effects == (), "it is not named"
+    assert found.stand_in.startswith("coulomb-friction, proved to remove")
+    assert list(found.corrected.effects) == ["coulomb-friction"]
+    assert all(r.gain is not None and r.gain > 0.1 for r in found.heldout if r.region == "all")
+    assert "stands for it: coulomb-friction" in words.verdict_sentence(found)
+    alone = rwn.diagnose(runs[:2], NOMINAL, jobs=1)
+    assert alone.stand_in == "", "only held-out recordings prove it"
+    assert not alone.corrected.effects
 
 
 def test_without_held_out_recordings_it_is_learned_anew_for_each() -> None:

@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 import rwn.trials.demo as demo
 from rwn.trials import score, tables
 from rwn.trials.adapter import heldout_files, simulated_file, train_files
+from rwn.trials.aim import UnsuitableError
 from rwn.trials.bench import Experiment, Noise, Setup, encoder
 from rwn.trials.cli import app
 from rwn.trials.conceal import SINGLE
@@ -28,6 +29,7 @@ from rwn.trials.motors import MOTORS, plant_of
 from rwn.trials.plan import SHARES, Plan, plans, redealt
 from rwn.trials.plant import simulate
 from rwn.trials.run import run
+from rwn.trials.scene import draw_scene
 from rwn.trials.seal import ANSWERS, SealBrokenError, seal, unseal
 from rwn.trials.trial import make_trial
 
@@ -328,3 +330,17 @@ def test_effects_that_no_bench_shows_are_dealt_again() -> None:
         assert (other.mode, other.visibility, other.name) == (plan.mode, plan.visibility, plan.name)
         assert len(other.effects) == len(plan.effects)
         assert (other.effects != plan.effects) == bool(plan.effects)
+
+
+def test_a_machine_that_cannot_be_is_drawn_again() -> None:
+    """Two effects may leave no inertia on the motor side (trial 45 of seed 10013)."""
+    scene, _ = draw_scene(np.random.default_rng(1), (0, 1, 1), [])
+    nothing_left = scene.plant([]) | {"load_inertia": 2.0 * scene.true["inertia"]}
+    with pytest.raises(UnsuitableError, match="no such machine"):
+        scene.run(scene.train, nothing_left)
+
+
+def test_held_out_runs_move() -> None:
+    """A held-out run of trial 22 of seed 10014 once stood still: it proves nothing."""
+    trial = make_trial(plans(10014, 60)[21])
+    assert all(np.ptp(r.speed) > 0.0 for r in (*trial.train, *trial.heldout))
