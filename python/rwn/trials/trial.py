@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -47,6 +48,12 @@ def make_trial(plan: Plan) -> Trial:
     raise RuntimeError(f"{plan.name}: no bench found for {plan.effects} at visibility {plan.visibility}")
 
 
+def must_move(traces: Sequence[Trace]) -> None:
+    """Raises UnsuitableError where a recording stands still throughout: it proves nothing."""
+    if not all(np.ptp(t.speed) > 0.0 for t in traces):
+        raise UnsuitableError("a recording never moves")
+
+
 class _Composer:
     def __init__(self, plan: Plan, stream: tuple[int, ...]) -> None:
         self.plan = plan
@@ -60,8 +67,7 @@ class _Composer:
         plant = self.scene.plant(cast)
         train = self.scene.run(self.scene.train, plant)
         heldout = self.scene.run(self.scene.heldout, plant)
-        if not all(np.ptp(t.speed) > 0.0 for t in heldout):
-            raise UnsuitableError("a held-out run never moves")
+        must_move(heldout)
         fit = refit(self.scene, train, noise)
         if len(cast) > 1:
             self._both_needed(cast, train, noise)
