@@ -117,12 +117,22 @@ def _explained(
     say("looking for mistakes in the recordings", 0.0)
     made, recordings = _undone(recordings, model)
     say("refitting the nominal model", 0.05)
+    if mistakes.suspected(recordings, model):  # before contradictions are explained by several effects at once
+        simplest = explain(prepare(recordings, model), jobs=jobs, progress=say, at_once=1)
+        made, recordings = _without(_late(simplest, recordings, model), made, recordings)
     found = explain(prepare(recordings, model), jobs=jobs, progress=say)
     late = _late(found, recordings, model)
     if late:
-        made, recordings = [*made, late], [late.undo(r) for r in recordings]
+        made, recordings = _without(late, made, recordings)
         found = explain(prepare(recordings, model), jobs=jobs, progress=say)
     return made, found
+
+
+def _without(
+    mistake: Mistake | None, made: list[Mistake], recordings: Sequence[Recording]
+) -> tuple[list[Mistake], Sequence[Recording]]:
+    """One more mistake, if any, and the recordings without it."""
+    return ([*made, mistake], [mistake.undo(r) for r in recordings]) if mistake else (made, recordings)
 
 
 def _undone(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
@@ -139,7 +149,7 @@ def _undone(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake
 
 def _late(found: Explanation, recordings: Sequence[Recording], model: Model) -> Mistake | None:
     """A mistake that physics might explain as well, and does not."""
-    if model.kind == "lti" or found.nominal.cost < 1.1 * found.before.count:
+    if model.kind == "lti" or found.nominal.cost < mistakes.AT_THE_NOISE * found.before.count:
         return None
     best = min(h.fitted.cost for h in found.hypotheses)
     return mistakes.fine(recordings, model, noise=found.setup.problem.noise, rival=best)

@@ -49,9 +49,10 @@ class Explanation:
 
 
 def explain(
-    setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None
-) -> Explanation:
-    """Fits the nominal model, every single effect, and what still helps beside the best ones."""
+    setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None,
+    at_once: int = MOST_EFFECTS,
+) -> Explanation:  # fmt: skip
+    """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most."""
     search = Search.of(setup, jobs=jobs)
     search = _with_noise(search, search.fit_nominal())
     nominal = search.fit_nominal()
@@ -70,8 +71,8 @@ def explain(
     before = evidence.statistics(search.problem, nominal)
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
-    layer = fits[:3]
-    for size in range(2, MOST_EFFECTS + 1):
+    layer = _varied(fits)
+    for size in range(2, at_once + 1):
         if left.at_the_floor or not layer:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
@@ -132,6 +133,16 @@ def _beside(search: Search, layer: Sequence[Fitted], wanted: Sequence[str], fits
     met = {name for f in (*fits, *found) for name in f.added}
     promising = [name for name in wanted if name in met]
     return [*found, *(f for base in others for f in search.explain(base, promising, keep=1))]
+
+
+def _varied(fits: Sequence[Fitted]) -> list[Fitted]:
+    """The three best explanations, at most two of them with a law in place of the same nominal parameters."""
+    kept: list[Fitted] = []
+    for f in fits:
+        alike = [k for k in kept if _replaced(k) and _replaced(k) == _replaced(f)]
+        if len(alike) < 2:
+            kept.append(f)
+    return kept[:3]
 
 
 def _applies(name: str, setup: Setup) -> bool:
@@ -221,6 +232,11 @@ def _replaces(name: str) -> set[str]:
     """Nominal parameters that an effect takes over."""
     known = table().get(name)  # a user's own effect takes over nothing
     return {p.replaces for p in known.parameters if p.replaces} if known else set()
+
+
+def _replaced(fitted: Fitted) -> set[str]:
+    """Nominal parameters that an explanation takes over."""
+    return set().union(*map(_replaces, fitted.added))
 
 
 def plainer(names: Sequence[str]) -> set[str]:

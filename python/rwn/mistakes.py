@@ -43,6 +43,7 @@ ANGLE_UNITS = {
 }
 THOUSANDS = {1e3: "thousandths of the unit (milli) taken for the unit", 1e-3: "the unit taken for thousandths (milli)"}
 SAME = 0.15  # relative difference between a gain and a unit's factor that the data sheet may account for
+AT_THE_NOISE = 1.1  # squared error in units of the noise, below which nothing is suspected
 DECISIVE = 50.0  # cost by which a gear ratio or a shift has to be better than the best physics
 LONGEST_SHIFT = 40  # samples
 
@@ -94,6 +95,21 @@ def gross(recordings: Sequence[Recording], model: Model) -> Mistake | None:
     after = [relative_error([m.undo(r) for r in recordings], model) for m in doubted]
     best = int(np.argmin(after))
     return doubted[best] if after[best] < min((1.0 - REMOVED) * before, 0.3) else None
+
+
+def suspected(recordings: Sequence[Recording], model: Model) -> Mistake | None:
+    """A shift or a gear ratio that explains most of what the refitted model leaves; physics may yet do better."""
+    if model.kind == "lti":
+        return None
+    setup = prepare(recordings, model)
+    fitted = Search.of(setup).fit_nominal()
+    residuals = setup.problem.residuals(fitted.vector, fitted.candidate.active)
+    noise = noise_levels(setup.problem.targets, residuals)
+    problem = replace(setup.problem, noise=noise)
+    missing = problem.error(fitted.vector, fitted.candidate.active)
+    if missing < AT_THE_NOISE * sum(r.size for each in residuals for r in each.values()):
+        return None
+    return fine(recordings, model, noise=noise, rival=np.inf)
 
 
 def fine(recordings: Sequence[Recording], model: Model, *, noise: Mapping[str, float], rival: float) -> Mistake | None:

@@ -15,7 +15,7 @@ struct BrushVoltageDrop {
                                                    .unit = "V",
                                                    .meaning = "total drop at large current",
                                                    .lower = 0.0,
-                                                   .upper = 0.5,
+                                                   .upper = 1.0,
                                                    .start = 0.03,
                                                    .scale = Scale::voltage,
                                                    .strength = true},
