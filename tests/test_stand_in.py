@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -117,7 +116,7 @@ def test_a_network_that_does_not_help_elsewhere_is_not_kept() -> None:
 
 
 def test_a_name_that_is_proved_and_not_the_whole_stands_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(import_module("rwn.diagnose"), "proved_stand_in", lambda *_, **__: None)
+    monkeypatch.setattr("rwn.conclusion.proved_stand_in", lambda *_, **__: None)
     runs = [recorded(seed, rubbing_and_caught, samples=1200) for seed in range(3)]
     found = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
     assert found.verdict == "unexplained"

@@ -9,29 +9,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn import _core, curves, excitation, mistakes
+from rwn import _core, curves, excitation
 from rwn._core import __version__
+from rwn.conclusion import Conclusion, conclude
 from rwn.correct import corrected_model, found_effects, nominal_fit
 from rwn.diagnosis import Alternative, Diagnosis, Estimate, FoundEffect, HeldoutRow, Location, Verdict
 from rwn.effects import table
 from rwn.evidence import Hypothesis
 from rwn.experiments import separated_by
-from rwn.explain import Explanation, Progress, explain
+from rwn.explain import Explanation, Progress
 from rwn.locate import regions, unknown_inputs
 from rwn.mistakes import Mistake
 from rwn.model import Model
-from rwn.prepare import prepare, proof_target
-from rwn.proof import LEFT_OUT, proved
+from rwn.prepare import proof_target
+from rwn.proof import LEFT_OUT
 from rwn.recording import Recording
-from rwn.refuse import heldout_error, removed_certainly, without_what_hurts
-from rwn.stand_in import picture, proved_stand_in
 from rwn.unknown_law import laws
-from rwn.verdict import choose, is_certain, refused, verdict_of, verdict_without_a_name, whole
+from rwn.verdict import is_certain, whole
+from rwn.without_mistakes import explained
 
-NO_NETWORK = (
-    "no wavelet network over one state helps on recordings that were not fitted: corrected.toml holds the refitted "
-    "nominal model"
-)
 QUANTISATION = "sensor-quantization"
 
 
@@ -60,99 +56,17 @@ def diagnose(
     began = time.perf_counter()
     say = progress or _silent
     jobs = jobs or os.cpu_count() or 1
-    made, found = _explained(recordings, model, jobs, say)
+    made, found = explained(recordings, model, jobs=jobs, say=say)
     say("proving it on data that were not fitted", 0.85)
     for mistake in made:
         heldout = [mistake.undo(r) for r in heldout]
-    proof = [proof_target(r, model) for r in heldout]
-    chosen = choose(found)
-    if proof:
-        chosen = without_what_hurts(
-            found.hypotheses, chosen, lambda h: proved(found, h, proof, model, seed=seed, jobs=jobs)
-        )
-    rows = proved(found, chosen, proof, model, seed=seed, jobs=jobs)
-    verdict = verdict_of(found, chosen, certain=is_certain(rows))
-    partly = None
-    if chosen.fitted.added and (verdict != "missing-physics" or refused(found, chosen, rows)):
-        # a name that is not given is not shown or proved; it may still stand in for what has no name
-        partly = (chosen, rows) if is_certain(rows) else None
-        chosen = found.nothing_missing
-        verdict = verdict if verdict == "unexplained" else verdict_without_a_name(found)
-        rows = proved(found, chosen, proof, model, seed=seed, jobs=jobs)
-    network = None
-    if verdict == "unexplained":
-        say("drawing what has no name", 0.9)
-        network = proved_stand_in(found, model, proof, seed=seed, jobs=jobs)
-        if partly and heldout_error(partly[1]) <= heldout_error(network[1] if network else rows):
-            network, (chosen, rows) = None, partly
-    if network:
-        drawn, rows = network
-        found, chosen, model = drawn.found, drawn.chosen, drawn.model
+    end = conclude(found, [proof_target(r, model) for r in heldout], model, seed=seed, jobs=jobs, say=say)
     say("drawing", 0.95)
-    report = _report(found, chosen, verdict, made, rows, model, seed, time.perf_counter() - began)
-    if network:
-        return replace(
-            report, stand_in=f"a wavelet network, {drawn.place.words}", curves=(*report.curves, picture(drawn))
-        )
-    if verdict == "unexplained" and chosen.fitted.added:
-        return replace(report, stand_in=_leading(chosen, rows))
-    without = (NO_NETWORK,) if verdict == "unexplained" and model.kind != "lti" else ()
-    return replace(report, warnings=(*report.warnings, *without))
+    return _report(end, made, seed, time.perf_counter() - began)
 
 
 def _silent(what: str, done: float) -> None:
     """Progress that nobody asked for."""
-
-
-def _leading(chosen: Hypothesis, rows: Sequence[HeldoutRow]) -> str:
-    """A name that explains a good part and not the whole."""
-    part = f"{removed_certainly(rows):.0%}"
-    return f"{' + '.join(chosen.fitted.added)}, proved to remove {part} of the held-out squared error and not the whole"
-
-
-def _explained(
-    recordings: Sequence[Recording], model: Model, jobs: int, say: Progress
-) -> tuple[list[Mistake], Explanation]:
-    """Mistakes of the recordings, and what explains these when they are undone."""
-    say("looking for mistakes in the recordings", 0.0)
-    made, recordings = _undone(recordings, model)
-    say("refitting the nominal model", 0.05)
-    if mistakes.suspected(recordings, model):  # before contradictions are explained by several effects at once
-        simplest = explain(prepare(recordings, model), jobs=jobs, progress=say, at_once=1)
-        made, recordings = _without(_late(simplest, recordings, model), made, recordings)
-    found = explain(prepare(recordings, model), jobs=jobs, progress=say)
-    late = _late(found, recordings, model)
-    if late:
-        made, recordings = _without(late, made, recordings)
-        found = explain(prepare(recordings, model), jobs=jobs, progress=say)
-    return made, found
-
-
-def _without(
-    mistake: Mistake | None, made: list[Mistake], recordings: Sequence[Recording]
-) -> tuple[list[Mistake], Sequence[Recording]]:
-    """One more mistake, if any, and the recordings without it."""
-    return ([*made, mistake], [mistake.undo(r) for r in recordings]) if mistake else (made, recordings)
-
-
-def _undone(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
-    """At most two gross mistakes, and the recordings without them."""
-    made: list[Mistake] = []
-    right = list(recordings)
-    if model.kind == "lti":  # its gain is in no unit that could be doubted
-        return made, right
-    while len(made) < 2 and (mistake := mistakes.gross(right, model)):
-        made.append(mistake)
-        right = [mistake.undo(r) for r in right]
-    return made, right
-
-
-def _late(found: Explanation, recordings: Sequence[Recording], model: Model) -> Mistake | None:
-    """A mistake that physics might explain as well, and does not."""
-    if model.kind == "lti" or found.nominal.cost < mistakes.AT_THE_NOISE * found.before.count:
-        return None
-    best = min(h.fitted.cost for h in found.hypotheses)
-    return mistakes.fine(recordings, model, noise=found.setup.problem.noise, rival=best)
 
 
 def ambiguous(found: Explanation, chosen: Hypothesis) -> tuple[Hypothesis, ...]:
@@ -168,16 +82,8 @@ def ambiguous(found: Explanation, chosen: Hypothesis) -> tuple[Hypothesis, ...]:
     return (chosen, *others)[:4]
 
 
-def _report(
-    found: Explanation,
-    chosen: Hypothesis,
-    verdict: Verdict,
-    made: Sequence[Mistake],
-    rows: tuple[HeldoutRow, ...],
-    model: Model,
-    seed: int,
-    elapsed: float,
-) -> Diagnosis:
+def _report(end: Conclusion, made: Sequence[Mistake], seed: int, elapsed: float) -> Diagnosis:
+    found, chosen, verdict, rows, model = end.found, end.chosen, end.verdict, end.rows, end.model
     before = found.nominal.candidate.active
     unknown = [unknown_inputs(found.setup.whole, found.nominal.vector, t, before) for t in found.setup.whole.targets]
     named = verdict == "missing-physics"
@@ -214,13 +120,14 @@ def _report(
         location=Location(equation=equation, regions=where, description=place),
         nominal_fit=nominal_fit(found, chosen, model),
         heldout=rows,
-        curves=curves.plots(found, chosen, unknown, depends, linear=model.linear),
-        warnings=_warnings(found, chosen, verdict, rows),
+        curves=(*curves.plots(found, chosen, unknown, depends, linear=model.linear), *end.curves),
+        warnings=(*_warnings(found, chosen, verdict, rows), *end.warnings),
         next_experiment=_next_experiment(found, verdict, names),
         adequate_probability=found.nothing_missing.probability,
         seed=seed,
         version=__version__,
         elapsed=elapsed,
+        stand_in=end.stand_in,
         corrected=corrected_model(chosen.fitted, model),
     )
 

@@ -29,7 +29,8 @@ def found_words(outcome: Outcome) -> str:
     found = outcome.found
     if not found.effects:
         leads = ", ".join(f"{' + '.join(a.effects)} {a.probability:.2f}" for a in found.alternatives[:3])
-        return found.verdict + (f" (leads: {leads})" if leads else "")
+        stands_in = f"; stands in: {found.stand_in}" if found.stand_in else ""
+        return found.verdict + stands_in + (f" (leads: {leads})" if leads else "")
     names = ", ".join(f"{e.name} {e.probability:.2f}" for e in found.effects)
     same = f"; not told apart: {', '.join(found.set)}" if len(found.set) > 1 else ""
     return names + same

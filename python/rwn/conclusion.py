@@ -1,0 +1,83 @@
+"""What a diagnosis comes to: the chosen explanation with its proof and verdict, and what stands in without a name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from rwn.diagnosis import HeldoutRow, Plot, Verdict
+from rwn.evidence import Hypothesis
+from rwn.explain import Explanation, Progress
+from rwn.model import Model
+from rwn.output_error import Target
+from rwn.proof import proved
+from rwn.refuse import heldout_error, removed_certainly, without_what_hurts
+from rwn.stand_in import picture, proved_stand_in
+from rwn.verdict import choose, is_certain, refused, verdict_of, verdict_without_a_name
+
+NO_NETWORK = (
+    "no wavelet network over one state helps on recordings that were not fitted: corrected.toml holds the refitted "
+    "nominal model"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Conclusion:
+    """An explanation with its verdict and proof."""
+
+    found: Explanation
+    chosen: Hypothesis  # what corrected.toml holds
+    verdict: Verdict
+    rows: tuple[HeldoutRow, ...]
+    model: Model  # with the network among its own effects where one stands in
+    stand_in: str = ""
+    curves: tuple[Plot, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+
+def conclude(
+    found: Explanation, heldout: Sequence[Target], model: Model, *, seed: int, jobs: int, say: Progress
+) -> Conclusion:
+    """The explanation that is named, or none and what stands in for it; proved on `heldout`, or by cross-validation."""
+
+    def prove(h: Hypothesis) -> tuple[HeldoutRow, ...]:
+        return proved(found, h, heldout, model, seed=seed, jobs=jobs)
+
+    chosen = choose(found)
+    if heldout:
+        chosen = without_what_hurts(found.hypotheses, chosen, prove)
+    rows = prove(chosen)
+    verdict = verdict_of(found, chosen, certain=is_certain(rows))
+    leading = end = Conclusion(found=found, chosen=chosen, verdict=verdict, rows=rows, model=model)
+    if chosen.fitted.added and (verdict != "missing-physics" or refused(found, chosen, rows)):
+        # a name that is not given is not shown or proved; it may still stand in for what has no name
+        nothing = found.nothing_missing
+        without = verdict if verdict == "unexplained" else verdict_without_a_name(found)
+        end = replace(leading, chosen=nothing, verdict=without, rows=prove(nothing))
+    if end.verdict != "unexplained":
+        return end
+    say("drawing what has no name", 0.9)
+    return _with_stand_in(end, leading, heldout, seed=seed, jobs=jobs)
+
+
+def _with_stand_in(
+    end: Conclusion, leading: Conclusion, heldout: Sequence[Target], *, seed: int, jobs: int
+) -> Conclusion:
+    """`end` with what helps most on recordings that were not fitted: a wavelet network, or the name that leads."""
+    network = proved_stand_in(end.found, end.model, heldout, seed=seed, jobs=jobs)
+    rows = network[1] if network else end.rows
+    is_proved = leading.chosen.fitted.added and is_certain(leading.rows)
+    if is_proved and heldout_error(leading.rows) <= heldout_error(rows):
+        return replace(leading, verdict=end.verdict, stand_in=_in_words(leading))
+    if network:
+        drawn = network[0]
+        return replace(
+            end, found=drawn.found, chosen=drawn.chosen, model=drawn.model, rows=rows, curves=(picture(drawn),),
+            stand_in=f"a wavelet network, {drawn.place.words}",
+        )  # fmt: skip
+    return end if end.model.kind == "lti" else replace(end, warnings=(NO_NETWORK,))
+
+
+def _in_words(leading: Conclusion) -> str:
+    names, part = " + ".join(leading.chosen.fitted.added), f"{removed_certainly(leading.rows):.0%}"
+    return f"{names}, proved to remove {part} of the held-out squared error and not the whole"
