@@ -16,6 +16,7 @@ from rwn.model import Model
 from rwn.prepare import Setup, prepare
 from rwn.search import Fitted, Search
 from rwn.temper import tempered
+from rwn.tracks import _without_the_sensor
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -139,3 +140,21 @@ def test_a_strong_cog_is_found() -> None:
     best = found.hypotheses[0].fitted
     assert best.added == ("cogging-torque",)
     assert best.value("cogging-torque.amplitude") == pytest.approx(cog["amplitude"], rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("effect", "values"), [("sensor-bias", {"speed_offset": 2.0}), ("speed-sensor-lag", {"time_constant": 0.01})]
+)
+def test_the_angle_is_followed_without_what_the_sensor_adds(effect: str, values: dict[str, float]) -> None:
+    motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
+             "inertia": 2e-5, "viscous_friction": 2e-5}  # fmt: skip
+    time = 1e-3 * np.arange(3000)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": 3.0 * np.sin(2 * np.pi * 1.3 * time)})
+    seen = rwn.simulate(Model(kind="dc", parameters=motor, effects={effect: values}), run).signals
+    setup = prepare([replace(run, signals={**run.signals, "speed": seen["speed"]})], Model(kind="dc", parameters=motor))
+    search = Search.of(setup)
+    right = candidate(search.nominal, (effect,), search.scales, {effect: values})
+    fitted = Fitted(added=(effect,), candidate=right, minimum=fit(search.problem, right, max_iterations=0))
+    followed = _without_the_sensor(search, fitted, setup.problem.targets).problem.targets[0].angle
+    assert np.max(np.abs(setup.problem.targets[0].angle - seen["position"])) > 0.5
+    assert np.max(np.abs(followed - seen["position"])) < 0.05

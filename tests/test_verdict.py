@@ -14,6 +14,7 @@ from rwn.evidence import Hypothesis
 from rwn.explain import Explanation, explain
 from rwn.prepare import prepare
 from rwn.proof import LEFT_OUT
+from rwn.search import Fitted
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -40,6 +41,36 @@ def test_plain_friction_unless_its_elaboration_fits_better_than_the_simulation_i
     plain = replace(plain, fitted=replace(plain.fitted, minimum=minimum), probability=0.01)
     pair = (replace(elaborate, probability=0.99), plain, found.nothing_missing)
     assert verdict.choose(replace(found, hypotheses=pair)).fitted.added == (named,)
+
+
+def test_plain_friction_where_its_elaboration_is_finer_than_the_simulation(found: Explanation) -> None:
+    """A precise position: a difference of a third of the noise is a millionth of what both explain."""
+    elaborate, plain = _of(found, "asymmetric-friction"), _of(found, "coulomb-friction")
+    left = elaborate.fitted.minimum.chi2
+    pair = (
+        replace(elaborate, probability=0.99),
+        replace(plain, fitted=_with_error(plain, 1.3 * left), probability=0.01),
+    )
+    for missing, named in ((1e3 * left, "asymmetric-friction"), (1e6 * left, "coulomb-friction")):
+        nothing = replace(found.nothing_missing, fitted=_with_error(found.nothing_missing, missing))
+        assert verdict.choose(replace(found, hypotheses=(*pair, nothing))).fitted.added == (named,)
+
+
+def _with_error(h: Hypothesis, chi2: float) -> Fitted:
+    return replace(h.fitted, minimum=replace(h.fitted.minimum, chi2=chi2))
+
+
+def test_a_proved_name_that_leaves_more_than_noise_is_no_certainty(
+    found: Explanation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name = _of(found, "coulomb-friction")
+    coloured = replace(found, left=replace(found.left, coloured=100.0, variance=2.0))
+    white = replace(found, left=replace(found.left, coloured=1.0))
+    assert verdict.whole(white, name, certain=True) == 1.0, "only noise is left"
+    for removed, alone, beside in ((0.98, 0.2, 0.5), (0.999, 0.99, 0.99), (0.75, 0.0, 0.25)):
+        monkeypatch.setattr(verdict, "_removed", lambda *_, share=removed: share)
+        assert verdict.whole(coloured, name, certain=False) == pytest.approx(alone, abs=0.01)
+        assert verdict.whole(coloured, name, certain=True) == pytest.approx(beside, abs=0.01)
 
 
 def _row(recording: str) -> HeldoutRow:

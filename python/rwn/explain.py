@@ -13,6 +13,7 @@ from rwn.effects import table
 from rwn.evidence import Hypothesis, Statistics
 from rwn.polish import polished
 from rwn.prepare import Setup, noise_levels, windowed
+from rwn.rough import settled
 from rwn.rounding import as_shown, steps_shown, unrounded_fits
 from rwn.search import Fitted, Search, foremost
 from rwn.temper import tempered
@@ -108,7 +109,8 @@ def _settled(
 ) -> tuple[Search, Fitted, list[Fitted]]:
     """The fits under the noise, along the angle and to the speed that the best of them makes probable."""
     search = replace(search, problem=as_shown(search.problem, setup.problem))
-    return unrounded_fits(*polished(*retracked(*_reweighted(search, nominal, fits))), setup.problem)
+    tracked = retracked(*_reweighted(search, nominal, fits), setup.problem.targets)
+    return unrounded_fits(*polished(*tracked), setup.problem)
 
 
 def _far_off(search: Search, best: Fitted) -> bool:
@@ -221,9 +223,10 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
     plain = [tuple(sorted(plainer(names))) for names in sets]
 
     def less(names: tuple[str, ...]) -> Fitted:
-        starts = {n: _values(best, n) for n in names if n in best.added}
+        starts = {n: _values(best, n) if n in best.added else _plain_values(best) for n in names}
         this = candidate(search.nominal, names, search.scales, starts, _motor(best))
-        return Fitted(added=names, candidate=this, minimum=fit(search.problem, this))
+        end = settled(search.problem, this, fit(search.problem, this), turns=2)
+        return Fitted(added=names, candidate=this, minimum=end)
 
     return side_by_side(less, dict.fromkeys([*sets[1:], *plain]), jobs=search.jobs)
 
@@ -248,6 +251,18 @@ def _values(fitted: Fitted, name: str) -> dict[str, float]:
     """Parameters of one effect as fitted."""
     effect = fitted.candidate.table[name]
     return {p.name: float(fitted.vector[effect.at(p.name)]) for p in effect.parameters}
+
+
+def _plain_values(fitted: Fitted) -> dict[str, float]:
+    """Plain friction of the level that the elaborate law of an explanation has."""
+    (plain,) = (p for p in table()[PLAIN].parameters if p.replaces)
+    levels = [
+        value
+        for name in fitted.added
+        for p, value in zip(fitted.candidate.table[name].parameters, _values(fitted, name).values(), strict=True)
+        if p.replaces == plain.replaces
+    ]
+    return {plain.name: float(np.mean(levels))}
 
 
 def _motor(fitted: Fitted) -> dict[str, float]:

@@ -16,11 +16,15 @@ from rwn.evidence import Hypothesis, join
 from rwn.explain import Explanation, plainer
 from rwn.proof import LEFT_OUT, hurts
 from rwn.refuse import PROVED, removed_certainly
+from rwn.rough import rough
 
-REMOVED = 0.98  # share of the removable squared error that a name has to remove where more than noise is left
+REMOVED = 0.99  # share of the removable squared error that a name has to remove where more than noise is left
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
+NEAREST = 0.5  # at most so probable is a proved name that leaves more than noise: it may only be the nearest one here
 ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
 INEXACT = 0.002  # relative change in squared error that the simulation's own error may make
+ROUGH = 0.05  # the same where a contact makes the error rough
+SIMULATED = 1e-6  # share of the squared error that an explanation removes, to which the simulation is exact
 DOUBTFUL = 2.0  # squared error of a signal, in units of its noise, from which it is off at all
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
 
@@ -29,13 +33,14 @@ def choose(found: Explanation) -> Hypothesis:
     """The most probable explanation, with plain friction where its elaboration is hardly more so or fits no better;
     nothing where the gain is not material."""
     first = found.hypotheses[0]
+    missing, left = found.nothing_missing.fitted.minimum.chi2, first.fitted.minimum.chi2
     plain = [h for h in found.hypotheses if set(h.fitted.added) == plainer(first.fitted.added)]
+    inexact = (ROUGH if rough(first.fitted.candidate) else INEXACT) * left + SIMULATED * (missing - left)
     if plain and (
-        plain[0].probability > first.probability / ELABORATE
-        or plain[0].fitted.minimum.chi2 < (1.0 + INEXACT) * first.fitted.minimum.chi2
+        plain[0].probability > first.probability / ELABORATE or plain[0].fitted.minimum.chi2 - left < inexact
     ):
         first = plain[0]
-    gain = 1.0 - first.fitted.minimum.chi2 / found.nothing_missing.fitted.minimum.chi2
+    gain = 1.0 - first.fitted.minimum.chi2 / missing
     return found.nothing_missing if gain < MATERIAL else first
 
 
@@ -83,13 +88,15 @@ def _removed(found: Explanation, chosen: Hypothesis) -> float:
 def whole(found: Explanation, chosen: Hypothesis, *, certain: bool = False) -> float:
     """How probable it is that what was found is the whole of what is missing, from the share that it leaves.
 
-    A right name leaves noise; a cubic drag called quadratic leaves some per cent of the mismatch. That it is half where
-    2 % is left was set on the development trials of seed 3; a proved name is half where it would no longer be given.
+    A right name leaves noise; a cubic drag called quadratic leaves some per cent of the mismatch. It is half where as
+    much is left as an unproved name may leave; a proved one halves once more where it would no longer be given.
     """
     if found.left.at_the_floor:
         return 1.0
-    half = 1.0 - _enough(certain)
-    return 1.0 / (1.0 + ((1.0 - _removed(found, chosen)) / half) ** 2)
+    left = 1.0 - _removed(found, chosen)
+    alone = 1.0 / (1.0 + (left / (1.0 - REMOVED)) ** 2)
+    beside = NEAREST / (1.0 + (left / (1.0 - PARTLY)) ** 2) if certain else 0.0
+    return max(alone, beside)
 
 
 def _variances(found: Explanation, h: Hypothesis) -> dict[str, float]:

@@ -1,0 +1,51 @@
+"""Time of a whole diagnosis with every effect tried; at most 20 s for 20 000 samples on two cores is asked.
+
+Makes blind trials of a development seed with 20 000 training samples each and diagnoses them one after the other,
+without held-out recordings, on two threads. Run on an idle machine: python bench/bench_diagnose.py [COUNT]
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+import rwn
+from rwn.trials import scene
+from rwn.trials.adapter import train_files
+from rwn.trials.dossier import write_trial
+from rwn.trials.plan import plans
+from rwn.trials.trial import make_trial
+
+SEED, COUNT = 77, 20
+SAMPLES = (19_500, 20_500)
+ASKED = 20.0  # [s]
+
+
+def main() -> None:
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else COUNT
+    scene.TRAIN_ROWS = SAMPLES
+    times = []
+    print(f"{'concealed':<46}{'found':<46}{'samples':>8}{'time':>9}")
+    with tempfile.TemporaryDirectory() as folder:
+        for plan in plans(SEED, count):
+            trial = make_trial(plan)
+            place = Path(folder) / plan.name
+            write_trial(place, trial)
+            model = rwn.read_model(place / "model.toml")
+            recordings = [rwn.read_recording(f, layout=model.recording) for f in train_files(place)]
+            begin = time.perf_counter()
+            found = rwn.diagnose(recordings, model, jobs=2)
+            times.append(time.perf_counter() - begin)
+            names = " + ".join(e.name for e in found.effects) or found.verdict
+            concealed = " + ".join(e["name"] for e in trial.answer["effects"]) or "nothing"
+            print(f"{concealed:<46}{names:<46}{sum(map(len, recordings)):8}{times[-1]:7.1f} s", flush=True)
+    late = sum(t > ASKED for t in times)
+    print(f"median {np.median(times):.1f} s, longest {max(times):.1f} s; {late} of {count} over {ASKED:.0f} s")
+
+
+if __name__ == "__main__":
+    main()
