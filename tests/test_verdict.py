@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import rwn
@@ -12,7 +13,8 @@ from rwn import verdict
 from rwn.diagnosis import HeldoutRow
 from rwn.evidence import Hypothesis
 from rwn.explain import Explanation, explain
-from rwn.prepare import prepare
+from rwn.output_error import Target
+from rwn.prepare import CLOCK, noise_levels, prepare
 from rwn.proof import LEFT_OUT
 from rwn.search import Fitted
 
@@ -54,6 +56,21 @@ def test_plain_friction_where_its_elaboration_is_finer_than_the_simulation(found
     for missing, named in ((1e3 * left, "asymmetric-friction"), (1e6 * left, "coulomb-friction")):
         nothing = replace(found.nothing_missing, fitted=_with_error(found.nothing_missing, missing))
         assert verdict.choose(replace(found, hypotheses=(*pair, nothing))).fitted.added == (named,)
+
+
+def test_what_is_gained_below_the_noise_is_no_gain(found: Explanation, monkeypatch: pytest.MonkeyPatch) -> None:
+    errors = {(): {"speed": 1.04, "position": 0.9}, ("coulomb-friction",): {"speed": 1.04, "position": 0.3}}
+    monkeypatch.setattr(verdict, "_variances", lambda _, h: errors.get(h.fitted.added, errors[()]))
+    assert verdict.choose(found).fitted.added == ()
+    errors[()]["speed"] = 1.5
+    assert verdict.choose(found).fitted.added == ("coulomb-friction",)
+
+
+def test_no_position_is_better_known_than_the_clock() -> None:
+    time = np.linspace(0.0, 1.0, 500)
+    far = Target(name="far", time=time, input=0.0 * time, position=1000.0 * np.sin(1.5 * time))
+    error = {"position": 1e-6 * np.random.default_rng(0).standard_normal(500)}
+    assert noise_levels([far], [error])["position"] == pytest.approx(CLOCK * 1000.0 * np.sin(1.5))
 
 
 def _with_error(h: Hypothesis, chi2: float) -> Fitted:

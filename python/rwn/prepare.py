@@ -20,6 +20,7 @@ from rwn.transfer_error import TransferError
 from rwn.transfer_start import first_guesses
 
 Array = NDArray[np.float64]
+CLOCK = 1e-5  # relative accuracy of a sample clock (a good crystal), and so of what was travelled by it
 WINDOW = (
     50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
 )
@@ -155,7 +156,8 @@ def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Arr
     """Standard deviation of the measurement noise per signal.
 
     Encoder counts: of their quantisation. Else what is left of second differences, robustly: a model error is smooth
-    against the sample time, so it falls out, and a few sharp instants do not count (median).
+    against the sample time, so it falls out, and a few sharp instants do not count (median). No position is better
+    known than the clock that its travel was timed with.
     """
     levels = {}
     for signal in residuals[0]:
@@ -164,6 +166,8 @@ def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Arr
         rough = max(float(np.median(found)) if found else 1.0, 1e-12)
         encoder = signal == "position" or any(t.speed_is_difference for t in targets)
         levels[signal] = steps if steps and encoder else max(steps, rough)
+    if "position" in levels:
+        levels["position"] = max(levels["position"], CLOCK * max(float(np.ptp(t.position)) for t in targets))
     return levels
 
 

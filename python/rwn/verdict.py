@@ -40,7 +40,7 @@ def choose(found: Explanation) -> Hypothesis:
         plain[0].probability > first.probability / ELABORATE or plain[0].fitted.minimum.chi2 - left < inexact
     ):
         first = plain[0]
-    gain = 1.0 - first.fitted.minimum.chi2 / missing
+    gain = 1.0 - _above_noise(found, first) / _above_noise(found, found.nothing_missing)
     return found.nothing_missing if gain < MATERIAL else first
 
 
@@ -97,6 +97,11 @@ def whole(found: Explanation, chosen: Hypothesis, *, certain: bool = False) -> f
     alone = 1.0 / (1.0 + (left / (1.0 - REMOVED)) ** 2)
     beside = NEAREST / (1.0 + (left / (1.0 - PARTLY)) ** 2) if certain else 0.0
     return max(alone, beside)
+
+
+def _above_noise(found: Explanation, h: Hypothesis) -> float:
+    """Mean squared errors of the signals, none less than its noise: what is gained below it is no gain."""
+    return sum(max(v, 1.0) for v in _variances(found, h).values())
 
 
 def _variances(found: Explanation, h: Hypothesis) -> dict[str, float]:
