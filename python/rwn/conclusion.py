@@ -11,7 +11,7 @@ from rwn.explain import Explanation, Progress
 from rwn.model import Model
 from rwn.output_error import Target
 from rwn.proof import proved
-from rwn.refuse import heldout_error, removed_certainly, without_what_hurts
+from rwn.refuse import removed_certainly, without_what_hurts
 from rwn.stand_in import picture, proved_stand_in
 from rwn.verdict import choose, is_certain, refused, verdict_of, verdict_without_a_name
 
@@ -63,18 +63,16 @@ def conclude(
 def _with_stand_in(
     end: Conclusion, leading: Conclusion, heldout: Sequence[Target], *, seed: int, jobs: int
 ) -> Conclusion:
-    """`end` with what helps most on recordings that were not fitted: a wavelet network, or the name that leads."""
+    """`end` with a wavelet network that helps on recordings that were not fitted; without one, the name that leads."""
     network = proved_stand_in(end.found, end.model, heldout, seed=seed, jobs=jobs)
-    rows = network[1] if network else end.rows
-    is_proved = leading.chosen.fitted.added and is_certain(leading.rows)
-    if is_proved and heldout_error(leading.rows) <= heldout_error(rows):
-        return replace(leading, verdict=end.verdict, stand_in=_in_words(leading))
     if network:
-        drawn = network[0]
+        drawn, rows = network
         return replace(
             end, found=drawn.found, chosen=drawn.chosen, model=drawn.model, rows=rows, curves=(picture(drawn),),
             stand_in=f"a wavelet network, {drawn.place.words}",
         )  # fmt: skip
+    if leading.chosen.fitted.added and is_certain(leading.rows):
+        return replace(leading, verdict=end.verdict, stand_in=_in_words(leading))
     return end if end.model.kind == "lti" else replace(end, warnings=(NO_NETWORK,))
 
 
