@@ -10,8 +10,8 @@ import pytest
 
 import rwn
 from rwn import evidence, hints
-from rwn.candidate import candidate, fit
-from rwn.explain import explain
+from rwn.candidate import Candidate, candidate, fit
+from rwn.explain import _varied, explain
 from rwn.model import Model
 from rwn.prepare import Setup, prepare
 from rwn.search import Fitted, Search
@@ -47,6 +47,16 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(setup: Setup) -> None:
     values = values.copy()
     values[k] *= 0.9
     assert replace(fitted, minimum=replace(fitted.minimum, values=values)).limits_met == ()
+
+
+def test_second_effects_are_added_to_explanations_of_different_kinds(setup: Setup) -> None:
+    names = ("asymmetric-friction", "stribeck-friction", "coulomb-friction", "actuator-deadzone", "quadratic-drag")
+    fits = [replace(_fitted(setup, "quadratic-drag"), added=(name,), candidate=_with(setup, name)) for name in names]
+    assert [f.added[0] for f in _varied(fits)] == ["asymmetric-friction", "stribeck-friction", "actuator-deadzone"]
+
+
+def _with(setup: Setup, name: str) -> Candidate:
+    return candidate(setup.nominal, (name,), setup.scales)
 
 
 def test_an_effect_without_strength_is_idle(setup: Setup) -> None:

@@ -107,6 +107,15 @@ def test_channels_out_of_step(
     assert (found.name, found.signals[0], found.delay) == ("time-shift", signal, delay)
 
 
+def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rwn.Recording) -> None:
+    assert mistakes.suspected([right], model) is None
+    found = mistakes.suspected([altered(right, ("current",), delay=6)], model)
+    assert found is not None
+    assert (found.name, found.delay) == ("time-shift", 6)
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    assert mistakes.suspected([friction], model) is None, "missing physics is none"
+
+
 def test_gear_ratio(model: rwn.Model, right: rwn.Recording) -> None:
     wrong = altered(right, MOTION, 1.0 / 5.2)
     noise, rival = cost(wrong, model)

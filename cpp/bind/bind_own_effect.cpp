@@ -51,7 +51,7 @@ std::pair<double, std::array<double, max_own_parameters>> evaluate_formula(
   std::array<S, formula_depth> stack;
   const auto length = static_cast<int>(effect.program.size());
   const S y = evaluate(effect.program.data(), length, static_cast<const S*>(p.data()), motor, x, stack.data());
-  std::array<double, 8> slopes;
+  std::array<double, max_own_parameters> slopes;
   for (std::size_t k = 0; k < slopes.size(); ++k) slopes[k] = y.d[static_cast<int>(k)];
   return {y.v, slopes};
 }

@@ -2,17 +2,11 @@
 // GCC vector extensions only: no intrinsics, no -ffast-math (the rounding trick below would not survive it).
 #pragma once
 
-#define RWN_INLINE [[gnu::always_inline]] inline
+#include "rwn/vectors.hpp"
 
 namespace rwn::RWN_ISA {
 
-#if defined(__AVX512F__)
-inline constexpr int width = 8;
-#elif defined(__AVX2__)
-inline constexpr int width = 4;
-#else
-inline constexpr int width = 2;
-#endif
+inline constexpr int width = RWN_VECTOR_WIDTH;
 
 using Vector [[gnu::vector_size(width * sizeof(double)), gnu::may_alias]] = double;
 using Bits [[gnu::vector_size(width * sizeof(double))]] = long long;

@@ -4,28 +4,21 @@
 #include <cmath>
 #include <cstddef>
 
-#define RWN_INLINE [[gnu::always_inline]] inline
+#include "rwn/vectors.hpp"
 
 namespace rwn {
-
-#if defined(__AVX512F__)
-inline constexpr int vector_width = 8;
-#elif defined(__AVX2__)
-inline constexpr int vector_width = 4;
-#else
-inline constexpr int vector_width = 2;
-#endif
 
 /// N derivatives (rounded up to whole vectors) in the processor's own vectors. In an array of numbers they would be
 /// copied in pieces that straddle what has just been stored, and wait for it every time.
 template <int N, class Isa>
 struct Slopes {
-  using Vector [[gnu::vector_size(vector_width * sizeof(double))]] = double;
-  static constexpr int count = (N + vector_width - 1) / vector_width;
+  static constexpr int width = RWN_VECTOR_WIDTH;
+  static constexpr int count = (N + width - 1) / width;
+  using Vector [[gnu::vector_size(width * sizeof(double))]] = double;
   Vector part[count]{};
 
-  double operator[](int k) const { return part[k / vector_width][k % vector_width]; }
-  void set(int k, double value) { part[k / vector_width][k % vector_width] = value; }
+  double operator[](int k) const { return part[k / width][k % width]; }
+  void set(int k, double value) { part[k / width][k % width] = value; }
   RWN_INLINE Slopes& operator+=(const Slopes& o) {
     for (int k = 0; k < count; ++k) part[k] += o.part[k];
     return *this;
@@ -183,7 +176,5 @@ bool is_constant(const Dual<N, Isa>& x) {
   }
   return true;
 }
-
-inline bool is_constant(double) { return true; }
 
 }  // namespace rwn
