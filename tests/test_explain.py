@@ -12,11 +12,11 @@ import rwn
 from rwn import evidence, hints
 from rwn.candidate import Candidate, candidate, fit
 from rwn.explain import _varied, explain
+from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.prepare import Setup, prepare
-from rwn.search import Fitted, Search
+from rwn.search import Search
 from rwn.temper import tempered
-from rwn.tracks import _without_the_sensor
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -164,7 +164,6 @@ def test_the_angle_is_followed_without_what_the_sensor_adds(effect: str, values:
     setup = prepare([replace(run, signals={**run.signals, "speed": seen["speed"]})], Model(kind="dc", parameters=motor))
     search = Search.of(setup)
     right = candidate(search.nominal, (effect,), search.scales, {effect: values})
-    fitted = Fitted(added=(effect,), candidate=right, minimum=fit(search.problem, right, max_iterations=0))
-    followed = _without_the_sensor(search, fitted, setup.problem.targets).problem.targets[0].angle
+    followed = hints.along_the_shaft(search.problem, right.vector, right.active).targets[0].angle
     assert np.max(np.abs(setup.problem.targets[0].angle - seen["position"])) > 0.5
     assert np.max(np.abs(followed - seen["position"])) < 0.05

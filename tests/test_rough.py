@@ -8,11 +8,12 @@ import pytest
 import rwn
 from rwn.candidate import Candidate, candidate, fit
 from rwn.correct import IDEALISED, estimates
+from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.output_error import OutputError
 from rwn.prepare import prepare
 from rwn.rough import rough, settled
-from rwn.search import Fitted, Search
+from rwn.search import Search
 
 MOTOR = {"resistance": 1.1, "inductance": 4e-4, "torque_constant": 0.037, "back_emf_constant": 0.037,
          "inertia": 2.8e-5, "viscous_friction": 4e-6}  # fmt: skip

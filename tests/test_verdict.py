@@ -13,10 +13,10 @@ from rwn import verdict
 from rwn.diagnosis import HeldoutRow
 from rwn.evidence import Hypothesis
 from rwn.explain import Explanation, explain
+from rwn.fitted import Fitted
 from rwn.output_error import Target
 from rwn.prepare import CLOCK, noise_levels, prepare
 from rwn.proof import LEFT_OUT
-from rwn.search import Fitted
 
 DEMO = Path(rwn.__file__).parent / "demo"
 

@@ -157,6 +157,7 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         task.angle_per_position,
                         task.input_before,
                         task.angle.empty() ? nullptr : task.angle.data(),
+                        task.angle_from_speed,
                         task.restart_every,
                         task.restart_speed.data(),
                         task.restart_position.data(),

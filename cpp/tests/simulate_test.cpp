@@ -18,6 +18,7 @@ struct Case {
   std::vector<double> time, input, parameters, angle;
   std::vector<int> active, by;
   rwn::Kind kind = rwn::Kind::dc;
+  bool angle_from_speed = false;
 
   rwn::SimulationTask task() const {
     rwn::SimulationTask t;
@@ -28,6 +29,7 @@ struct Case {
     t.active = active;
     t.by = by;
     t.angle = angle;
+    t.angle_from_speed = angle_from_speed;
     return t;
   }
 };
@@ -85,24 +87,11 @@ int place_of() {
   }(std::make_index_sequence<rwn::effect_count>{});
 }
 
-template <class E>
-void check_slopes(int effect, bool follow) {
-  SCOPED_TRACE(std::string(E::info.name) + (follow ? " on a recorded angle" : ""));
-  Case c = motor();
-  switch_on(c, effect, E::parameters.data(), E::parameters.size());
-  if (follow) {
-    for (double t : c.time) c.angle.push_back(30.0 * t + 5.0 * std::sin(20.0 * t));
-  }
-  for (int k = 0; k <= rwn::viscous_friction; ++k) c.by.push_back(k);
-  for (std::size_t k = 0; k < E::parameters.size(); ++k) {
-    if (!E::parameters[k].lattice) c.by.push_back(rwn::first_parameter(effect) + static_cast<int>(k));
-  }
+/// Derivatives by `c.by` against central differences.
+void expect_slopes(const Case& c) {
   const std::size_t p = c.by.size(), n = c.time.size();
   std::vector<double> speed(n), slopes(n * p);
   ASSERT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}}), rwn::SimulationStatus::ok);
-  if constexpr (requires { E::parameters[0].lattice; }) {
-    if (!E::parameters.empty() && E::parameters[0].lattice) return;  // a staircase has no slope
-  }
   for (std::size_t j = 0; j < p; ++j) {
     const auto index = static_cast<std::size_t>(c.by[j]);
     const double value = c.parameters[index];
@@ -119,6 +108,45 @@ void check_slopes(int effect, bool follow) {
     }
     EXPECT_LE(std::sqrt(error), 2e-4 * std::sqrt(size) + 1e-12) << "parameter " << index;
   }
+}
+
+template <class E>
+void check_slopes(int effect, bool follow) {
+  SCOPED_TRACE(std::string(E::info.name) + (follow ? " on a recorded angle" : ""));
+  Case c = motor();
+  switch_on(c, effect, E::parameters.data(), E::parameters.size());
+  if (follow) {
+    for (double t : c.time) c.angle.push_back(30.0 * t + 5.0 * std::sin(20.0 * t));
+  }
+  for (int k = 0; k <= rwn::viscous_friction; ++k) c.by.push_back(k);
+  for (std::size_t k = 0; k < E::parameters.size(); ++k) c.by.push_back(rwn::first_parameter(effect) + static_cast<int>(k));
+  for (const rwn::Parameter& parameter : E::parameters) {
+    if (parameter.lattice) return;  // a staircase has no slope
+  }
+  expect_slopes(c);
+}
+
+/// A motor with a cog whose speed is filtered and offset; `angle` is the integral of that speed, as a recording has it.
+Case cogged_motor_without_a_position() {
+  Case c = motor();
+  const std::vector<std::pair<int, std::vector<double>>> effects = {
+      {place_of<rwn::CoggingTorque>(), {0.01, 7.0, 0.4}},
+      {place_of<rwn::SpeedSensorLag>(), {4e-3}},
+      {place_of<rwn::SensorBias>(), {3.0, 0.0}}};
+  for (const auto& [effect, values] : effects) {
+    c.active.push_back(effect);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const int index = rwn::first_parameter(effect) + static_cast<int>(k);
+      c.parameters[static_cast<std::size_t>(index)] = values[k];
+      c.by.push_back(index);
+    }
+  }
+  const std::vector<double> speed = speed_of(c);
+  c.angle.push_back(0.0);
+  for (std::size_t k = 1; k < speed.size(); ++k) {
+    c.angle.push_back(c.angle.back() + 0.5 * (c.time[k] - c.time[k - 1]) * (speed[k - 1] + speed[k]));
+  }
+  return c;
 }
 
 }  // namespace
@@ -142,6 +170,27 @@ TEST(Simulate, FrictionHoldsAtStandstill) {
   Case c = motor();
   for (double& v : c.input) v = 0.1;  // 0.0125 N m at stall, below 0.02
   for (double w : speed_of(c)) EXPECT_EQ(w, 0.0);
+}
+
+TEST(Simulate, AnIntegratedSpeedIsFollowedWithoutWhatItsSensorAdds) {
+  Case c = cogged_motor_without_a_position();
+  Case free = c;
+  free.angle.clear();
+  const std::vector<double> truth = speed_of(free), astray = speed_of(c);
+  c.angle_from_speed = true;
+  const std::vector<double> found = speed_of(c);
+  double off = 0.0;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    EXPECT_NEAR(found[k], truth[k], 1e-9);
+    off = std::max(off, std::abs(astray[k] - truth[k]));
+  }
+  EXPECT_GT(off, 0.1);
+}
+
+TEST(Simulate, SlopesAlongAnIntegratedSpeedAgreeWithCentralDifferences) {
+  Case c = cogged_motor_without_a_position();
+  c.angle_from_speed = true;
+  expect_slopes(c);
 }
 
 TEST(Simulate, SlopesOfEveryEffectAgreeWithCentralDifferences) {

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from rwn.another_law import another_law
 from rwn.diagnosis import HeldoutRow, Plot, Verdict
 from rwn.evidence import Hypothesis
 from rwn.explain import Explanation, Progress
 from rwn.model import Model
+from rwn.network_formula import Place
 from rwn.output_error import Target
 from rwn.proof import proved
 from rwn.refuse import removed_certainly, without_what_hurts
@@ -32,6 +34,7 @@ class Conclusion:
     model: Model  # with the network among its own effects where one stands in
     stand_in: str = ""
     curves: tuple[Plot, ...] = ()
+    another: str = ""  # the law that is seen in what the name leaves
     warnings: tuple[str, ...] = ()
 
 
@@ -54,6 +57,9 @@ def conclude(
         nothing = found.nothing_missing
         without = verdict if verdict == "unexplained" else verdict_without_a_name(found)
         end = replace(leading, chosen=nothing, verdict=without, rows=prove(nothing))
+    if end.verdict == "missing-physics":
+        place = another_law(found, chosen, model, jobs=jobs)
+        return replace(end, another=place.words, warnings=(_nearest(place),)) if place else end
     if end.verdict != "unexplained":
         return end
     say("drawing what has no name", 0.9)
@@ -74,6 +80,10 @@ def _with_stand_in(
     if leading.chosen.fitted.added and is_certain(leading.rows):
         return replace(leading, verdict=end.verdict, stand_in=_in_words(leading))
     return end if end.model.kind == "lti" else replace(end, warnings=(NO_NETWORK,))
+
+
+def _nearest(place: Place) -> str:
+    return f"{place.words} explains most of what is left: the name may only be the nearest of those that rwn knows"
 
 
 def _in_words(leading: Conclusion) -> str:

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from rwn.diagnosis import Estimate, FittedParameter, FoundEffect, NominalFit
 from rwn.effects import Effect, motor_index
 from rwn.evidence import Hypothesis
+from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.rough import rough
-from rwn.search import Fitted
 from rwn.units import linear_unit
 
 if TYPE_CHECKING:

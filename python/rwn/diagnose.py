@@ -89,7 +89,7 @@ def _report(end: Conclusion, made: Sequence[Mistake], seed: int, elapsed: float)
     named = verdict == "missing-physics"
     same = ambiguous(found, chosen) if named else ()
     physics = found_effects(found, chosen) if chosen.fitted.added and named else ()
-    share = whole(found, chosen, certain=is_certain(rows))
+    share = whole(found, chosen, certain=is_certain(rows), another=bool(end.another))
     physics = tuple(replace(e, probability=share * e.probability) for e in physics)
     steps = _coarse_speed(found)
     if steps and verdict in ("adequate", "missing-physics"):
@@ -188,5 +188,6 @@ def _warnings(
         if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and "." not in u.name:
             off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
             if off > 3.0:
-                texts.append(f"{u.name} had to move by {off:.1f} times its declared uncertainty")
+                moved = f"had to move by {off:.1f} times its declared uncertainty" if value > 0.0 else "went to zero"
+                texts.append(f"{u.name} {moved}")
     return tuple(texts)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fitted import Fitted
 from rwn.output_error import OutputError
-from rwn.search import Fitted
 
 Array = NDArray[np.float64]
 

@@ -11,11 +11,12 @@ from rwn import evidence
 from rwn.candidate import candidate, fit
 from rwn.effects import table
 from rwn.evidence import Hypothesis, Statistics
+from rwn.fitted import Fitted
 from rwn.polish import polished
 from rwn.prepare import Setup, noise_levels, windowed
 from rwn.rough import settled
 from rwn.rounding import as_shown, steps_shown, unrounded_fits
-from rwn.search import Fitted, Search, foremost
+from rwn.search import Search, foremost
 from rwn.temper import tempered
 from rwn.threads import side_by_side
 from rwn.tracks import retracked
@@ -109,7 +110,7 @@ def _settled(
 ) -> tuple[Search, Fitted, list[Fitted]]:
     """The fits under the noise, along the angle and to the speed that the best of them makes probable."""
     search = replace(search, problem=as_shown(search.problem, setup.problem))
-    tracked = retracked(*_reweighted(search, nominal, fits), setup.problem.targets)
+    tracked = retracked(*_reweighted(search, nominal, fits))
     return unrounded_fits(*polished(*tracked), setup.problem)
 
 
@@ -223,8 +224,8 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
     plain = [tuple(sorted(plainer(names))) for names in sets]
 
     def less(names: tuple[str, ...]) -> Fitted:
-        starts = {n: _values(best, n) if n in best.added else _plain_values(best) for n in names}
-        this = candidate(search.nominal, names, search.scales, starts, _motor(best))
+        starts = {n: best.values_of(n) if n in best.added else _plain_values(best) for n in names}
+        this = candidate(search.nominal, names, search.scales, starts, best.motor)
         end = settled(search.problem, this, fit(search.problem, this), turns=2)
         return Fitted(added=names, candidate=this, minimum=end)
 
@@ -247,28 +248,16 @@ def plainer(names: Sequence[str]) -> set[str]:
     return {PLAIN if _replaces(n) and _replaces(n) == _replaces(PLAIN) else n for n in names}
 
 
-def _values(fitted: Fitted, name: str) -> dict[str, float]:
-    """Parameters of one effect as fitted."""
-    effect = fitted.candidate.table[name]
-    return {p.name: float(fitted.vector[effect.at(p.name)]) for p in effect.parameters}
-
-
 def _plain_values(fitted: Fitted) -> dict[str, float]:
     """Plain friction of the level that the elaborate law of an explanation has."""
     (plain,) = (p for p in table()[PLAIN].parameters if p.replaces)
     levels = [
         value
         for name in fitted.added
-        for p, value in zip(fitted.candidate.table[name].parameters, _values(fitted, name).values(), strict=True)
+        for p, value in zip(fitted.candidate.table[name].parameters, fitted.values_of(name).values(), strict=True)
         if p.replaces == plain.replaces
     ]
     return {plain.name: float(np.mean(levels))}
-
-
-def _motor(fitted: Fitted) -> dict[str, float]:
-    """The motor as fitted."""
-    pairs = zip(fitted.candidate.unknowns, fitted.minimum.values, strict=True)
-    return {u.name: float(v) for u, v in pairs if "." not in u.name}
 
 
 def _distinct(fits: list[Fitted]) -> list[Fitted]:

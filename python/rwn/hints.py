@@ -7,6 +7,7 @@ passed through that filter, so the residual is never differentiated.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,21 @@ def drive_filter(problem: OutputError, motor: Array, step: float) -> tuple[float
     rate = max(damping / inertia, 1e-9)
     a = float(np.exp(-rate * step))
     return a, (1.0 - a) / (rate * inertia)
+
+
+def along_the_shaft(problem: OutputError, vector: Array, active: Sequence[int]) -> OutputError:
+    """`problem` with the angles that effects act along: without what a simulated sensor adds to the speed."""
+    from scipy.integrate import cumulative_trapezoid  # late: the command line starts without it
+
+    targets = []
+    for target in problem.targets:
+        if target.follows and target.angle_from_speed and target.speed.size:
+            run = problem.simulate(target, vector, active).signals
+            shown = cumulative_trapezoid(run["speed"], target.time, initial=0.0)
+            angle = target.angle - (shown - (run["position"] - run["position"][0]))
+            target = replace(target, angle=angle, angle_from_speed=False)
+        targets.append(target)
+    return replace(problem, targets=tuple(targets))
 
 
 def angle_spectrum(

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 from rwn import evidence
 from rwn.correct import corrected_model, deviations, estimates
 from rwn.diagnosis import Estimate
+from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.prepare import noise_levels, prepare
 from rwn.recording import Recording
-from rwn.search import Fitted, Search
+from rwn.search import Search
 
 
 @dataclass(frozen=True, kw_only=True)

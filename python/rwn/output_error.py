@@ -36,6 +36,7 @@ class Target:
     angle: Array = field(
         default_factory=lambda: _NONE
     )  # recorded position that angle-dependent effects follow
+    angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
     follows: bool = True  # angle-dependent effects follow `angle`, else the simulated position
     restart_every: int = (
         0  # samples of a window after which the motion restarts from the recorded one; 0: free run
@@ -110,8 +111,8 @@ class OutputError:
         """Free run of one recording; speed as it was measured."""
         status, *arrays = _core.simulate(
             self.kind, target.time, target.input, self.parameters_for(target, vector, active), list(active), list(by),
-            self.angle_per_position, target.input_before, target.followed, target.restart_every,
-            target.restart_speed, target.restart_position, self.order, self.own,
+            self.angle_per_position, target.input_before, target.followed, target.angle_from_speed,
+            target.restart_every, target.restart_speed, target.restart_position, self.order, self.own,
         )  # fmt: skip
         signals = dict(zip(SIGNALS, arrays[:3], strict=True))
         slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
@@ -159,7 +160,8 @@ class OutputError:
             self.kind, target.time, target.input, vector, list(active), list(by), target.current, target.speed,
             target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS], target.speed_is_difference,
             self.angle_per_position, target.input_before, target.followed,
-            target.restart_every, target.restart_speed, target.restart_position, self.order, self.own,
+            target.angle_from_speed, target.restart_every, target.restart_speed, target.restart_position,
+            self.order, self.own,
         )  # fmt: skip
         return CountedNormal(
             chi2=chi2, gradient=gradient, curvature=curvature, count=count, finite=status == "ok"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rwn.fitted import Fitted
 from rwn.rough import rough, settled
-from rwn.search import Fitted, Search
+from rwn.search import Search
 from rwn.threads import side_by_side
 
 TURNS = 5

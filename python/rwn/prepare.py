@@ -115,6 +115,7 @@ def target(recording: Recording, model: Model) -> Target:
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
         angle=position if position.size else _integral(time, speed),
+        angle_from_speed=position.size == 0,
     )
 
 

@@ -10,10 +10,11 @@ import numpy as np
 from rwn.diagnosis import HeldoutRow
 from rwn.evidence import Hypothesis
 from rwn.explain import Explanation
+from rwn.fitted import Fitted
 from rwn.heldout import Contender, heldout_rows
 from rwn.model import Model
 from rwn.output_error import OutputError, Target
-from rwn.search import Fitted, Search
+from rwn.search import Search
 from rwn.threads import side_by_side
 
 Again = Callable[[OutputError], tuple[Explanation, Fitted] | None]

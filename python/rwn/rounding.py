@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from rwn.fitted import Fitted
 from rwn.output_error import OutputError
 from rwn.quantisation import coarse_steps, noise_before_rounding, unrounded
-from rwn.search import Fitted, Search, foremost
+from rwn.search import Search, foremost
 from rwn.threads import side_by_side
 
 ROUNDS = 6  # fits, each to the speed less the rounding error of the last

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from rwn import hints
 from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
 from rwn.effects import Effect
-from rwn.least_squares import Minimum, Unknown
+from rwn.fitted import Fitted
+from rwn.least_squares import Minimum
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
 from rwn.rough import settled
@@ -37,61 +38,9 @@ Row = tuple[Racer, Minimum]
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
-IDLE = 1e-9  # strength, relative to its upper limit, that is none
-LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 GLANCE = 2500  # samples on which starts of one effect are told apart
 SIGHTED = 4  # starts of a periodic effect that are worth an iteration, of each order
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
-
-
-@dataclass(frozen=True, kw_only=True)
-class Fitted:
-    """A candidate and where its fit ended."""
-
-    added: tuple[str, ...]  # effects beside those of the nominal model
-    candidate: Candidate
-    minimum: Minimum
-
-    @property
-    def cost(self) -> float:
-        """Weighted squared error and priors."""
-        return self.minimum.cost
-
-    @property
-    def vector(self) -> Array:
-        """The whole parameter vector at the minimum."""
-        return self.candidate.with_values(self.minimum.values)
-
-    @property
-    def limits_met(self) -> tuple[str, ...]:
-        """Shapes of the added effects that ran into a limit: there a law bends towards one that it is not.
-
-        How strong an effect is says nothing of its law; its limits are those of belief.
-        """
-        shapes = {
-            f"{name}.{p.name}"
-            for name in self.added
-            for p in self.candidate.table[name].parameters
-            if not (p.strength or p.replaces or p.cyclic or p.window or p.idealised)
-        }
-        pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
-        return tuple(u.name for u, v in pairs if u.name in shapes and _meets(u, v))
-
-    @property
-    def idle(self) -> tuple[str, ...]:
-        """Added effects that ended without strength: they say nothing beyond what they take over."""
-        pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
-        reached = {u.name: u.lower > 0.0 or abs(v) > IDLE * u.upper for u, v in pairs}
-        strengths = {
-            name: [reached[f"{name}.{p.name}"] for p in self.candidate.table[name].parameters if p.strength]
-            for name in self.added
-        }
-        return tuple(name for name, strong in strengths.items() if strong and not any(strong))
-
-    def value(self, name: str) -> float:
-        """A fitted unknown by name ("inertia", "coulomb-friction.coulomb_torque")."""
-        names = [u.name for u in self.candidate.unknowns]
-        return float(self.minimum.values[names.index(name)])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -233,15 +182,16 @@ class Search:
     def _orders(self, base: Fitted, effect: Effect, lowest: float, count: int) -> list[float]:
         if not any(t.angle.size for t in self.problem.targets):
             return []
-        grid = hints.order_grid(self.problem)
+        problem = hints.along_the_shaft(self.problem, base.vector, base.candidate.active)
+        grid = hints.order_grid(problem)
         grid = grid[grid >= lowest]  # once per revolution is an unbalance
-        if not any(t.speed.size for t in self.problem.targets):
-            spectrum = hints.torque_spectrum(self.problem, base.vector, base.candidate.active, grid)
+        if not any(t.speed.size for t in problem.targets):
+            spectrum = hints.torque_spectrum(problem, base.vector, base.candidate.active, grid)
             return hints.orders_of(spectrum, grid, count)
-        residuals = self.problem.residuals(base.vector, base.candidate.active)
+        residuals = problem.residuals(base.vector, base.candidate.active)
         found: list[float] = []
         for with_current in (True, False) if effect.site == "flux" else (False,):  # a current may be known badly
-            spectrum = hints.angle_spectrum(self.problem, base.vector, residuals, grid, with_current=with_current)
+            spectrum = hints.angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
             found += hints.orders_of(spectrum, grid, count)
         return list(dict.fromkeys(found))
 
@@ -253,11 +203,6 @@ class Search:
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
     """The explanations that are worth fitting again under other conditions, best first."""
     return sorted(fits, key=lambda f: f.cost)[:KEPT]
-
-
-def _meets(unknown: Unknown, value: float) -> bool:
-    """Whether a value lies on a limit; at 0 a law merely loses a part (its damping, its strength)."""
-    return any(limit != 0.0 and abs(value - limit) < LIMIT * abs(limit) for limit in (unknown.lower, unknown.upper))
 
 
 def _kind(racer: Racer) -> tuple[str, float]:

@@ -7,9 +7,10 @@ of it (arXiv 2511.01321), and its amplitude is fitted once more together with th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,14 +20,13 @@ from rwn.candidate import Candidate, candidate, fit
 from rwn.diagnosis import HeldoutRow, Plot, Trace
 from rwn.evidence import Hypothesis
 from rwn.explain import Explanation
-from rwn.least_squares import Minimum
+from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.network_formula import NAME, PART, Place, as_effect, parts_of, places, size_of, states_of, unit_of_state
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
 from rwn.proof import proved
 from rwn.refuse import heldout_error
-from rwn.search import Fitted
 from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
@@ -50,8 +50,7 @@ class StandIn:
     def chosen_values(self) -> dict[str, float]:
         """Parameters of the network as fitted."""
         (name,) = self.chosen.fitted.added
-        effect = self.chosen.fitted.candidate.table[name]
-        return {p.name: float(self.chosen.fitted.vector[effect.at(p.name)]) for p in effect.parameters}
+        return self.chosen.fitted.values_of(name)
 
     @property
     def cost(self) -> float:
@@ -62,19 +61,25 @@ class StandIn:
 def stand_in(found: Explanation, model: Model, *, at: Place | None = None, jobs: int = 1) -> StandIn | None:
     """The network that explains most; None where none explains enough. `at`: this place and no other."""
     parts = -(-MANY // PART)
-    crowded = len(model.own_effects) + parts > _core.max_own_effects
-    if model.kind == "lti" or crowded or len(model.effects) + parts > _core.max_active_effects:
+    if not has_room(model, parts):
         return None
     tried = [at] if at else places(found.setup, model)
     heats = side_by_side(lambda place: _fit(found, model, place, FEW, 5), tried, jobs=jobs)
     for count, kept in ((FEW, 2), (MANY, 1)):
-        best_first = sorted(heats, key=lambda heat: heat.end.cost)
+        best_first = sorted(heats, key=lambda heat: heat.fitted.cost)
         heats = side_by_side(partial(_grown, found, model, count), best_first[:kept], jobs=jobs)
     whole, apart = side_by_side(
         lambda orthogonal: _kept(found, model, heats[0], orthogonal=orthogonal), (False, True), jobs=jobs
     )
     best = apart if apart.cost <= FREE * whole.cost else whole
     return best if best.cost < WORTH * found.nominal.cost else None
+
+
+def has_room(model: Model, parts: int, *, beside: int = 0) -> bool:
+    """Whether `parts` own effects more fit in, `beside` effects being active that the model does not have."""
+    if model.kind == "lti" or len(model.own_effects) + parts > _core.max_own_effects:
+        return False
+    return len(model.effects) + beside + parts <= _core.max_active_effects
 
 
 def proved_stand_in(
@@ -105,18 +110,12 @@ class _Heat:
     """Weights fitted at one place."""
 
     place: Place
-    this: Candidate
-    end: Minimum
-
-    @property
-    def motor(self) -> dict[str, float]:
-        """Nominal parameters as fitted."""
-        return _motor(self.this, self.end)
+    fitted: Fitted
 
     @property
     def weights(self) -> dict[str, float]:
         """Weights by name, in the order of the wavelets."""
-        pairs = zip(self.this.unknowns, self.end.values, strict=True)
+        pairs = zip(self.fitted.candidate.unknowns, self.fitted.minimum.values, strict=True)
         return {u.name.split(".")[1]: float(v) for u, v in pairs if u.name.startswith(NAME)}
 
 
@@ -126,7 +125,7 @@ def _kept(found: Explanation, model: Model, heat: _Heat, *, orthogonal: bool) ->
     effect = as_effect(found.setup, model, place, np.array(list(heat.weights.values())), orthogonal=orthogonal)
     known = replace(model, own_effects=(*model.own_effects, effect))
     setup = _knowing(found.setup, known)
-    this = candidate(setup.nominal, (effect.name,), setup.scales, motor=heat.motor)
+    this = candidate(setup.nominal, (effect.name,), setup.scales, motor=heat.fitted.motor)
     fitted = Fitted(added=(effect.name,), candidate=this, minimum=fit(setup.problem, this))
     hypothesis = Hypothesis(fitted=fitted, score=0.0, probability=0.0, misfit=0.0)
     return StandIn(place=place, found=replace(found, setup=setup), chosen=hypothesis, model=known)
@@ -151,27 +150,35 @@ def _knowing(setup: Setup, model: Model) -> Setup:
     )
 
 
-def _motor(this: Candidate, end: Minimum) -> dict[str, float]:
-    pairs = zip(this.unknowns, end.values, strict=True)
-    return {u.name: float(v) for u, v in pairs if "." not in u.name}
-
-
 def _fit(
     found: Explanation, model: Model, place: Place, count: int, iterations: int, start: _Heat | None = None
 ) -> _Heat:
     """Weights of `count` wavelets beside the nominal parameters, from nothing or from those of a smaller network."""
-    parts = parts_of(found.setup, model, place, count)
-    setup = _knowing(found.setup, replace(model, own_effects=(*model.own_effects, *parts)))
-    motor = start.motor if start else _motor(found.nominal.candidate, found.nominal.minimum)
-    known = start.weights if start else {}
-    starts = {part.name: {p.name: known[p.name] for p in part.parameters if p.name in known} for part in parts}
-    this = candidate(setup.nominal, tuple(starts), setup.scales, starts, motor)
+    motor = (start.fitted if start else found.nominal).motor
+    weights = start.weights if start else {}
+    setup, this = with_network(found.setup, model, place, count, motor=motor, weights=weights)
+    end = fit(setup.problem, this, max_iterations=iterations)
+    return _Heat(place=place, fitted=Fitted(added=(), candidate=this, minimum=end))
+
+
+def with_network(
+    setup: Setup, model: Model, place: Place, count: int, *, motor: Mapping[str, float],
+    weights: Mapping[str, float] = MappingProxyType({}),
+    effects: Mapping[str, Mapping[str, float]] = MappingProxyType({}),
+) -> tuple[Setup, Candidate]:  # fmt: skip
+    """The weights of `count` wavelets as unknowns beside the nominal parameters and `effects`, started at these values.
+
+    The setup is `setup` with the network among the effects that it knows.
+    """
+    parts = parts_of(setup, model, place, count)
+    setup = _knowing(setup, replace(model, own_effects=(*model.own_effects, *parts)))
+    known = {part.name: {p.name: weights[p.name] for p in part.parameters if p.name in weights} for part in parts}
+    this = candidate(setup.nominal, (*effects, *known), setup.scales, {**effects, **known}, motor)
     stiff = STIFF * size_of(setup, place)
     unknowns = tuple(
         replace(u, prior=0.0, prior_std=stiff) if u.name.startswith(NAME) else u for u in this.unknowns
     )
-    this = replace(this, unknowns=unknowns)
-    return _Heat(place=place, this=this, end=fit(setup.problem, this, max_iterations=iterations))
+    return setup, replace(this, unknowns=unknowns)
 
 
 def _grown(found: Explanation, model: Model, count: int, heat: _Heat) -> _Heat:

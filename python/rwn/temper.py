@@ -12,7 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from rwn import evidence
-from rwn.search import Fitted, Search
+from rwn.fitted import Fitted
+from rwn.search import Search
 
 BELIEVABLE = 4.0  # declared standard deviations that a parameter may move
 WHITE = 2.0  # variance times correlation time below which nothing but noise is left

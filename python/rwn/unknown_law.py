@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.conventional_network import ConventionalNetwork
+from rwn.fitted import Fitted
 from rwn.hints import drive_filter
 from rwn.locate import Unknown
 from rwn.output_error import OutputError
-from rwn.search import Fitted
 from rwn.wavelets import Wavelet
 from rwn.words import quantity
 

@@ -21,6 +21,7 @@ from rwn.rough import rough
 REMOVED = 0.99  # share of the removable squared error that a name has to remove where more than noise is left
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
 NEAREST = 0.5  # at most so probable is a proved name that leaves more than noise: it may only be the nearest one here
+ANOTHER = 0.4  # at most so probable is a name that leaves a curve over one state, which no right name does
 ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
 INEXACT = 0.002  # relative change in squared error that the simulation's own error may make
 ROUGH = 0.05  # the same where a contact makes the error rough
@@ -85,18 +86,20 @@ def _removed(found: Explanation, chosen: Hypothesis) -> float:
     return min(1.0 - max(after[s] - 1.0, 0.0) / max(before[s] - 1.0, 1e-12) for s in off)
 
 
-def whole(found: Explanation, chosen: Hypothesis, *, certain: bool = False) -> float:
+def whole(found: Explanation, chosen: Hypothesis, *, certain: bool = False, another: bool = False) -> float:
     """How probable it is that what was found is the whole of what is missing, from the share that it leaves.
 
     A right name leaves noise; a cubic drag called quadratic leaves some per cent of the mismatch. It is half where as
     much is left as an unproved name may leave; a proved one halves once more where it would no longer be given.
+    `another`: a law without a name is seen in it (another_law).
     """
+    most = ANOTHER if another else 1.0
     if found.left.at_the_floor:
-        return 1.0
+        return most
     left = 1.0 - _removed(found, chosen)
     alone = 1.0 / (1.0 + (left / (1.0 - REMOVED)) ** 2)
     beside = NEAREST / (1.0 + (left / (1.0 - PARTLY)) ** 2) if certain else 0.0
-    return max(alone, beside)
+    return min(most, max(alone, beside))
 
 
 def _above_noise(found: Explanation, h: Hypothesis) -> float:

@@ -23,6 +23,7 @@ struct SimulationSlice {
   double angle_per_position;
   double input_before;
   const double* angle;  // recorded position, or null
+  bool angle_from_speed;
   int restart_every;    // 0: never
   const double* restart_speed;
   const double* restart_position;
@@ -73,6 +74,7 @@ class Simulation {
     State state = initial(integrator);
     integrator.settle(state);
     prepare(state);
+    start_ = state.position;
     for (int k = 0; k < slice_.samples; ++k) {
       if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position)))
         return k;
@@ -80,10 +82,11 @@ class Simulation {
       if (has_own_ && *slice_.formula_failed) return k;
       if (slice_.restart_every > 0 && k > 0 && k % slice_.restart_every == 0) {
         state.x[w] = S(slice_.restart_speed[k]);
+        start_ += slice_.restart_position[k] - state.position;
         state.position = S(slice_.restart_position[k]);
         integrator.settle(state);
       }
-      if (slice_.angle != nullptr) integrator.follow(slice_.angle[k] - state.position);
+      if (slice_.angle != nullptr) integrator.follow(offset_ = offset(k, state.position));
       if (k + 1 < slice_.samples) advance(integrator, state, k);
     }
     return slice_.samples;
@@ -157,7 +160,9 @@ class Simulation {
     const Reading<S> y = reading(s);
     x.current = y.current;
     x.speed = y.speed;
-    x.angle = slice_.angle_per_position * (slice_.angle != nullptr ? S(slice_.angle[k]) : y.position);
+    x.angle = slice_.angle_per_position * (slice_.angle == nullptr       ? y.position
+                                       : slice_.angle_from_speed ? y.position + offset_
+                                                                 : S(slice_.angle[k]));
     x.angle_per_position = slice_.angle_per_position;
     x.drive_torque = kind == Kind::dc ? motor_[torque_constant] * y.current : input;
     if constexpr (kind != Kind::lti) x.direction = s.direction;
@@ -214,6 +219,7 @@ class Simulation {
   void write(int k, const State& s) {
     Reading<S> y = reading(s);
     if (senses_) sense(k, s, y);
+    if (slice_.angle_from_speed) integrate(k, y.speed);
     store(k, y.current, slice_.current, slice_.d_current);
     store(k, y.speed, slice_.speed, slice_.d_speed);
     store(k, y.position, slice_.position, slice_.d_position);
@@ -226,6 +232,18 @@ class Simulation {
       if (e.own != nullptr && is_sensor(e.own->term()))
         e.own->sense(e.p, motor_, motion(s, S(command_before(k - 1)), k), y);
     }
+  }
+
+  /// Integrates the simulated reading of the speed as the recorded one was integrated.
+  void integrate(int k, const S& shown) {
+    if (k > 0) turned_ += 0.5 * (slice_.time[k] - slice_.time[k - 1]) * (shown_ + shown);
+    shown_ = shown;
+  }
+
+  /// What angle-dependent effects follow minus the simulated position. An integrated speed turns with its sensor's
+  /// errors; the simulated reading, integrated likewise, takes them out.
+  S offset(int k, const S& position) const {
+    return slice_.angle_from_speed ? slice_.angle[k] - turned_ - start_ : slice_.angle[k] - position;
   }
 
   void store(int k, const S& y, double* values, double* slopes) const {
@@ -246,6 +264,8 @@ class Simulation {
   std::array<S, formula_depth> stack_{};
   std::array<S, kind == Kind::lti ? coefficient_count : 0> coefficients_{};
   S delay_{0.0};
+  S shown_{0.0}, turned_{0.0};  // simulated reading of the speed, and its integral
+  S start_{0.0}, offset_{0.0};  // position where that integral starts; angle minus position
   std::array<S, 8> breaks_{};
   int break_count_ = 0;
   bool delayed_ = false, actuates_ = false, senses_ = false, has_own_ = false;

@@ -16,7 +16,7 @@ struct PreslidingHysteresis {
                                                    .upper = 1e6,
                                                    .start = 30.0,
                                                    .scale = Scale::torque,
-                                                   .scan = {3.0, 30.0, 300.0},
+                                                   .scan = {0.3, 3.0, 30.0, 300.0},
                                                    .strength = true},
                                          Parameter{.name = "bristle_damping",
                                                    .unit = "N m s/rad",
