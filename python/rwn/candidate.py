@@ -83,7 +83,7 @@ def candidate(
         effect = known_effects[name]
         known = nominal.effects.get(name)
         values[name] = {
-            p.name: _first(effect, p, nominal, scales, starts.get(name, {}), known) for p in effect.parameters
+            p.name: _first(effect, p, motor_now, scales, starts.get(name, {}), known) for p in effect.parameters
         }
         if known is None:
             unknowns += [
@@ -127,6 +127,7 @@ def _motor_unknown(name: str, nominal: Nominal) -> Unknown:
     )
 
 
+LEAST_LEVEL = 1e-3  # of a friction, relative to the largest torque, that says how strong its elaborations may be
 TORQUE_TO_EMF = 0.02  # Kt = Ke in SI but for losses that the equations do not hold
 
 
@@ -167,7 +168,7 @@ def _effect_unknown(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapp
 def _first(
     effect: Effect,
     p: Parameter,
-    nominal: Nominal,
+    motor: Mapping[str, float],
     scales: Mapping[str, float],
     start: Mapping[str, float],
     known: Mapping[str, float] | None,
@@ -176,13 +177,13 @@ def _first(
         return start[p.name]
     if known is not None:
         return known.get(p.name, p.start if p.fixed else 0.0)
-    return p.start * first_unit(effect, p, nominal, scales)
+    return p.start * first_unit(effect, p, motor, scales)
 
 
-def first_unit(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapping[str, float]) -> float:
-    """What first guesses of a parameter are multiples of: its scale, or the nominal level it takes over."""
+def first_unit(effect: Effect, p: Parameter, motor: Mapping[str, float], scales: Mapping[str, float]) -> float:
+    """What first guesses of a parameter are multiples of: its scale, or the level of the motor that it takes over."""
     replaced = next((q.replaces for q in effect.parameters if q.replaces), None)
-    level = nominal.motor.get(replaced, 0.0) if replaced else 0.0
-    if level > 0.0 and p.scale == "torque" and p.unit == "N m":
+    level = motor.get(replaced, 0.0) if replaced else 0.0
+    if level > LEAST_LEVEL * scales["torque"] and p.scale == "torque" and p.unit == "N m":
         return level / float(np.mean([q.start for q in effect.parameters if q.replaces]))
     return scales[p.scale]

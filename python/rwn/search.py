@@ -85,12 +85,15 @@ class Search:
         return list({f.added: f for f in reversed(found)}.values())[::-1]
 
     def _glance(self, base: Fitted, racers: Sequence[Racer], keep: int) -> list[Racer]:
-        """At most `keep` starts of each effect: those that an iteration on a part of the recordings brings furthest."""
+        """At most `keep` starts of each effect: those that an iteration brings furthest.
+
+        Beside other effects a part of the recordings has to do; alone, a soft bristle is lost on it.
+        """
         counts = Counter(map(_kind, racers))
         crowded = [r for r in racers if counts[_kind(r)] > keep]
         if not crowded:
             return list(racers)
-        part = replace(self.problem, targets=tuple(self._parts(base)))
+        part = replace(self.problem, targets=tuple(self._parts(base))) if base.added else self.problem
         crowded = self._sighted(crowded, part)
         rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
         return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
@@ -147,33 +150,28 @@ class Search:
     def _starts(self, base: Fitted, name: str, *, orders: int) -> list[Racer]:
         effect = self.nominal.table[name]
         periodic = next((p.name for p in effect.parameters if p.order), "")
-        motor = {u.name: float(v) for u, v in zip(base.candidate.unknowns, base.minimum.values, strict=True)}
-        inner: dict[str, dict[str, float]] = {}
-        for key in list(motor):
-            if "." in key:
-                owner, parameter = key.split(".")
-                inner.setdefault(owner, {})[parameter] = motor.pop(key)
-        effects = (*base.added, name)
+        known = {other: base.values_of(other) for other in base.added}
         return [
             Racer(
                 name,
                 start.get(periodic, 0.0),
-                candidate(self.nominal, effects, self.scales, {**inner, name: start}, begin),
+                candidate(self.nominal, (*base.added, name), self.scales, {**known, name: start}, begin),
             )
             for start in self._guesses(base, effect, orders)
-            for begin in (motor, *(({},) if _bent(base) else ()), *self.nominal.starts)
+            for begin in (base.motor, *(({},) if _bent(base) else ()), *self.nominal.starts)
         ]
 
     def _guesses(self, base: Fitted, effect: Effect, orders: int) -> list[Start]:
         """Starting values (SI) of one effect: what its table scans, and hints from the residual of `base`."""
         axes: list[list[Start]] = []
+        motor = {**self.nominal.motor, **base.motor}
         for p in effect.parameters:
             if p.order:
                 axes.append([{p.name: order} for order in self._orders(base, effect, p.lower, orders)])
             elif p.window:
                 continue
             elif p.scan:
-                axes.append([{p.name: s * first_unit(effect, p, self.nominal, self.scales)} for s in p.scan])
+                axes.append([{p.name: s * first_unit(effect, p, motor, self.scales)} for s in p.scan])
         if any(p.window for p in effect.parameters):
             first, last = (p.name for p in effect.parameters if p.window)
             axes.append([{first: a, last: b} for a, b in self._windows(base)])
