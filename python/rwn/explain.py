@@ -226,7 +226,7 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
     def less(names: tuple[str, ...]) -> Fitted:
         starts = {n: best.values_of(n) if n in best.added else _plain_values(best) for n in names}
         this = candidate(search.nominal, names, search.scales, starts, best.motor)
-        end = settled(search.problem, this, fit(search.problem, this), turns=2)
+        end = settled(search.problem, this, fit(search.problem, this), turns=1)
         return Fitted(added=names, candidate=this, minimum=end)
 
     return side_by_side(less, dict.fromkeys([*sets[1:], *plain]), jobs=search.jobs)

@@ -9,7 +9,7 @@ from rwn.rough import rough, settled
 from rwn.search import Search
 from rwn.threads import side_by_side
 
-TURNS = 5
+TURNS = 3
 RIVAL = 2.0  # cost in units of the best, up to which a fit may still turn out to be better
 
 

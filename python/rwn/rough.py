@@ -1,7 +1,7 @@
 """Fits where the error is rough: a contact met a little earlier changes all that follows, and derivatives mislead.
 
-Steps without derivatives over the parameters of the effect that makes it so (Nelder, Mead 1965, over their logarithms)
-take turns with steps along the derivatives over all of them.
+Seen from farther off the error is smooth: a bowl with ripples. Gauss-Newton steps with secants over steps longer than
+the ripples go down it, coarse to fine (graduated optimisation: Blake, Zisserman 1987), before derivatives take over.
 """
 
 from __future__ import annotations
@@ -10,20 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.candidate import Candidate, fit
-from rwn.least_squares import Minimum
-from rwn.output_error import OutputError
+from rwn.least_squares import Minimum, Unknown, minimise
+from rwn.output_error import CountedNormal, OutputError
 
 Array = NDArray[np.float64]
 
-EVALUATIONS = 80  # simulations of a turn without derivatives
-ITERATIONS = 12  # of a turn with them
-FIRST = 0.22  # first steps without derivatives, relative
-GAIN = 2e-3  # least relative gain in cost that is worth another turn
+SECANTS = (0.2, 0.06, 0.02)  # relative steps, coarse to fine
+STEPS = 6  # along each of them
+ITERATIONS = 12  # with derivatives
+GAIN = 2e-3  # least relative gain in cost that is worth another turn, or step
+LOST = 1.5  # squared error in units of the best, from which a step is taken back and needs no slopes
+NEAR_ZERO = 0.02  # of its range or its prior: what a parameter near zero is stepped by, as if it were that large
 
 
-def rough(this: Candidate) -> list[int]:
-    """The unknowns of effects that idealise a contact; empty where the error is smooth."""
-    owners = {name for name in this.effects if any(p.idealised for p in this.table[name].parameters)}
+def rough(this: Candidate, *names: str) -> list[int]:
+    """The unknowns of effects that idealise a contact, all or among `names`; empty where the error is smooth."""
+    owners = {name for name in names or this.effects if any(p.idealised for p in this.table[name].parameters)}
     return [k for k, u in enumerate(this.unknowns) if u.name.partition(".")[0] in owners and u.lower > 0.0]
 
 
@@ -31,7 +33,9 @@ def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int
     """The fit of `this` from the end of another, by turns as long as they gain; `start` where its error is smooth."""
     best = start
     for _ in range(turns if rough(this) else 0):
-        values = _without_derivatives(problem, this, best.values)
+        values = best.values
+        for relative in SECANTS:
+            values = _by_secants(problem, this.starting_at(values), relative)
         again = fit(problem, this.starting_at(values), max_iterations=ITERATIONS)
         gained = again.cost < (1.0 - GAIN) * best.cost
         best = min(best, again, key=lambda m: m.cost)
@@ -40,23 +44,51 @@ def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int
     return best
 
 
-def _without_derivatives(problem: OutputError, this: Candidate, values: Array) -> Array:
-    from scipy.optimize import minimize  # late: the command line starts without it
+def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Array:
+    """Where Levenberg-Marquardt ends with the slopes of secants over `relative` steps in place of derivatives."""
 
-    where = rough(this)
-    lower, upper = (np.log([getattr(this.unknowns[k], side) for k in where]) for side in ("lower", "upper"))
+    best = np.inf
 
-    def put(z: Array) -> Array:
-        moved = values.copy()
-        moved[where] = np.exp(np.clip(z, lower, upper))
-        return moved
+    def evaluate(values: Array) -> CountedNormal:
+        nonlocal best
+        error = _weighted(problem, this, values)
+        chi2 = float(error @ error)
+        slopes = np.zeros((error.size, values.size))
+        for k, unknown in enumerate(this.unknowns if chi2 < LOST * best else ()):
+            low, high = _sides(unknown, float(values[k]), relative)
+            if high > low:
+                below, above = (_weighted(problem, this, _with(values, k, v)) for v in (low, high))
+                slopes[:, k] = (below - above) / (high - low)  # the error is recorded minus simulated
+        best = min(best, chi2)
+        return CountedNormal(
+            chi2=chi2, gradient=slopes.T @ error, curvature=slopes.T @ slopes, count=error.size,
+            finite=bool(np.isfinite(chi2)),
+        )  # fmt: skip
 
-    def error(z: Array) -> float:
-        return problem.error(this.with_values(put(z)), this.active)
-
-    first = np.log(values[where])
-    corners = np.vstack([first, first - FIRST * np.eye(len(where))])
-    found = minimize(
-        error, first, method="Nelder-Mead", options={"initial_simplex": corners, "maxfev": EVALUATIONS}
+    samples = sum(t.signal(s).size for t in problem.targets for s in t.recorded)
+    found = minimise(
+        evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * samples, prior_scale=problem.colour
     )
-    return put(found.x)
+    return found.values
+
+
+def _sides(unknown: Unknown, value: float, relative: float) -> tuple[float, float]:
+    """Ends of the secant about a value, within its limits."""
+    size = abs(value)
+    if not unknown.logarithmic:
+        span = unknown.upper - unknown.lower
+        size = max(size, NEAR_ZERO * span if np.isfinite(span) else 0.0, NEAR_ZERO * abs(unknown.prior or 0.0))
+    return max(value - relative * size, unknown.lower), min(value + relative * size, unknown.upper)
+
+
+def _with(values: Array, k: int, value: float) -> Array:
+    moved = values.copy()
+    moved[k] = value
+    return moved
+
+
+def _weighted(problem: OutputError, this: Candidate, values: Array) -> Array:
+    """Weighted errors of all recordings and signals, end to end; nothing where nothing was recorded."""
+    errors = problem.residuals(this.with_values(values), this.active)
+    weighted: Array = np.nan_to_num(np.concatenate([r[s] / problem.noise[s] for r in errors for s in r]))
+    return weighted

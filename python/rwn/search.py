@@ -18,7 +18,7 @@ from rwn.fitted import Fitted
 from rwn.least_squares import Minimum
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
-from rwn.rough import settled
+from rwn.rough import rough, settled
 from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
@@ -38,8 +38,9 @@ Row = tuple[Racer, Minimum]
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
+SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
 GLANCE = 2500  # samples on which starts of one effect are told apart
-SIGHTED = 4  # starts of a periodic effect that are worth an iteration, of each order
+SIGHTED = 4  # starts that are worth an iteration where many are looked at
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 
 
@@ -77,7 +78,7 @@ class Search:
         ]
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience)
         rows = _promising(_best_of_each(rows, keep), base.cost)
-        finals = self._race([racer for racer, _ in self._over_rough(rows)], iterations=60)
+        finals = self._race([racer for racer, _ in self._over_rough(rows, base.cost)], iterations=60)
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
             for racer, m in sorted(finals, key=lambda row: row[1].cost)
@@ -93,20 +94,25 @@ class Search:
         crowded = [r for r in racers if counts[_kind(r)] > keep]
         if not crowded:
             return list(racers)
-        part = replace(self.problem, targets=tuple(self._parts(base))) if base.added else self.problem
+        part = replace(self.problem, targets=tuple(self._parts(base)))
         crowded = self._sighted(crowded, part)
-        rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
+        on = part if base.added else self.problem
+        rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=on), keep)
         return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
 
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
-        """Of the starts of a periodic effect the SIGHTED best of each order, before anything is fitted."""
-        periodic = [r for r in racers if r.order]
-        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), periodic, jobs=self.jobs)
+        """Where derivatives mislead from afar, the SIGHTED best of an effect's starts before anything is fitted.
+
+        That is for periodic effects, each order by itself, and where a contact makes the error rough.
+        """
+        astray = [r for r in racers if r.order or rough(r.candidate, r.name)]
+        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray, jobs=self.jobs)
         groups: dict[tuple[str, float], list[tuple[float, int]]] = {}
-        for k, (racer, cost) in enumerate(zip(periodic, ends, strict=True)):
+        for k, (racer, cost) in enumerate(zip(astray, ends, strict=True)):
             groups.setdefault(_kind(racer), []).append((cost, k))
         best = {k for group in groups.values() for _, k in sorted(group)[:SIGHTED]}
-        return [*(r for r in racers if not r.order), *(r for k, r in enumerate(periodic) if k in best)]
+        others = [r for r in racers if not any(r is one for one in astray)]
+        return [*others, *(r for k, r in enumerate(astray) if k in best)]
 
     def _parts(self, base: Fitted) -> Iterator[Target]:
         """The beginning of every recording: GLANCE samples in all, or until enough of what `base` leaves is in it."""
@@ -130,9 +136,14 @@ class Search:
             for racer, m in zip(racers, ends, strict=True)
         ]
 
-    def _over_rough(self, rows: Sequence[Row]) -> list[Row]:
-        """Starts whose error is rough, brought near before they are fitted."""
-        ends = side_by_side(lambda row: settled(self.problem, row[0].candidate, row[1], turns=2), rows, jobs=self.jobs)
+    def _over_rough(self, rows: Sequence[Row], base_cost: float) -> list[Row]:
+        """Starts whose error is rough and that have gained something, brought near before they are fitted."""
+
+        def near(row: Row) -> Minimum:
+            racer, m = row
+            return settled(self.problem, racer.candidate, m, turns=1) if m.cost < SLIGHT * base_cost else m
+
+        ends = side_by_side(near, rows, jobs=self.jobs)
         return [
             (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
             for (racer, _), m in zip(rows, ends, strict=True)
