@@ -66,9 +66,11 @@ def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Array
         )  # fmt: skip
 
     samples = sum(t.signal(s).size for t in problem.targets for s in t.recorded)
-    found = minimise(
-        evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * samples, prior_scale=problem.colour
-    )
+    with np.errstate(over="ignore", invalid="ignore"):  # a run that leaves the finite numbers is a step taken back
+        found = minimise(
+            evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * samples,
+            prior_scale=problem.colour,
+        )  # fmt: skip
     return found.values
 
 
