@@ -1,4 +1,4 @@
-"""`rwn trials make | run | score`: the proof on recordings whose missing physics is concealed."""
+"""`rwn trials make | spoil | run | score`: the proof on recordings whose missing physics is concealed."""
 
 from __future__ import annotations
 
@@ -37,6 +37,21 @@ def make(
     except (ValueError, OSError) as error:
         _stop(error)
     typer.echo(f"{count} trials in {out}; SHA-256 of the sealed answers: {digest}")
+
+
+@app.command()
+def spoil(
+    folder: Annotated[Path, typer.Argument(help="A finished set of trials.", exists=True)],
+    out: Annotated[Path, typer.Option(help="Folder to make.")],
+) -> None:
+    """Put a recording mistake (unit, sign, gear ratio, a channel out of step) into every trial of FOLDER."""
+    from rwn.trials.spoil import spoil as spoil_set
+
+    try:
+        digest = spoil_set(folder, out)
+    except (ValueError, OSError) as error:
+        _stop(error)
+    typer.echo(f"the trials with mistakes in {out}; SHA-256 of the sealed answers: {digest}")
 
 
 @app.command()

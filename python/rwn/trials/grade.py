@@ -17,6 +17,7 @@ from rwn.trials.plant import simulate
 from rwn.trials.run import out_of, trial_folders
 from rwn.trials.seal import ANSWERS, unseal
 
+RECORDING = "recording"  # the equation of a mistake in the recordings
 NO_RESULT = "no-result"  # the diagnosis failed or was never run
 CONFIDENT = 0.5  # a single name with at least this probability
 LARGEST_SET = 3
@@ -55,6 +56,8 @@ class Grade:
     parameters: tuple[Estimated, ...] = ()
     removed: tuple[float, ...] = ()
     seconds: float | None = None
+    mistake: str = ""  # in the recordings, and what was said of them
+    mistaken: str = ""
 
     @property
     def level(self) -> str:
@@ -135,6 +138,7 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     said: dict[str, Any] = {"verdict": NO_RESULT}
     if (out / "diagnosis.json").exists():
         said = json.loads((out / "diagnosis.json").read_text())
+    mistaken, said = _without_mistake(said) if "mistake" in answer else ("", said)
     effects = said.get("effects", []) if said["verdict"] == "missing-physics" else []
     names = tuple(str(effect["name"]) for effect in effects)
     candidates = tuple(said.get("set") or names[:1]) if names else ()
@@ -162,7 +166,20 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
         parameters=tuple(_parameters(answer, effects)) if named else (),
         removed=tuple(_removed(answer, trial, out)),
         seconds=json.loads(timing.read_text())["seconds"] if timing.exists() else None,
+        mistake=str(answer.get("mistake", {}).get("name", "")),
+        mistaken=mistaken,
     )
+
+
+def _without_mistake(said: Mapping[str, Any]) -> tuple[str, dict[str, Any]]:
+    """The recording mistake that was named first, and what was said of the drive beneath it."""
+    mistakes = [e for e in said.get("effects", []) if e["equation"] == RECORDING]
+    physics = [e for e in said.get("effects", []) if e["equation"] != RECORDING]
+    if not mistakes:
+        return "", dict(said)
+    beneath = "missing-physics" if physics else "adequate"
+    names = [e["name"] for e in physics[:1]]
+    return str(mistakes[0]["name"]), {**said, "verdict": beneath, "effects": physics, "set": names}
 
 
 def _equation_right(answer: Mapping[str, Any], said: Mapping[str, Any]) -> bool:

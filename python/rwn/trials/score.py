@@ -55,6 +55,22 @@ def both_found(grade: Grade) -> bool:
     return set(grade.truth) <= set(grade.names)
 
 
+def mistakes(grades: Sequence[Grade]) -> dict[str, dict[str, Share | str]]:
+    """Of each kind of recording mistake: found under its name, and the physics beneath it right."""
+    groups: dict[str, list[Grade]] = {}
+    for grade in grades:
+        if grade.mistake:
+            groups.setdefault(grade.mistake, []).append(grade)
+    return {
+        kind: {
+            "found": Share.of(g.mistaken == kind for g in group),
+            "single effect beneath it right": Share.of(named_right(g) for g in single(group)),
+            "false alarms beneath it": Share.of(g.false_alarm for g in group if g.mode == "null"),
+        }
+        for kind, group in sorted(groups.items())
+    }
+
+
 def _share_target(name: str, asked: str, marks: Iterable[bool], bound: Callable[[float], bool]) -> Target:
     share = Share.of(marks)
     return Target(name, asked, str(share), bound(share.hits / share.count) if share.count else None)

@@ -27,6 +27,9 @@ def show(graded: Graded, console: Console) -> None:
     console.print(_targets(grades))
     for name, by in BREAKDOWNS.items():
         console.print(_rows(f"single effects by {name}", name, score.broken_down(grades, by)))
+    spoilt = score.mistakes(grades)
+    if spoilt:
+        console.print(_rows("recording mistakes", "mistake", spoilt))
     console.print(_calibration(grades))
     console.print(_rows("parameters of rightly named effects", "parameter", score.parameter_errors(grades)))
     console.print(_confusion(grades))
