@@ -101,7 +101,10 @@ class TransferError(OutputError):
             if not normal.finite or not np.isfinite(cost) or cost >= best - 1e-6 * abs(best):
                 break
             best, here = cost, trial
-            scale = 1.0 / np.sqrt(np.maximum(np.diag(normal.curvature + weight), 1e-300))
+            sizes = np.diag(normal.curvature + weight)
+            if not sizes.any() or not np.isfinite(normal.curvature).all():
+                break  # the recording does not depend on the state, or the run leaves the finite numbers
+            scale = 1.0 / np.sqrt(np.maximum(sizes, 1e-12 * sizes.max()))
             system = (normal.curvature + weight) * np.outer(scale, scale) + 1e-9 * np.eye(self.order)
             at = at + scale * np.linalg.solve(system, scale * (normal.gradient - weight @ at))
         return best, here
