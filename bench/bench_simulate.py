@@ -1,7 +1,8 @@
 """Speed of the drive simulation and of the EMPS fit; answers are checked first. Run: python bench/bench_simulate.py
 
 Steps per second on one core, value only and with derivatives, for the axis model without effects, with Coulomb friction
-(once on a signal that only reverses, once on one that lets it stand in between), and for the dc motor. Beside the rows
+(once on a signal that only reverses, once on one that lets it stand in between), for the dc motor, and of the normal
+equations of a fit with every effect by itself (its parameters beside those of the motor). Beside the rows
 with friction stands how often the motion comes to rest. Results go to memory that is already mapped, as in a fit; the
 row "fresh memory" shows what the operating system adds the first time. numba, where installed, runs the plain
 time-stepping loop that one would write by hand (it stops at the sample, rwn at the instant).
@@ -94,8 +95,21 @@ def main() -> None:
     for name, kind, force, vector, active, wanted in rows:
         run = partial(_core.simulate, kind, t, force, vector, active, wanted)
         line(name, best_of(run), f"{stops(np.array(run()[2])):.2f} stops per 1000 steps" if active else "")
+    effects()
     in_numba(reversing)
     emps()
+
+
+def effects() -> None:
+    """Normal equations of the demonstration motor with each effect at its first guess, by all that would be fitted."""
+    demo = Path(rwn.__file__).parent / "demo"
+    model = rwn.read_model(demo / "model.toml")
+    setup = prepare([rwn.read_recording(demo / "train.csv", layout=model.recording)], model)
+    samples = sum(t.time.size for t in setup.problem.targets)
+    for name in table():
+        this = candidate(setup.nominal, (name,), setup.scales)
+        seconds = best_of(partial(setup.problem.normal, this.vector, this.active, this.by), repeats=5)
+        line(f"dc, {name}, {len(this.by)} derivatives", seconds, samples=samples)
 
 
 def check(name: str, got: Sequence[float], want: np.ndarray, limit: float) -> None:
@@ -106,8 +120,8 @@ def check(name: str, got: Sequence[float], want: np.ndarray, limit: float) -> No
         sys.exit(f"{name} gives another answer than the reference")
 
 
-def line(name: str, seconds: float, remark: str = "") -> None:
-    print(f"{name:40s} {1e9 * seconds / N:7.1f} ns/step  {1e-6 * N / seconds:6.1f} M steps/s  {remark}")
+def line(name: str, seconds: float, remark: str = "", *, samples: int = N) -> None:
+    print(f"{name:44s} {1e9 * seconds / samples:7.1f} ns/step  {1e-6 * samples / seconds:6.1f} M steps/s  {remark}")
 
 
 def in_numba(force: np.ndarray) -> None:
