@@ -168,6 +168,15 @@ double value_of(const Dual<N, Isa>& x) {
 }
 inline double value_of(double x) { return x; }
 
+/// True where both carry the same derivatives.
+template <int N, class Isa>
+bool same_slopes(const Dual<N, Isa>& a, const Dual<N, Isa>& b) {
+  for (int k = 0; k < N; ++k) {
+    if (a.d[k] != b.d[k]) return false;
+  }
+  return true;
+}
+
 /// True where no derivative is carried.
 template <int N, class Isa>
 bool is_constant(const Dual<N, Isa>& x) {

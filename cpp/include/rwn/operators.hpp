@@ -12,7 +12,7 @@ class Operators {
   static constexpr int n = Equations<S, kind>::n;
 
   struct Step {
-    double h = -1.0;
+    S h{-1.0};
     int level = -1;
     bool stick = false;
     Matrix e{}, p1{}, p2{};                // whole step: e^{Ah}, h phi1, h^2 phi2 (p2 of linear steps only)
@@ -21,26 +21,39 @@ class Operators {
 
   explicit Operators(const Equations<S, kind>& equations) : equations_(equations) {}
 
-  /// Those of constant lengths are kept; those of instants that are searched, or carry derivatives, are made anew.
+  /// Those of constant lengths are kept, and the last few that carry derivatives: a late command divides every sample
+  /// alike. Those of instants that are searched are made anew.
   const Step& over(const S& h, int level, bool stick) {
-    const double length = value_of(h);
-    if (searching_ || !is_constant(h)) {
+    if (searching_) {
       make(passing_, h, level, stick);
       return passing_;
     }
-    for (const Step& o : kept_) {
-      if (std::abs(o.h - length) <= 1e-9 * length && o.level == level && o.stick == stick) return o;
-    }
-    Step& slot = kept_[next_];
-    next_ = (next_ + 1) % kept_.size();
-    make(slot, S(length), level, stick);
-    return slot;
+    return is_constant(h) ? constant_.over(*this, h, level, stick) : sloped_.over(*this, h, level, stick);
   }
 
   /// While an instant is searched nothing is worth keeping.
   void search(bool on) { searching_ = on; }
 
  private:
+  /// The last few that were made.
+  template <std::size_t size>
+  struct Kept {
+    std::array<Step, size> steps{};
+    std::size_t next = 0;
+
+    const Step& over(const Operators& maker, const S& h, int level, bool stick) {
+      const double length = value_of(h);
+      for (const Step& o : steps) {
+        const bool as_long = std::abs(value_of(o.h) - length) <= 1e-9 * length;
+        if (as_long && o.level == level && o.stick == stick && same_slopes(o.h, h)) return o;
+      }
+      Step& slot = steps[next];
+      next = (next + 1) % size;
+      maker.make(slot, h, level, stick);
+      return slot;
+    }
+  };
+
   static Matrix scaled(Matrix a, const S& h) {
     for (S& entry : a) entry *= h;
     return a;
@@ -49,7 +62,7 @@ class Operators {
   void make(Step& o, const S& h, int level, bool stick) const {
     const Matrix a = equations_.system_matrix(level, stick);
     const PhiFunctions<S, n> f = phi_functions<S, n>(scaled(a, h));
-    o.h = value_of(h);
+    o.h = h;
     o.level = level;
     o.stick = stick;
     o.e = f.p0;
@@ -67,8 +80,8 @@ class Operators {
   }
 
   const Equations<S, kind>& equations_;
-  std::array<Step, 6> kept_{};
-  std::size_t next_ = 0;
+  Kept<6> constant_{};
+  Kept<4> sloped_{};
   Step passing_{};
   bool searching_ = false;
 };
