@@ -16,7 +16,8 @@ from rwn import _core
 from rwn.effects import motor_index
 from rwn.locate import unknown_inputs
 from rwn.output_error import OutputError, Target
-from rwn.prepare import motion
+from rwn.prepare import motion, smoothing_over
+from rwn.smoothing import smooth
 
 Array = NDArray[np.float64]
 
@@ -82,6 +83,38 @@ def angle_spectrum(
         ridge = 1e-9 * np.trace(grams[k]) + 1e-300
         explained[k] = loads[k] @ np.linalg.solve(grams[k] + ridge * np.eye(2), loads[k])
     return explained / energy
+
+
+def flux_spectrum(problem: OutputError, motor: Array, orders: Array) -> Array:
+    """Share of the winding's voltage error that a back-EMF w cos(N theta), w sin(N theta) explains, per order N.
+
+    The voltage that R, L and Ke leave along the recorded current and speed holds a ripple of Ke at once, whatever the
+    free run has lost; what another R, L and Ke could take is taken out first. Of recordings that have a current.
+    """
+    parts = []
+    for target in problem.targets:
+        unknown, length = unknown_inputs(problem, motor, target), smoothing_over(target)
+        linear = np.stack([unknown.current, np.gradient(unknown.current, target.time), unknown.speed], axis=1)
+        parts.append((unknown.voltage, linear, target.speed, unknown.angle, length))
+    basis, _ = np.linalg.qr(np.concatenate([linear for _, linear, _, _, _ in parts]))
+    left = _beside(basis, np.concatenate([voltage for voltage, *_ in parts]))
+    shares = np.zeros(orders.size)
+    for k, order in enumerate(orders):
+        waves = [
+            np.stack([smooth(speed * wave(order * angle), length) for wave in (np.cos, np.sin)], axis=1)
+            for _, _, speed, angle, length in parts
+        ]
+        ripple = _beside(basis, np.concatenate(waves))
+        load = ripple.T @ left
+        gram = ripple.T @ ripple
+        shares[k] = load @ np.linalg.solve(gram + (1e-9 * np.trace(gram) + 1e-300) * np.eye(2), load)
+    return shares / max(float(left @ left), 1e-300)
+
+
+def _beside(basis: Array, x: Array) -> Array:
+    """What columns hold beside an orthonormal basis."""
+    rest: Array = x - basis @ (basis.T @ x)
+    return rest
 
 
 def torque_spectrum(problem: OutputError, vector: Array, active: Sequence[int], orders: Array) -> Array:

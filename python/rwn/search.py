@@ -199,9 +199,12 @@ class Search:
             return hints.orders_of(spectrum, grid, count)
         residuals = problem.residuals(base.vector, base.candidate.active)
         found: list[float] = []
+        in_winding = effect.site == "flux" and all(t.current.size for t in problem.targets)
+        if in_winding:
+            found += hints.orders_of(hints.flux_spectrum(problem, base.vector, grid), grid, count)
         for with_current in (True, False) if effect.site == "flux" else (False,):  # a current may be known badly
             spectrum = hints.angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
-            found += hints.orders_of(spectrum, grid, count)
+            found += hints.orders_of(spectrum, grid, 1 if in_winding else count)
         return list(dict.fromkeys(found))
 
     def _windows(self, base: Fitted) -> list[tuple[float, float]]:
