@@ -124,6 +124,7 @@ def _report(end: Conclusion, made: Sequence[Mistake], seed: int, elapsed: float)
         warnings=(*_warnings(found, chosen, verdict, rows), *end.warnings),
         next_experiment=_next_experiment(found, verdict, names),
         adequate_probability=found.nothing_missing.probability,
+        whole=share if named else 1.0,
         seed=seed,
         version=__version__,
         elapsed=elapsed,

@@ -173,6 +173,7 @@ class Diagnosis:
     warnings: tuple[str, ...] = ()
     next_experiment: str = ""
     adequate_probability: float | None = None  # that nothing is missing
+    whole: float = 1.0  # probability that what is named is the whole of what is missing, by what it leaves
     sources: tuple[Source, ...] = ()
     command: str = ""
     seed: int = 0

@@ -19,6 +19,7 @@ _PREFIXABLE = (
     "J",
     "m",
 )  # the first factor of a unit that takes a prefix
+WHOLE = 0.5  # probability that a name is the whole of it, from which the model is said to lack just that
 _SYMBOLS = (("ohm", "Ω"), ("^2", "²"), ("^3", "³"))
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -131,12 +132,13 @@ def verdict_sentence(found: Diagnosis) -> str:
 
 
 def _missing(found: Diagnosis) -> str:
+    lacks = "The model lacks" if found.whole > WHOLE else "The nearest name to what the model lacks is"
     if len(found.set) > 1:
         names = listing([plain_name(name) for name in found.set], "or")
-        return f"The model lacks {names}; these recordings cannot tell which.{_gain(found)}"
+        return f"{lacks} {names}; these recordings cannot tell which.{_gain(found)}"
     parts = [_with_parameters(effect) for effect in found.effects]
     probability = min((effect.probability for effect in found.effects), default=0.0)
-    return f"The model lacks {listing(parts)} (probability {likelihood(probability)}).{_gain(found)}"
+    return f"{lacks} {listing(parts)} (probability {likelihood(probability)}).{_gain(found)}"
 
 
 def _with_parameters(effect: FoundEffect) -> str:
