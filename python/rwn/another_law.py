@@ -6,6 +6,8 @@ a curve over speed, where a right name leaves noise.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rwn import evidence
 from rwn.candidate import fit
 from rwn.evidence import AT_THE_FLOOR, Hypothesis
@@ -13,7 +15,7 @@ from rwn.explain import Explanation
 from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.network_formula import PART, Place, places
-from rwn.search import Search
+from rwn.search import LOOK, Search
 from rwn.stand_in import has_room, with_network
 from rwn.threads import side_by_side
 
@@ -26,13 +28,15 @@ def another_law(found: Explanation, chosen: Hypothesis, model: Model, *, jobs: i
     """Where a law beside `chosen` explains most of what it leaves; None where it leaves noise or nothing so plain."""
     named = chosen.fitted
     search = Search.of(found.setup)
-    left = evidence.statistics(search.problem, named)
-    if left.coloured < AT_THE_FLOOR or not has_room(model, 1, beside=len(named.added)):
+    coloured = evidence.statistics(search.problem, named).coloured >= AT_THE_FLOOR
+    if not coloured or not has_room(model, 1, beside=len(named.added)):
         return None
+    part = replace(found.setup, problem=search.part(named, LOOK))
+    left = evidence.statistics(part.problem, named)
     effects = {name: named.values_of(name) for name in named.added}
 
     def gain(place: Place) -> float:
-        setup, this = with_network(found.setup, model, place, PART, motor=named.motor, effects=effects)
+        setup, this = with_network(part, model, place, PART, motor=named.motor, effects=effects)
         end = Fitted(added=named.added, candidate=this, minimum=fit(setup.problem, this, max_iterations=ITERATIONS))
         after = evidence.statistics(setup.problem, end)
         gained = left.variance - after.variance

@@ -16,8 +16,7 @@ from rwn import _core
 from rwn.effects import motor_index
 from rwn.locate import unknown_inputs
 from rwn.output_error import OutputError, Target
-from rwn.prepare import motion, smoothing_over
-from rwn.smoothing import smooth
+from rwn.prepare import motion
 
 Array = NDArray[np.float64]
 
@@ -93,18 +92,16 @@ def flux_spectrum(problem: OutputError, motor: Array, orders: Array) -> Array:
     """
     parts = []
     for target in problem.targets:
-        unknown, length = unknown_inputs(problem, motor, target), smoothing_over(target)
+        unknown = unknown_inputs(problem, motor, target)
         linear = np.stack([unknown.current, np.gradient(unknown.current, target.time), unknown.speed], axis=1)
-        parts.append((unknown.voltage, linear, target.speed, unknown.angle, length))
-    basis, _ = np.linalg.qr(np.concatenate([linear for _, linear, _, _, _ in parts]))
-    left = _beside(basis, np.concatenate([voltage for voltage, *_ in parts]))
+        parts.append((unknown.voltage, linear, unknown.speed, unknown.angle))
+    voltage, linear, speed, angle = (np.concatenate(rows) for rows in zip(*parts, strict=True))
+    basis, _ = np.linalg.qr(linear)
+    left = _beside(basis, voltage)
     shares = np.zeros(orders.size)
     for k, order in enumerate(orders):
-        waves = [
-            np.stack([smooth(speed * wave(order * angle), length) for wave in (np.cos, np.sin)], axis=1)
-            for _, _, speed, angle, length in parts
-        ]
-        ripple = _beside(basis, np.concatenate(waves))
+        waves = np.exp(1j * order * angle) * speed
+        ripple = _beside(basis, np.stack([waves.real, waves.imag], axis=1))
         load = ripple.T @ left
         gram = ripple.T @ ripple
         shares[k] = load @ np.linalg.solve(gram + (1e-9 * np.trace(gram) + 1e-300) * np.eye(2), load)

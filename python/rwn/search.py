@@ -39,7 +39,7 @@ Row = tuple[Racer, Minimum]
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
 SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
-GLANCE = 2500  # samples on which starts of one effect are told apart
+GLANCE, LOOK = 2500, 9000  # samples on which starts of one effect are told apart, beside others and alone
 SIGHTED = 4  # starts that are worth an iteration where many are looked at
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 
@@ -88,16 +88,15 @@ class Search:
     def _glance(self, base: Fitted, racers: Sequence[Racer], keep: int) -> list[Racer]:
         """At most `keep` starts of each effect: those that an iteration brings furthest.
 
-        Beside other effects a part of the recordings has to do; alone, a soft bristle is lost on it.
+        A part of the recordings has to do; alone a longer one, since a soft bristle is lost on a short one.
         """
         counts = Counter(map(_kind, racers))
         crowded = [r for r in racers if counts[_kind(r)] > keep]
         if not crowded:
             return list(racers)
-        part = replace(self.problem, targets=tuple(self._parts(base)))
-        crowded = self._sighted(crowded, part)
-        on = part if base.added else self.problem
-        rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=on), keep)
+        crowded = self._sighted(crowded, self.part(base, GLANCE))
+        part = self.part(base, GLANCE if base.added else LOOK)
+        rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
         return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
 
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
@@ -114,14 +113,18 @@ class Search:
         others = [r for r in racers if not any(r is one for one in astray)]
         return [*others, *(r for k, r in enumerate(astray) if k in best)]
 
-    def _parts(self, base: Fitted) -> Iterator[Target]:
-        """The beginning of every recording: GLANCE samples in all, or until enough of what `base` leaves is in it."""
+    def part(self, base: Fitted, samples: int) -> OutputError:
+        """The problem on the beginning of every recording."""
+        return replace(self.problem, targets=tuple(self._beginnings(base, samples)))
+
+    def _beginnings(self, base: Fitted, samples: int) -> Iterator[Target]:
+        """So many samples in all, or until enough of what `base` leaves is in it."""
         problem = self.problem
         residuals = problem.residuals(base.vector, base.candidate.active)
         for target, residual in zip(problem.targets, residuals, strict=True):
             energy = np.cumsum(sum((r / problem.noise[s]) ** 2 for s, r in residual.items()))
             first = int(np.searchsorted(energy, GLANCED * energy[-1]))
-            yield target.until(max(first, GLANCE // len(problem.targets)))
+            yield target.until(max(first, samples // len(problem.targets)))
 
     def _race(
         self, racers: Sequence[Racer], *, iterations: int, problem: OutputError | None = None
@@ -202,7 +205,8 @@ class Search:
         in_winding = effect.site == "flux" and all(t.current.size for t in problem.targets)
         if in_winding:
             found += hints.orders_of(hints.flux_spectrum(problem, base.vector, grid), grid, count)
-        for with_current in (True, False) if effect.site == "flux" else (False,):  # a current may be known badly
+        known_badly = effect.site == "flux" and not in_winding  # a current that was not recorded
+        for with_current in (True, False) if known_badly else (in_winding,):
             spectrum = hints.angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
             found += hints.orders_of(spectrum, grid, 1 if in_winding else count)
         return list(dict.fromkeys(found))
