@@ -66,8 +66,13 @@ def test_every_kind_comes_up_and_is_sealed(finished: Path, tmp_path: Path) -> No
             (signal,) = answer["mistake"]["signals"]
             assert seen[signal][50] == pytest.approx(answer["mistake"]["factor"] * true[signal][50], rel=1e-5)
     assert spoil(finished, tmp_path / "again") == digest
-    with pytest.raises(FileExistsError):
+    (tmp_path / "spoilt" / "answers.sealed").unlink()  # as after a stop
+    with pytest.raises(FileExistsError, match="not empty"):
         spoil(finished, tmp_path / "spoilt")
+    assert (tmp_path / "spoilt" / "trial_0001" / "train_1.csv").exists()
+    with pytest.raises(ValueError, match="rwn trials make"):
+        spoil(tmp_path / "spoilt", tmp_path / "third")
+    assert not (tmp_path / "third").exists()
 
 
 def _graded(folder: Path, effects: list[dict[str, Any]], verdict: str) -> list[Grade]:

@@ -15,8 +15,8 @@ Array matrix(const std::vector<double>& values, py::ssize_t rows) {
 py::tuple run(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
               const std::vector<int>& active, const std::vector<int>& by, const Array& current, const Array& speed,
               const Array& position, const std::array<double, 3>& weights, bool speed_is_difference,
-              double angle_per_position, double input_before, const Array& angle, bool angle_from_speed, int restart_every,
-              const Array& restart_speed, const Array& restart_position, int order,
+              double angle_per_position, double input_before, const Array& angle, bool angle_from_speed,
+              int restart_every, const Array& restart_speed, const Array& restart_position, int order,
               const std::vector<OwnEffect>& own) {
   const SimulationTask task{kind_of(kind),
                             view(time),
@@ -62,9 +62,8 @@ void bind_normal_equations(py::module_& m) {
   m.def("normal_equations", &run, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(),
         "active"_a, "by"_a, "current"_a.noconvert(), "speed"_a.noconvert(), "position"_a.noconvert(), "weights"_a,
         "speed_is_difference"_a = false, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
-        "angle_from_speed"_a = false,
-        "restart_every"_a = 0, "restart_speed"_a = Array(0), "restart_position"_a = Array(0), "order"_a = 0,
-        "own"_a = std::vector<OwnEffect>{},
+        "angle_from_speed"_a = false, "restart_every"_a = 0, "restart_speed"_a = Array(0),
+        "restart_position"_a = Array(0), "order"_a = 0, "own"_a = std::vector<OwnEffect>{},
         "Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.");
 }
 

@@ -63,8 +63,9 @@ py::list effect_table() {
 
 py::tuple run(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
               const std::vector<int>& active, const std::vector<int>& by, double angle_per_position,
-              double input_before, const Array& angle, bool angle_from_speed, int restart_every, const Array& restart_speed,
-              const Array& restart_position, int order, const std::vector<OwnEffect>& own) {
+              double input_before, const Array& angle, bool angle_from_speed, int restart_every,
+              const Array& restart_speed, const Array& restart_position, int order,
+              const std::vector<OwnEffect>& own) {
   const auto n = time.size();
   const auto p = static_cast<py::ssize_t>(by.size());
   std::vector<Array> out;
@@ -113,9 +114,9 @@ void bind_simulate(py::module_& m) {
     return std::string(advice(status_of(status)));
   });
   m.def("simulate", &run, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(), "active"_a,
-        "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0), "angle_from_speed"_a = false, "restart_every"_a = 0,
-        "restart_speed"_a = Array(0), "restart_position"_a = Array(0), "order"_a = 0,
-        "own"_a = std::vector<OwnEffect>{},
+        "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
+        "angle_from_speed"_a = false, "restart_every"_a = 0, "restart_speed"_a = Array(0),
+        "restart_position"_a = Array(0), "order"_a = 0, "own"_a = std::vector<OwnEffect>{},
         "Returns status, current, speed, position (n) and their derivatives (n, p).");
 }
 

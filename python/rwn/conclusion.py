@@ -34,7 +34,7 @@ class Conclusion:
     model: Model  # with the network among its own effects where one stands in
     stand_in: str = ""
     curves: tuple[Plot, ...] = ()
-    another: str = ""  # the law that is seen in what the name leaves
+    another: bool = False  # another law is seen in what the name leaves
     warnings: tuple[str, ...] = ()
 
 
@@ -59,7 +59,7 @@ def conclude(
         end = replace(leading, chosen=nothing, verdict=without, rows=prove(nothing))
     if end.verdict == "missing-physics":
         place = another_law(found, chosen, model, jobs=jobs)
-        return replace(end, another=place.words, warnings=(_nearest(place),)) if place else end
+        return replace(end, another=True, warnings=(_nearest(place),)) if place else end
     if end.verdict != "unexplained":
         return end
     say("drawing what has no name", 0.9)

@@ -89,7 +89,7 @@ def _report(end: Conclusion, made: Sequence[Mistake], seed: int, elapsed: float)
     named = verdict == "missing-physics"
     same = ambiguous(found, chosen) if named else ()
     physics = found_effects(found, chosen) if chosen.fitted.added and named else ()
-    share = whole(found, chosen, certain=is_certain(rows), another=bool(end.another))
+    share = whole(found, chosen, certain=is_certain(rows), another=end.another)
     physics = tuple(replace(e, probability=share * e.probability) for e in physics)
     steps = _coarse_speed(found)
     if steps and verdict in ("adequate", "missing-physics"):

@@ -19,6 +19,9 @@ Slot = Literal[
 Role = Literal["measured", "nominal", "refitted", "corrected", "before", "after", "reference", "noise-floor"]
 Array = NDArray[np.float64]
 
+NEAREST = 0.5  # probability of being the whole, up to which a name is only the nearest one; a proved one that leaves
+# more than noise has no more
+
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
@@ -173,7 +176,7 @@ class Diagnosis:
     warnings: tuple[str, ...] = ()
     next_experiment: str = ""
     adequate_probability: float | None = None  # that nothing is missing
-    whole: float = 1.0  # probability that what is named is the whole of what is missing, by what it leaves
+    whole: float = 1.0  # probability that what is named is all that is missing, by what it leaves; see NEAREST
     sources: tuple[Source, ...] = ()
     command: str = ""
     seed: int = 0

@@ -104,14 +104,13 @@ class Search:
 
         That is for periodic effects, each order by itself, and where a contact makes the error rough.
         """
-        astray = [r for r in racers if r.order or rough(r.candidate, r.name)]
+        astray = [r for r in racers if _misleads(r)]
         ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray, jobs=self.jobs)
         groups: dict[tuple[str, float], list[tuple[float, int]]] = {}
         for k, (racer, cost) in enumerate(zip(astray, ends, strict=True)):
             groups.setdefault(_kind(racer), []).append((cost, k))
         best = {k for group in groups.values() for _, k in sorted(group)[:SIGHTED]}
-        others = [r for r in racers if not any(r is one for one in astray)]
-        return [*others, *(r for k, r in enumerate(astray) if k in best)]
+        return [*(r for r in racers if not _misleads(r)), *(r for k, r in enumerate(astray) if k in best)]
 
     def part(self, base: Fitted, samples: int) -> OutputError:
         """The problem on the beginning of every recording."""
@@ -202,13 +201,15 @@ class Search:
             return hints.orders_of(spectrum, grid, count)
         residuals = problem.residuals(base.vector, base.candidate.active)
         found: list[float] = []
-        in_winding = effect.site == "flux" and all(t.current.size for t in problem.targets)
-        if in_winding:
-            found += hints.orders_of(hints.flux_spectrum(problem, base.vector, grid), grid, count)
-        known_badly = effect.site == "flux" and not in_winding  # a current that was not recorded
-        for with_current in (True, False) if known_badly else (in_winding,):
+        wanted: tuple[tuple[bool, int], ...] = ((False, count),)  # with the current or without, and how many orders
+        if effect.site == "flux" and all(t.current.size for t in problem.targets):
+            found = hints.orders_of(hints.flux_spectrum(problem, base.vector, grid), grid, count)
+            wanted = ((True, 1),)
+        elif effect.site == "flux":  # a current that was not recorded is known badly
+            wanted = ((True, count), (False, count))
+        for with_current, most in wanted:
             spectrum = hints.angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
-            found += hints.orders_of(spectrum, grid, 1 if in_winding else count)
+            found += hints.orders_of(spectrum, grid, most)
         return list(dict.fromkeys(found))
 
     def _windows(self, base: Fitted) -> list[tuple[float, float]]:
@@ -219,6 +220,11 @@ class Search:
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
     """The explanations that are worth fitting again under other conditions, best first."""
     return sorted(fits, key=lambda f: f.cost)[:KEPT]
+
+
+def _misleads(racer: Racer) -> bool:
+    """Whether the derivatives at a start may point away from the minimum."""
+    return bool(racer.order or rough(racer.candidate, racer.name))
 
 
 def _kind(racer: Racer) -> tuple[str, float]:

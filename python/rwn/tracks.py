@@ -13,9 +13,7 @@ from rwn.search import Search, foremost
 MOST_TRACKS = 4  # times that the angle is simulated anew
 
 
-def retracked(
-    search: Search, nominal: Fitted, fits: list[Fitted]
-) -> tuple[Search, Fitted, list[Fitted]]:
+def retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
     """The same fits with another angle where none was recorded: one that the best fit simulates, or each fit its own.
 
     The integral of a noisy speed wanders: thirty periods a revolution further on, it has lost the phase. Effects on
@@ -24,7 +22,13 @@ def retracked(
     best = min([nominal, *fits], key=lambda f: f.cost)
     if not _turns(best) or any(t.position.size for t in search.problem.targets):
         return search, nominal, fits
-    other, again = _followed(search, best)
+    other, again = search, best
+    for _ in range(MOST_TRACKS):
+        tried = _tracked(other, again)
+        refitted = tried.refit(again, tried.problem)
+        if refitted.cost > again.cost - 2.0:
+            break
+        other, again = tried, refitted
     free = replace(search, problem=replace(search.problem, targets=tuple(map(_on_its_own, search.problem.targets))))
     freed = free.refit(again, free.problem)
     if freed.cost < again.cost - 2.0:
@@ -33,17 +37,6 @@ def retracked(
         return search, nominal, fits
     first, *rest = other.refit_all([nominal, *(f for f in foremost(fits) if f is not best)])
     return other, first, sorted([again, *rest], key=lambda f: f.cost)
-
-
-def _followed(search: Search, fitted: Fitted) -> tuple[Search, Fitted]:
-    """The fit on the angles that itself makes probable, again and again as long as it gains."""
-    for _ in range(MOST_TRACKS):
-        tried = _tracked(search, fitted)
-        refitted = tried.refit(fitted, tried.problem)
-        if refitted.cost > fitted.cost - 2.0:
-            break
-        search, fitted = tried, refitted
-    return search, fitted
 
 
 def _on_its_own(target: Target) -> Target:
@@ -57,10 +50,11 @@ def _turns(fitted: Fitted) -> bool:
 
 def _tracked(search: Search, fitted: Fitted) -> Search:
     """The search on targets whose angle is the one that `fitted` simulates."""
-    problem, active = search.problem, fitted.candidate.active
+    problem = search.problem
+    active = fitted.candidate.active
+    angles = [problem.simulate(t, fitted.vector, active).signals["position"] for t in problem.targets]
     targets = tuple(
-        replace(t, angle=np.ascontiguousarray(run), angle_from_speed=False, follows=True)
-        for t in problem.targets
-        for run in [problem.simulate(t, fitted.vector, active).signals["position"]]
+        replace(t, angle=np.ascontiguousarray(a), angle_from_speed=False, follows=True)
+        for t, a in zip(problem.targets, angles, strict=True)
     )
     return replace(search, problem=replace(problem, targets=targets))

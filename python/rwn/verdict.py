@@ -11,7 +11,7 @@ import numpy as np
 
 from rwn import excitation
 from rwn.correct import deviations
-from rwn.diagnosis import HeldoutRow, Verdict
+from rwn.diagnosis import NEAREST, HeldoutRow, Verdict
 from rwn.evidence import Hypothesis, join
 from rwn.explain import Explanation, plainer
 from rwn.proof import LEFT_OUT, hurts
@@ -20,7 +20,6 @@ from rwn.rough import rough
 
 REMOVED = 0.99  # share of the removable squared error that a name has to remove where more than noise is left
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
-NEAREST = 0.5  # at most so probable is a proved name that leaves more than noise: it may only be the nearest one here
 ANOTHER = 0.4  # at most so probable is a name that leaves a curve over one state, which no right name does
 ELABORATE = 5.0  # how much more probable than plain friction its elaboration has to be to be named
 INEXACT = 0.002  # relative change in squared error that the simulation's own error may make

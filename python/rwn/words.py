@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from rwn.diagnosis import Diagnosis, Estimate, FoundEffect, HeldoutRow
+from rwn.diagnosis import NEAREST, Diagnosis, Estimate, FoundEffect, HeldoutRow
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
@@ -19,7 +19,6 @@ _PREFIXABLE = (
     "J",
     "m",
 )  # the first factor of a unit that takes a prefix
-WHOLE = 0.5  # probability that a name is the whole of it, from which the model is said to lack just that
 _SYMBOLS = (("ohm", "Ω"), ("^2", "²"), ("^3", "³"))
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -132,7 +131,7 @@ def verdict_sentence(found: Diagnosis) -> str:
 
 
 def _missing(found: Diagnosis) -> str:
-    lacks = "The model lacks" if found.whole > WHOLE else "The nearest name to what the model lacks is"
+    lacks = "The model lacks" if found.whole > NEAREST else "The nearest name to what the model lacks is"
     if len(found.set) > 1:
         names = listing([plain_name(name) for name in found.set], "or")
         return f"{lacks} {names}; these recordings cannot tell which.{_gain(found)}"

@@ -24,7 +24,7 @@ struct SimulationSlice {
   double input_before;
   const double* angle;  // recorded position, or null
   bool angle_from_speed;
-  int restart_every;    // 0: never
+  int restart_every;  // 0: never
   const double* restart_speed;
   const double* restart_position;
   double *current, *speed, *position, *d_current, *d_speed, *d_position;
@@ -160,9 +160,8 @@ class Simulation {
     const Reading<S> y = reading(s);
     x.current = y.current;
     x.speed = y.speed;
-    x.angle = slice_.angle_per_position * (slice_.angle == nullptr       ? y.position
-                                       : slice_.angle_from_speed ? y.position + offset_
-                                                                 : S(slice_.angle[k]));
+    const bool recorded = slice_.angle != nullptr && !slice_.angle_from_speed;
+    x.angle = slice_.angle_per_position * (recorded ? S(slice_.angle[k]) : y.position + offset_);
     x.angle_per_position = slice_.angle_per_position;
     x.drive_torque = kind == Kind::dc ? motor_[torque_constant] * y.current : input;
     if constexpr (kind != Kind::lti) x.direction = s.direction;
@@ -265,7 +264,7 @@ class Simulation {
   std::array<S, kind == Kind::lti ? coefficient_count : 0> coefficients_{};
   S delay_{0.0};
   S shown_{0.0}, turned_{0.0};  // simulated reading of the speed, and its integral
-  S start_{0.0}, offset_{0.0};  // position where that integral starts; angle minus position
+  S start_{0.0}, offset_{0.0};  // position where that integral starts; angle minus position, 0 without one
   std::array<S, 8> breaks_{};
   int break_count_ = 0;
   bool delayed_ = false, actuates_ = false, senses_ = false, has_own_ = false;

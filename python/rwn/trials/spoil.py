@@ -78,10 +78,12 @@ def spoil(folder: Path, out: Path) -> str:
     """Writes the set in `folder` with a mistake in every trial to `out`; returns the SHA-256 of the sealed answers.
 
     The answers of `folder` are opened for their seed alone and sealed again with the mistakes. Raises FileExistsError
-    where a set lies in `out` already, SealBrokenError where the answers were changed.
+    where anything lies in `out`, ValueError where `folder` is no finished set, SealBrokenError where it was changed.
     """
-    if (out / ANSWERS).exists():
-        raise FileExistsError(f"{out} already holds a finished set of trials; choose another folder")
+    if not (folder / ANSWERS).exists():
+        raise ValueError(f"{folder} holds no {ANSWERS}; give a folder that `rwn trials make` has finished")
+    if out.exists() and any(out.iterdir()):
+        raise FileExistsError(f"{out} is not empty; choose another folder")
     content = unseal(folder)
     kinds = list(KINDS)
     for index, (name, answer) in enumerate(sorted(content["answers"].items())):
@@ -91,7 +93,6 @@ def spoil(folder: Path, out: Path) -> str:
 
 
 def _spoil_trial(trial: Path, out: Path, kind: str, rng: Rng) -> dict[str, Any]:
-    shutil.rmtree(out, ignore_errors=True)
     shutil.copytree(trial, out, ignore=shutil.ignore_patterns("out"))
     files = train_files(out)
     present = set(read_columns(files[0]))
