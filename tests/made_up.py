@@ -8,6 +8,7 @@ import numpy as np
 
 from rwn.diagnosis import (
     Alternative,
+    Beneath,
     Diagnosis,
     Estimate,
     FittedParameter,
@@ -305,11 +306,12 @@ def mistake() -> Diagnosis:
         name="wrong-unit",
         equation="recording",
         probability=0.99,
-        meaning="speed is 9.55 times what the voltage allows: rpm for rad/s",
+        meaning="speed in rpm taken for rad/s",
     )
     return replace(
-        adequate(), verdict="recording-mistake", equation="recording", effects=(effect,), heldout=()
-    )
+        adequate(), verdict="recording-mistake", equation="recording", effects=(effect,), set=("wrong-unit",),
+        beneath=Beneath(verdict="adequate"), heldout=(),
+    )  # fmt: skip
 
 
 ALL = {state.__name__: state for state in (found, adequate, unexplained, ambiguous, mistake)}

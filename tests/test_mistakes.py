@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn import mistakes
-from rwn.prepare import prepare
-from rwn.search import Search
+from rwn import words
+from rwn.diagnosis import Beneath
+from rwn.mistakes import without as undone
+from rwn.out_of_step import suspected
+from rwn.without_mistakes import explained
+from rwn.wrong_scale import wrong_scale
 
 DEMO = Path(rwn.__file__).parent / "demo"
 MOTION = ("speed", "position")
@@ -48,6 +51,10 @@ def altered(recording: rwn.Recording, names: tuple[str, ...], factor: float = 1.
     return replace(recording, signals=signals)
 
 
+def silent(what: str, done: float) -> None:
+    """Progress that nobody asked for."""
+
+
 def without(recording: rwn.Recording, name: str) -> rwn.Recording:
     return replace(recording, signals={k: v for k, v in recording.signals.items() if k != name})
 
@@ -69,7 +76,7 @@ def test_units_and_signs(
     model: rwn.Model, right: rwn.Recording, names: tuple[str, ...], factor: float, name: str
 ) -> None:
     wrong = altered(right, names, factor)
-    found = mistakes.gross([wrong], model)
+    found = wrong_scale([wrong], model)
     assert found is not None
     assert (found.name, found.factor) == (name, pytest.approx(factor))
     for signal, values in found.undo(wrong).signals.items():
@@ -77,21 +84,14 @@ def test_units_and_signs(
 
 
 def test_nothing_is_doubted_where_nothing_is_wrong(model: rwn.Model, right: rwn.Recording) -> None:
-    assert mistakes.gross([right], model) is None
-    assert mistakes.gross([without(right, "current")], model) is None
+    assert wrong_scale([right], model) is None
+    assert wrong_scale([without(right, "current")], model) is None
 
 
 def test_missing_physics_is_no_mistake(model: rwn.Model) -> None:
     recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    assert mistakes.gross([recording], model) is None
+    assert wrong_scale([recording], model) is None
     assert rwn.diagnose([recording], model).verdict == "missing-physics"
-
-
-def cost(recording: rwn.Recording, model: rwn.Model) -> tuple[dict[str, float], float]:
-    setup = prepare([recording], model)
-    noise = {name: 0.01 * float(np.std(recording.signals[name])) for name in setup.problem.targets[0].recorded}
-    problem = replace(setup.problem, noise=noise)
-    return noise, Search.of(setup, problem=problem).fit_nominal().cost
 
 
 @pytest.mark.parametrize(
@@ -100,29 +100,66 @@ def cost(recording: rwn.Recording, model: rwn.Model) -> tuple[dict[str, float], 
 def test_channels_out_of_step(
     model: rwn.Model, right: rwn.Recording, names: tuple[str, ...], delay: int, signal: str
 ) -> None:
-    wrong = altered(right, names, delay=delay)
-    noise, rival = cost(wrong, model)
-    found = mistakes.fine([wrong], model, noise=noise, rival=rival)
-    assert found is not None
-    assert (found.name, found.signals[0], found.delay) == ("time-shift", signal, delay)
+    made, found = explained([altered(right, names, delay=delay)], model, jobs=2, say=silent)
+    assert [(m.name, m.signals[0], m.delay) for m in made] == [("time-shift", signal, delay)]
+    assert not found.hypotheses[0].fitted.added
+
+
+def test_a_channel_out_of_step_is_seen_through_missing_physics(model: rwn.Model) -> None:
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    made, found = explained([altered(friction, ("current",), delay=6)], model, jobs=2, say=silent)
+    assert [(m.name, m.delay) for m in made] == [("time-shift", 6)]
+    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
 
 
 def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rwn.Recording) -> None:
-    assert mistakes.suspected([right], model) is None
-    found = mistakes.suspected([altered(right, ("current",), delay=6)], model)
-    assert found is not None
-    assert (found.name, found.delay) == ("time-shift", 6)
+    assert suspected([right], model) is None
+    doubt = suspected([altered(right, ("current",), delay=6)], model)
+    assert doubt is not None
+    assert (doubt.mistake.name, doubt.mistake.delay) == ("time-shift", 6)
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    assert mistakes.suspected([friction], model) is None, "missing physics is none"
+    assert suspected([friction], model) is None, "missing physics is none"
 
 
-def test_gear_ratio(model: rwn.Model, right: rwn.Recording) -> None:
-    wrong = altered(right, MOTION, 1.0 / 5.2)
-    noise, rival = cost(wrong, model)
-    found = mistakes.fine([wrong], model, noise=noise, rival=rival)
+@pytest.mark.parametrize("ratio", [0.4, 1.0 / 3.5, -0.3, 4.0])
+def test_gear_ratio(model: rwn.Model, ratio: float) -> None:
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    found = wrong_scale([altered(friction, MOTION, ratio)], model)
     assert found is not None
-    assert found.name == "wrong-gear-ratio"
-    assert found.factor == pytest.approx(1.0 / 5.2, rel=0.1)
+    assert (found.name, found.also) == ("wrong-gear-ratio", ())
+    assert found.factor == pytest.approx(ratio, rel=0.15)  # friction slows the motor too
+
+
+def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Model) -> None:
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    wrong = altered(friction, MOTION, 1.0 / 3.5)
+    rough = wrong_scale([wrong], model)
+    made, found = explained([wrong], model, jobs=2, say=silent)
+    assert rough is not None
+    assert [m.name for m in made] == ["wrong-gear-ratio"]
+    assert abs(3.5 * made[0].factor - 1.0) < abs(3.5 * rough.factor - 1.0)
+    interval = made[0].found().parameters["factor"].interval
+    assert interval is not None
+    assert interval[0] < 1.0 / 3.5 < interval[1]
+    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+
+
+def test_a_gear_of_the_size_of_a_unit_is_not_told_from_it(model: rwn.Model, right: rwn.Recording) -> None:
+    found = wrong_scale([altered(right, MOTION, 1.0 / 6.2)], model)
+    assert found is not None
+    assert (found.name, found.also) == ("wrong-unit", ("wrong-gear-ratio",))
+    assert found.found().probability == pytest.approx(0.495)
+
+
+def test_scales_are_judged_by_the_signal_they_belong_to(model: rwn.Model, right: rwn.Recording) -> None:
+    rectified = replace(right, signals={**right.signals, "speed": np.abs(right.signals["speed"])})
+    assert wrong_scale([rectified], model) is None, "what shows no direction has no sign to be wrong"
+    for names, factor, name in ((("speed",), 60.0 / (2.0 * np.pi), "wrong-unit"), (("current",), -1.0, "wrong-sign")):
+        wrong = altered(rectified, names, factor)
+        found = wrong_scale([wrong], model)
+        assert found is not None
+        assert (found.name, found.signals, found.factor) == (name, names, pytest.approx(factor))
+        assert wrong_scale(undone([wrong], found), model) is None
 
 
 def test_the_verdict_names_the_mistake_before_the_physics(model: rwn.Model) -> None:
@@ -132,6 +169,10 @@ def test_the_verdict_names_the_mistake_before_the_physics(model: rwn.Model) -> N
     assert found.equation == "recording"
     assert [e.name for e in found.effects] == ["wrong-unit", "coulomb-friction"]
     assert found.effects[0].parameters["factor"].value == pytest.approx(9.5493, rel=1e-4)
+    assert found.beneath == Beneath(verdict="missing-physics", set=("coulomb-friction",))
+    mistake, beneath = words.verdict_sentence(found).split(". With it undone: ")
+    assert mistake == "The recordings hold a mistake: speed in rpm taken for rad/s"
+    assert beneath.startswith("The model lacks Coulomb friction")
 
 
 def test_a_drive_that_is_hardly_moved_says_nothing(model: rwn.Model, right: rwn.Recording) -> None:

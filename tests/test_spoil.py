@@ -75,10 +75,12 @@ def test_every_kind_comes_up_and_is_sealed(finished: Path, tmp_path: Path) -> No
     assert not (tmp_path / "third").exists()
 
 
-def _graded(folder: Path, effects: list[dict[str, Any]], verdict: str) -> list[Grade]:
+def _graded(folder: Path, effects: list[dict[str, Any]], verdict: str, also: tuple[str, ...] = ()) -> list[Grade]:
     for trial in sorted(p for p in folder.iterdir() if p.is_dir()):
         (trial / "out").mkdir(exist_ok=True)
-        said = {"verdict": verdict, "effects": effects, "set": [e["name"] for e in effects[:1]]}
+        beneath = {"verdict": "missing-physics", "set": [e["name"] for e in effects[1:2]]}
+        names = [e["name"] for e in effects[:1]]
+        said = {"verdict": verdict, "effects": effects, "set": [*names, *also], "beneath": beneath}
         (trial / "out" / "diagnosis.json").write_text(json.dumps(said))
     return grade_folder(folder).grades
 
@@ -88,11 +90,14 @@ def test_a_mistake_that_is_called_so_and_the_physics_beneath_it_count(finished: 
     spoil(finished, folder)
     unit = {"name": "wrong-unit", "equation": "recording", "probability": 0.99}
     both = mistakes(_graded(folder, [unit, {**EFFECT, "probability": 1.0}], "recording-mistake"))
-    assert str(both["wrong-unit"]["found"]) == "100.0 % (2/2)"
-    assert str(both["wrong-sign"]["found"]) == "0.0 % (0/2)"
+    assert str(both["wrong-unit"]["called so"]) == "100.0 % (2/2)"
+    assert str(both["wrong-sign"]["called so"]) == "0.0 % (0/2)"
     assert str(both["wrong-unit"]["single effect beneath it right"]) == "100.0 % (2/2)"
     physics = mistakes(_graded(folder, [{**EFFECT, "probability": 1.0}], "missing-physics"))
-    assert str(physics["wrong-unit"]["found"]) == "0.0 % (0/2)"
+    assert str(physics["wrong-unit"]["called so"]) == "0.0 % (0/2)"
+    either = mistakes(_graded(folder, [unit], "recording-mistake", also=("wrong-gear-ratio",)))
+    assert str(either["wrong-gear-ratio"]["called so"]) == "0.0 % (0/2)"
+    assert str(either["wrong-gear-ratio"]["or in its set"]) == "100.0 % (2/2)"
 
 
 def test_command_line(finished: Path, tmp_path: Path) -> None:

@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import pytest
 
 import made_up
@@ -68,3 +71,14 @@ def test_percentages(share: float, text: str) -> None:
 @pytest.mark.parametrize(("probability", "text"), [(1.0, "> 99 %"), (0.97, "97 %"), (1e-9, "< 1 %")])
 def test_no_probability_is_certainty(probability: float, text: str) -> None:
     assert words.likelihood(probability) == text
+
+
+def test_a_parameter_beyond_its_declared_uncertainty_is_said_to_be_so() -> None:
+    fine = made_up.adequate()
+    assert "within their declared uncertainty" in words.verdict_sentence(fine)
+    name, p = next((n, p) for n, p in fine.nominal_fit.parameters.items() if p.uncertainty > 0)
+    off = replace(p, refitted=replace(p.refitted, value=p.nominal * math.exp(20.0 * p.uncertainty)))
+    parameters = {**fine.nominal_fit.parameters, name: off}
+    said = words.verdict_sentence(replace(fine, nominal_fit=replace(fine.nominal_fit, parameters=parameters)))
+    assert said.endswith(f"But {name} had to move by 20 times its declared uncertainty: check it.")
+    assert "within" not in said

@@ -15,7 +15,7 @@ from rwn.explain import Explanation
 from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.network_formula import PART, Place, places
-from rwn.search import LOOK, Search
+from rwn.search import Search
 from rwn.stand_in import has_room, with_network
 from rwn.threads import side_by_side
 
@@ -31,7 +31,7 @@ def another_law(found: Explanation, chosen: Hypothesis, model: Model, *, jobs: i
     coloured = evidence.statistics(search.problem, named).coloured >= AT_THE_FLOOR
     if not coloured or not has_room(model, 1, beside=len(named.added)):
         return None
-    part = replace(found.setup, problem=search.part(named, LOOK))
+    part = replace(found.setup, problem=search.look(named))
     left = evidence.statistics(part.problem, named)
     effects = {name: named.values_of(name) for name in named.added}
 

@@ -13,13 +13,13 @@ from rwn import _core, curves, excitation
 from rwn._core import __version__
 from rwn.conclusion import Conclusion, conclude
 from rwn.correct import corrected_model, found_effects, nominal_fit
-from rwn.diagnosis import Alternative, Diagnosis, Estimate, FoundEffect, HeldoutRow, Location, Verdict
+from rwn.diagnosis import Alternative, Beneath, Diagnosis, Estimate, FoundEffect, HeldoutRow, Location, Verdict
 from rwn.effects import table
 from rwn.evidence import Hypothesis
 from rwn.experiments import separated_by
 from rwn.explain import Explanation, Progress
 from rwn.locate import regions, unknown_inputs
-from rwn.mistakes import Mistake
+from rwn.mistakes import Mistake, without
 from rwn.model import Model
 from rwn.prepare import proof_target
 from rwn.proof import LEFT_OUT
@@ -59,7 +59,7 @@ def diagnose(
     made, found = explained(recordings, model, jobs=jobs, say=say)
     say("proving it on data that were not fitted", 0.85)
     for mistake in made:
-        heldout = [mistake.undo(r) for r in heldout]
+        heldout = without(heldout, mistake)
     end = conclude(found, [proof_target(r, model) for r in heldout], model, seed=seed, jobs=jobs, say=say)
     say("drawing", 0.95)
     return _report(end, made, seed, time.perf_counter() - began)
@@ -95,9 +95,10 @@ def _report(end: Conclusion, made: Sequence[Mistake], seed: int, elapsed: float)
     if steps and verdict in ("adequate", "missing-physics"):
         physics, verdict = (*physics, steps), "missing-physics"
     names = tuple(dict.fromkeys([e.name for e in physics[:1]] + [_lead(h, chosen) for h in same[1:]]))
-    effects = (*(m.found(0.99) for m in made), *physics)
+    effects = (*(m.found() for m in made), *physics)
+    beneath = Beneath(verdict=verdict, set=names) if made else None
     if made:
-        verdict, names = "recording-mistake", tuple(m.name for m in made)
+        verdict, names = "recording-mistake", (made[0].name, *made[0].also)
     equation = effects[0].equation if effects else ""
     where = regions(unknown, linear=model.linear)
     torque_unknown = verdict != "adequate" and model.kind != "lti"  # a transfer function has none
@@ -108,6 +109,7 @@ def _report(end: Conclusion, made: Sequence[Mistake], seed: int, elapsed: float)
         equation=equation,
         effects=effects,
         set=names,
+        beneath=beneath,
         alternatives=tuple(
             Alternative(
                 effects=h.fitted.added,

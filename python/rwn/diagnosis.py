@@ -161,6 +161,14 @@ class Source:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Beneath:
+    """What is said of the drive once the mistakes in its recordings are undone."""
+
+    verdict: Verdict
+    set: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class Diagnosis:
     """The verdict, what it rests on, and the curves that show it."""
 
@@ -168,6 +176,7 @@ class Diagnosis:
     equation: str = ""
     effects: tuple[FoundEffect, ...] = ()
     set: tuple[str, ...] = ()  # names that these recordings cannot tell apart, the first is the first name
+    beneath: Beneath | None = None  # where the verdict is recording-mistake
     alternatives: tuple[Alternative, ...] = ()
     location: Location = field(default_factory=Location)
     nominal_fit: NominalFit = field(default_factory=NominalFit)

@@ -23,6 +23,7 @@ _SEPARATED_BY: tuple[tuple[frozenset[str], str], ...] = (
     (frozenset({"coulomb-friction", "load-dependent-friction"}), "two known loads at the same speed"),
     (frozenset({"sensor-bias", "constant-load"}), "a recording at standstill with no voltage"),
     (frozenset({"sensor-bias", "asymmetric-friction"}), "a recording at standstill with no voltage"),
+    (frozenset({"wrong-unit", "wrong-gear-ratio"}), "the shaft turned by hand ten turns, and what the sensor shows of them"),
     (frozenset({"unbalance", "position-dependent-friction"}), "slow turns in both directions: a friction changes sign, an unbalance does not"),
 )  # fmt: skip
 

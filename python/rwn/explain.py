@@ -56,7 +56,7 @@ def explain(
 ) -> Explanation:  # fmt: skip
     """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most."""
     search = Search.of(setup, jobs=jobs)
-    search = _with_noise(search, search.fit_nominal())
+    search = with_noise(search, search.fit_nominal())
     nominal = search.fit_nominal()
     within = tempered(search, nominal)
     if within is not search:
@@ -122,9 +122,9 @@ def _far_off(search: Search, best: Fitted) -> bool:
 
 def _by_windows(search: Search, nominal: Fitted, wanted: Sequence[str]) -> list[Fitted]:
     """Every effect fitted in short windows, each from the recorded motion, and from there in free run."""
-    targets = tuple(map(windowed, search.problem.targets))
+    targets = tuple(map(windowed, search.look(nominal).targets))
     windows = replace(search, problem=replace(search.problem, targets=targets), patience=PATIENCE)
-    windows = _with_noise(windows, windows.refit(nominal, windows.problem))
+    windows = with_noise(windows, windows.refit(nominal, windows.problem))
     fits = windows.explain(windows.refit(nominal, windows.problem), wanted)
     return search.refit_all(fits)
 
@@ -187,7 +187,7 @@ def _prior(setup: Setup) -> dict[str, float]:
     return {"constant-load": np.log(len(setup.nominal.table)) + 1.0 if setup.problem.kind == "axis" else -5.0}
 
 
-def _with_noise(search: Search, fitted: Fitted) -> Search:
+def with_noise(search: Search, fitted: Fitted) -> Search:
     """`search` weighted by the noise that `fitted` leaves."""
     problem = search.problem
     residuals = problem.residuals(fitted.vector, fitted.candidate.active)
@@ -204,7 +204,7 @@ def _with_noise(search: Search, fitted: Fitted) -> Search:
 def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
     """The same fits under the noise levels that the best one leaves, where they differ."""
     best = min([nominal, *fits], key=lambda f: f.cost)
-    other = tempered(_with_noise(search, best), best)
+    other = tempered(with_noise(search, best), best)
     change = max(abs(np.log(v / search.problem.noise[s])) for s, v in other.problem.noise.items())
     change = max(change, abs(np.log(other.problem.colour / search.problem.colour)) / 30.0)
     if change < 0.03:

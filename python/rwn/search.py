@@ -38,6 +38,7 @@ Row = tuple[Racer, Minimum]
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
+HOPELESS = 4.0  # cost in units of the best's, above which no other condition brings an explanation back
 SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
 GLANCE, LOOK = 2500, 9000  # samples on which starts of one effect are told apart, beside others and alone
 SIGHTED = 4  # starts that are worth an iteration where many are looked at
@@ -76,9 +77,11 @@ class Search:
             if name not in base.candidate.effects and _has_room(base.candidate, name)
             for racer in self._starts(base, name, orders=keep + 1)
         ]
-        rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience)
-        rows = _promising(_best_of_each(rows, keep), base.cost)
-        finals = self._race([racer for racer, _ in self._over_rough(rows, base.cost)], iterations=60)
+        look = self.look(base)
+        rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience, problem=look)
+        start = base.cost if look is self.problem else self.refit(base, look).cost
+        rows = _promising(_best_of_each(rows, keep), start)
+        finals = self._race([racer for racer, _ in self._over_rough(rows, look, start)], iterations=60)
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
             for racer, m in sorted(finals, key=lambda row: row[1].cost)
@@ -95,7 +98,7 @@ class Search:
         if not crowded:
             return list(racers)
         crowded = self._sighted(crowded, self.part(base, GLANCE))
-        part = self.part(base, GLANCE if base.added else LOOK)
+        part = self.part(base, GLANCE) if base.added else self.look(base)
         rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
         return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
 
@@ -111,6 +114,11 @@ class Search:
             groups.setdefault(_kind(racer), []).append((cost, k))
         best = {k for group in groups.values() for _, k in sorted(group)[:SIGHTED]}
         return [*(r for r in racers if not _misleads(r)), *(r for k, r in enumerate(astray) if k in best)]
+
+    def look(self, base: Fitted) -> OutputError:
+        """The part of the problem on which effects are told apart: all of it where it is short."""
+        length = sum(t.time.size for t in self.problem.targets)
+        return self.problem if length <= LOOK else self.part(base, LOOK)
 
     def part(self, base: Fitted, samples: int) -> OutputError:
         """The problem on the beginning of every recording."""
@@ -138,12 +146,12 @@ class Search:
             for racer, m in zip(racers, ends, strict=True)
         ]
 
-    def _over_rough(self, rows: Sequence[Row], base_cost: float) -> list[Row]:
+    def _over_rough(self, rows: Sequence[Row], problem: OutputError, base_cost: float) -> list[Row]:
         """Starts whose error is rough and that have gained something, brought near before they are fitted."""
 
         def near(row: Row) -> Minimum:
             racer, m = row
-            return settled(self.problem, racer.candidate, m, turns=1) if m.cost < SLIGHT * base_cost else m
+            return settled(problem, racer.candidate, m, turns=1) if m.cost < SLIGHT * base_cost else m
 
         ends = side_by_side(near, rows, jobs=self.jobs)
         return [
@@ -219,7 +227,8 @@ class Search:
 
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
     """The explanations that are worth fitting again under other conditions, best first."""
-    return sorted(fits, key=lambda f: f.cost)[:KEPT]
+    best_first = sorted(fits, key=lambda f: f.cost)[:KEPT]
+    return [f for f in best_first if f.cost <= HOPELESS * best_first[0].cost]
 
 
 def _misleads(racer: Racer) -> bool:

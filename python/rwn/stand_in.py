@@ -27,6 +27,7 @@ from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
 from rwn.proof import proved
 from rwn.refuse import heldout_error
+from rwn.search import Search
 from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
@@ -64,10 +65,11 @@ def stand_in(found: Explanation, model: Model, *, at: Place | None = None, jobs:
     if not has_room(model, parts):
         return None
     tried = [at] if at else places(found.setup, model)
-    heats = side_by_side(lambda place: _fit(found, model, place, FEW, 5), tried, jobs=jobs)
-    for count, kept in ((FEW, 2), (MANY, 1)):
+    part = replace(found, setup=replace(found.setup, problem=Search.of(found.setup).look(found.nominal)))
+    heats = side_by_side(lambda place: _fit(part, model, place, FEW, 5), tried, jobs=jobs)
+    for on, count, kept in ((part, FEW, 2), (found, MANY, 1)):
         best_first = sorted(heats, key=lambda heat: heat.fitted.cost)
-        heats = side_by_side(partial(_grown, found, model, count), best_first[:kept], jobs=jobs)
+        heats = side_by_side(partial(_grown, on, model, count), best_first[:kept], jobs=jobs)
     whole, apart = side_by_side(
         lambda orthogonal: _kept(found, model, heats[0], orthogonal=orthogonal), (False, True), jobs=jobs
     )

@@ -1,57 +1,83 @@
-"""Recordings explained without their mistakes: units and signs first, what physics might explain too afterwards."""
+"""Recordings explained without their mistakes: scales first, what physics might explain too against physics."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
-from rwn import mistakes
-from rwn.explain import Explanation, Progress, explain
-from rwn.mistakes import Mistake
+from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
+from rwn.gear_ratio import gear_ratio
+from rwn.mistakes import GEAR, Mistake, without
 from rwn.model import Model
+from rwn.out_of_step import CLEAR, LITTLE, Suspicion, believed, rivals, sharpened, suspected, unexplained
 from rwn.prepare import prepare
 from rwn.recording import Recording
+from rwn.wrong_scale import wrong_scale
+
+Explain = Callable[[Sequence[Recording], int, Sequence[str] | None], Explanation]  # by so many effects, of these names
+
+MOST_SCALES = 2  # wrong at a time
+WRONG = 0.01  # relative error of a gear ratio, from which what is beneath it is explained anew
 
 
 def explained(
     recordings: Sequence[Recording], model: Model, *, jobs: int, say: Progress
 ) -> tuple[list[Mistake], Explanation]:
     """Mistakes of the recordings, and what explains these when they are undone."""
+
+    def explanation(
+        of: Sequence[Recording], at_once: int = MOST_EFFECTS, names: Sequence[str] | None = None
+    ) -> Explanation:
+        return explain(prepare(of, model), jobs=jobs, progress=say, at_once=at_once, names=names)
+
+    if model.kind == "lti":  # its gain is in no unit that could be doubted
+        return [], explanation(recordings)
     say("looking for mistakes in the recordings", 0.0)
-    made, recordings = _undone(recordings, model)
+    made, right = _scaled(recordings, model)
+    doubt = suspected(right, model)
     say("refitting the nominal model", 0.05)
-    if mistakes.suspected(recordings, model):  # before contradictions are explained by several effects at once
-        simplest = explain(prepare(recordings, model), jobs=jobs, progress=say, at_once=1)
-        made, recordings = _without(_late(simplest, recordings, model), made, recordings)
-    found = explain(prepare(recordings, model), jobs=jobs, progress=say)
-    late = _late(found, recordings, model)
-    if late:
-        made, recordings = _without(late, made, recordings)
-        found = explain(prepare(recordings, model), jobs=jobs, progress=say)
-    return made, found
+    if doubt:
+        mistake = _settled(doubt, right, model, explanation)
+        if mistake:
+            return [*made, mistake], explanation(without(right, mistake))
+    found = explanation(right)
+    return _geared(made, recordings, model, found, explanation) if any(m.name == GEAR for m in made) else (made, found)
 
 
-def _without(
-    mistake: Mistake | None, made: list[Mistake], recordings: Sequence[Recording]
-) -> tuple[list[Mistake], Sequence[Recording]]:
-    """One more mistake, if any, and the recordings without it."""
-    return ([*made, mistake], [mistake.undo(r) for r in recordings]) if mistake else (made, recordings)
+def _geared(
+    made: Sequence[Mistake], recordings: Sequence[Recording], model: Model, found: Explanation, explanation: Explain
+) -> tuple[list[Mistake], Explanation]:
+    """The mistakes with the ratio of the gear fitted, and what explains the recordings then."""
+    (gear,) = (m for m in made if m.name == GEAR)
+    others = [m for m in made if m is not gear]
+    for mistake in others:
+        recordings = without(recordings, mistake)
+    fitted = gear_ratio(gear, recordings, model, found)
+    if abs(fitted.factor / gear.factor - 1.0) < WRONG:
+        return list(made), found
+    return [*others, fitted], explanation(without(recordings, fitted), MOST_EFFECTS, None)
 
 
-def _undone(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
-    """At most two gross mistakes, and the recordings without them."""
+def _settled(doubt: Suspicion, right: Sequence[Recording], model: Model, explanation: Explain) -> Mistake | None:
+    """The suspected mistake if it explains more, alone or beside one effect, than as many effects do by themselves."""
+    mistake, left, beneath = doubt.mistake, doubt.after, None
+    if left > LITTLE:
+        beneath = explanation(without(right, mistake), 1, None)
+        mistake, left = sharpened(doubt, right, model, beneath)
+    alone = explanation(right, 1, None)
+    if not believed(doubt, left=left, physics=unexplained(doubt, alone)):
+        return None
+    if beneath and left > CLEAR * doubt.before:
+        pairs = explanation(right, 2, rivals(alone, beneath))
+        if not believed(doubt, left=left, physics=unexplained(doubt, pairs)):
+            return None
+    return mistake
+
+
+def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
+    """Wrong units, signs and gears, and the recordings without them."""
     made: list[Mistake] = []
     right = list(recordings)
-    if model.kind == "lti":  # its gain is in no unit that could be doubted
-        return made, right
-    while len(made) < 2 and (mistake := mistakes.gross(right, model)):
+    while len(made) < MOST_SCALES and (mistake := wrong_scale(right, model)):
         made.append(mistake)
-        right = [mistake.undo(r) for r in right]
+        right = without(right, mistake)
     return made, right
-
-
-def _late(found: Explanation, recordings: Sequence[Recording], model: Model) -> Mistake | None:
-    """A mistake that physics might explain as well, and does not."""
-    if model.kind == "lti" or found.nominal.cost < mistakes.AT_THE_NOISE * found.before.count:
-        return None
-    best = min(h.fitted.cost for h in found.hypotheses)
-    return mistakes.fine(recordings, model, noise=found.setup.problem.noise, rival=best)

@@ -57,7 +57,7 @@ class Grade:
     removed: tuple[float, ...] = ()
     seconds: float | None = None
     mistake: str = ""  # in the recordings, and what was said of them
-    mistaken: str = ""
+    mistaken: tuple[str, ...] = ()
 
     @property
     def level(self) -> str:
@@ -138,7 +138,7 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     said: dict[str, Any] = {"verdict": NO_RESULT}
     if (out / "diagnosis.json").exists():
         said = json.loads((out / "diagnosis.json").read_text())
-    mistaken, said = _without_mistake(said) if "mistake" in answer else ("", said)
+    mistaken, said = _without_mistake(said) if "mistake" in answer else ((), said)
     effects = said.get("effects", []) if said["verdict"] == "missing-physics" else []
     names = tuple(str(effect["name"]) for effect in effects)
     candidates = tuple(said.get("set") or names[:1]) if names else ()
@@ -171,15 +171,14 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     )
 
 
-def _without_mistake(said: Mapping[str, Any]) -> tuple[str, dict[str, Any]]:
-    """The recording mistake that was named first, and what was said of the drive beneath it."""
+def _without_mistake(said: Mapping[str, Any]) -> tuple[tuple[str, ...], dict[str, Any]]:
+    """The recording mistakes that were not told apart, likeliest first, and what was said of the drive beneath them."""
     mistakes = [e for e in said.get("effects", []) if e["equation"] == RECORDING]
     physics = [e for e in said.get("effects", []) if e["equation"] != RECORDING]
     if not mistakes:
-        return "", dict(said)
-    beneath = "missing-physics" if physics else "adequate"
-    names = [e["name"] for e in physics[:1]]
-    return str(mistakes[0]["name"]), {**said, "verdict": beneath, "effects": physics, "set": names}
+        return (), dict(said)
+    beneath = said["beneath"]
+    return tuple(said["set"]), {**said, "verdict": beneath["verdict"], "effects": physics, "set": beneath["set"]}
 
 
 def _equation_right(answer: Mapping[str, Any], said: Mapping[str, Any]) -> bool:

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from rwn.trials.conceal import SINGLE
-from rwn.trials.grade import Grade
+from rwn.trials.grade import LARGEST_SET, Grade
 
 FEW_INTERVALS = 20
 BINS = np.linspace(0.0, 1.0, 6)
@@ -63,7 +63,8 @@ def mistakes(grades: Sequence[Grade]) -> dict[str, dict[str, Share | str]]:
             groups.setdefault(grade.mistake, []).append(grade)
     return {
         kind: {
-            "found": Share.of(g.mistaken == kind for g in group),
+            "called so": Share.of(g.mistaken[:1] == (kind,) for g in group),
+            "or in its set": Share.of(kind in g.mistaken[:LARGEST_SET] for g in group),
             "single effect beneath it right": Share.of(named_right(g) for g in single(group)),
             "false alarms beneath it": Share.of(g.false_alarm for g in group if g.mode == "null"),
         }

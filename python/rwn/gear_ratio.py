@@ -1,0 +1,44 @@
+"""The ratio of a wrong gear, fitted once it is known what physics is missing beneath it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rwn.explain import Explanation
+from rwn.mistakes import Mistake, without
+from rwn.model import Model
+from rwn.prepare import prepare
+from rwn.recording import Recording
+from rwn.search import Search
+from rwn.wrong_scale import gear
+
+REACH = 0.3  # relative error of a ratio that was read off the size of a signal
+EXACT = 2e-3  # relative accuracy that is asked for
+
+
+def gear_ratio(mistake: Mistake, recordings: Sequence[Recording], model: Model, beneath: Explanation) -> Mistake:
+    """`mistake` with the ratio at which the explanation beneath it, priors included, costs least.
+
+    `recordings` are those with the mistake. The ratio is known as well as Ke is: only their product shows.
+    """
+    from scipy.optimize import minimize_scalar  # late: the command line starts without it
+
+    best = min((h.fitted for h in beneath.hypotheses), key=lambda f: f.cost)
+
+    def tried(change: float) -> Mistake:
+        return gear(mistake.signals, mistake.factor * float(np.exp(change)), mistake.spread)
+
+    def cost(change: float) -> float:
+        setup = prepare(without(recordings, tried(change)), model)
+        noise = {
+            s: level * (float(np.exp(-change)) if s in mistake.signals else 1.0)
+            for s, level in beneath.setup.problem.noise.items()
+        }
+        problem = replace(setup.problem, noise=noise, colour=beneath.setup.problem.colour)
+        return Search.of(setup, problem=problem).refit(best, problem).cost
+
+    end = minimize_scalar(cost, bounds=(-REACH, REACH), method="bounded", options={"xatol": EXACT})
+    return tried(float(end.x)) if end.fun < cost(0.0) else mistake

@@ -1,0 +1,163 @@
+"""Channels out of step, and gears that physics might explain as well: what undoing a mistake leaves, refitted.
+
+Such a mistake is suspected where undoing it removes a good part of what the refitted model leaves. It is believed if
+the recordings without it are explained by fewer effects, and better, than as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.explain import Explanation, with_noise
+from rwn.fitted import Fitted
+from rwn.mistakes import SHIFT, Mistake, without
+from rwn.model import Model
+from rwn.output_error import OutputError
+from rwn.prepare import Setup, prepare
+from rwn.recording import Recording
+from rwn.search import Search
+from rwn.wrong_scale import gears
+
+Array = NDArray[np.float64]
+
+LITTLE = 0.1  # squared error above the noise, in units of it, below which nothing is suspected
+SUSPECT = 0.3  # share of what the refitted model leaves, that undoing a mistake has to remove to be suspected
+REMOVED = 0.85  # the same to be believed, with what is found beneath it
+CLEAR = 0.01  # share that is left where a mistake and one effect explain all: pairs of effects need not be tried
+BETTER = 0.75  # share of what physics alone leaves, that may be left with the mistake undone
+FIRST = 4  # explanations that may be one half of a pair
+LONGEST_SHIFT = 40  # samples
+NEAR = (-3, -2, -1, 1, 2, 3)  # samples by which a delay may be off, seen through missing physics
+
+
+@dataclass(frozen=True, kw_only=True)
+class Suspicion:
+    """The mistake that removes most of what the refitted model leaves."""
+
+    mistake: Mistake
+    noise: Mapping[str, float]
+    before: float  # squared error above the noise, in units of it, of the refitted model
+    after: float  # the same with the mistake undone
+
+
+def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None:
+    """A shift or a gear that explains a good part of what the refitted model leaves; physics may yet do better."""
+    setup = prepare(recordings, model)
+    search = Search.of(setup)
+    search = with_noise(search, search.fit_nominal())
+    fitted = search.fit_nominal()
+    noise = with_noise(search, fitted).problem.noise
+    before = _left(setup, _refitted(setup, noise), noise)
+    if before < LITTLE:
+        return None
+    best = None
+    for mistake in chain(gears(recordings, model), _shifts(recordings, setup, fitted)):
+        undone = prepare(without(recordings, mistake), model)
+        own = _undone(noise, mistake)
+        after = _left(undone, _refitted(undone, own), own)
+        if after < (best.after if best else (1.0 - SUSPECT) * before):
+            best = Suspicion(mistake=mistake, noise=noise, before=before, after=after)
+    return best
+
+
+def unexplained(doubt: Suspicion, found: Explanation) -> float:
+    """Mean squared error above the noise, in units of it, that physics leaves of the recordings as they are."""
+    return _left(found.setup, _best(found), doubt.noise)
+
+
+def rivals(alone: Explanation, beneath: Explanation) -> list[str]:
+    """Effects of which two might do what the mistake does with one beneath it.
+
+    They are those of the drive's ends, which delay and scale, and the first ones with the mistake and without.
+    """
+    ends = [name for name, effect in alone.setup.nominal.table.items() if effect.site in ("actuator", "sensor")]
+    first = [name for of in (alone, beneath) for h in of.hypotheses[:FIRST] for name in h.fitted.added]
+    return list(dict.fromkeys([*ends, *first]))
+
+
+def believed(doubt: Suspicion, *, left: float, physics: float) -> bool:
+    """Whether the mistake, which leaves `left` by itself or with what is beneath it, explains more than physics."""
+    return left < BETTER * physics and left < (1.0 - REMOVED) * doubt.before and physics > LITTLE
+
+
+def sharpened(
+    doubt: Suspicion, recordings: Sequence[Recording], model: Model, beneath: Explanation
+) -> tuple[Mistake, float]:
+    """The mistake with the delay at which what was found beneath it fits best, and what that leaves."""
+    noise, base = _undone(doubt.noise, doubt.mistake), _best(beneath)
+    best, least = doubt.mistake, _left(beneath.setup, base, noise)
+    for off in NEAR if doubt.mistake.delay else ():
+        tried = _shift(doubt.mistake.signals, doubt.mistake.delay + off, doubt.mistake.step)
+        setup = prepare(without(recordings, tried), model)
+        problem = replace(setup.problem, noise=noise)
+        left = _left(setup, Search.of(setup, problem=problem).refit(base, problem), noise)
+        if tried.delay and left < least:
+            best, least = tried, left
+    return best, least
+
+
+def _best(found: Explanation) -> Fitted:
+    return min((h.fitted for h in found.hypotheses), key=lambda f: f.cost)
+
+
+def _undone(noise: Mapping[str, float], mistake: Mistake) -> dict[str, float]:
+    """Noise levels of the signals with the mistake undone."""
+    return {s: level / (abs(mistake.factor) if s in mistake.signals else 1.0) for s, level in noise.items()}
+
+
+def _refitted(setup: Setup, noise: Mapping[str, float]) -> Fitted:
+    return Search.of(setup, problem=replace(setup.problem, noise=dict(noise))).fit_nominal()
+
+
+def _residuals(setup: Setup, fitted: Fitted) -> list[dict[str, Array]]:
+    return setup.problem.residuals(fitted.vector, fitted.candidate.active)
+
+
+def _left(setup: Setup, fitted: Fitted, noise: Mapping[str, float]) -> float:
+    """Mean squared error above the noise, in units of it."""
+    residuals = _residuals(setup, fitted)
+    count = sum(int(np.isfinite(r).sum()) for each in residuals for r in each.values())
+    error = sum(float(np.nansum((r / noise[s]) ** 2)) for each in residuals for s, r in each.items())
+    return error / max(count, 1) - 1.0
+
+
+# ---- delays that are worth a refit -----------------------------------------------------------------------------------
+
+
+def _shifts(recordings: Sequence[Recording], setup: Setup, fitted: Fitted) -> Iterator[Mistake]:
+    """One channel late or early against its simulation while another is in step."""
+    if setup.problem.kind != "dc":
+        return
+    problem, active = setup.problem, fitted.candidate.active
+    lags = {s: _lag(problem, fitted.vector, active, s) for s in problem.targets[0].recorded if s != "position"}
+    step = float(np.median(np.diff(recordings[0].time)))
+    groups = {"speed": tuple(s for s in ("speed", "position") if s in recordings[0].signals), "current": ("current",)}
+    alone = "current" not in lags  # late against the input alone: as well a delay of the drive, which is physics
+    for signal, lag in lags.items():
+        for delay in sorted({lag - 1, lag, lag + 1, *(lag - other for other in lags.values())}):
+            if delay != 0 and abs(delay) <= LONGEST_SHIFT and not (alone and delay > 0):
+                yield _shift(groups[signal], delay, step)
+
+
+def _shift(signals: tuple[str, ...], delay: int, step: float) -> Mistake:
+    late = "late" if delay > 0 else "early"
+    text = f"{' and '.join(signals)} {abs(delay)} samples {late} against the other channels"
+    return Mistake(name=SHIFT, signals=signals, delay=delay, step=step, meaning=text)
+
+
+def _lag(problem: OutputError, vector: Array, active: Sequence[int], signal: str) -> int:
+    """Samples by which a recorded signal follows its simulation, from the correlation of their changes."""
+    shifts = np.arange(-LONGEST_SHIFT, LONGEST_SHIFT + 1)
+    score = np.zeros(shifts.size)
+    for target in problem.targets:
+        simulated = np.diff(problem.simulate(target, vector, active).signals[signal])
+        recorded = np.diff(target.signal(signal))
+        inner = slice(LONGEST_SHIFT, simulated.size - LONGEST_SHIFT)
+        for k, shift in enumerate(shifts):
+            score[k] += float(np.roll(recorded, -shift)[inner] @ simulated[inner])
+    return int(shifts[np.argmax(score)])
