@@ -20,7 +20,7 @@ _PREFIXABLE = (
     "J",
     "m",
 )  # the first factor of a unit that takes a prefix
-BELIEVABLE = 3.0  # declared standard deviations, beyond which a parameter is not merely off
+BELIEVABLE = 4.0  # declared standard deviations, beyond which a parameter is not merely off
 _SYMBOLS = (("ohm", "Ω"), ("^2", "²"), ("^3", "³"))
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
