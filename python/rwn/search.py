@@ -38,8 +38,9 @@ Row = tuple[Racer, Minimum]
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
-HOPELESS = 4.0  # cost in units of the best's, above which no other condition brings an explanation back
+HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
 SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
+IN_PASSING = 6  # iterations for that
 GLANCE, LOOK = 2500, 9000  # samples on which starts of one effect are told apart, beside others and alone
 SIGHTED = 4  # starts that are worth an iteration where many are looked at
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
@@ -159,14 +160,20 @@ class Search:
             for (racer, _), m in zip(rows, ends, strict=True)
         ]
 
-    def refit(self, this: Fitted, problem: OutputError) -> Fitted:
+    def refit(self, this: Fitted, problem: OutputError, *, iterations: int = 60) -> Fitted:
         """The same explanation fitted to another problem (other weights, other recordings)."""
         start = this.candidate.starting_at(this.minimum.values)
-        return Fitted(added=this.added, candidate=start, minimum=fit(problem, start))
+        return Fitted(added=this.added, candidate=start, minimum=fit(problem, start, max_iterations=iterations))
 
     def refit_all(self, these: Sequence[Fitted]) -> list[Fitted]:
-        """Explanations of another search fitted to this one's problem."""
-        return side_by_side(lambda this: self.refit(this, self.problem), these, jobs=self.jobs)
+        """Explanations of another search fitted to this one's problem, the hopeless ones by a few iterations."""
+        bar = HOPELESS * min((this.cost for this in these), default=np.inf)
+
+        def again(this: Fitted) -> Fitted:
+            hopeless = bool(this.added) and this.cost > bar
+            return self.refit(this, self.problem, iterations=IN_PASSING if hopeless else 60)
+
+        return side_by_side(again, these, jobs=self.jobs)
 
     def _starts(self, base: Fitted, name: str, *, orders: int) -> list[Racer]:
         effect = self.nominal.table[name]
@@ -227,8 +234,7 @@ class Search:
 
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
     """The explanations that are worth fitting again under other conditions, best first."""
-    best_first = sorted(fits, key=lambda f: f.cost)[:KEPT]
-    return [f for f in best_first if f.cost <= HOPELESS * best_first[0].cost]
+    return sorted(fits, key=lambda f: f.cost)[:KEPT]
 
 
 def _misleads(racer: Racer) -> bool:
