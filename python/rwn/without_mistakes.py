@@ -47,7 +47,7 @@ def _geared(
     made: Sequence[Mistake], recordings: Sequence[Recording], model: Model, found: Explanation, explanation: Explain
 ) -> tuple[list[Mistake], Explanation]:
     """The mistakes with the ratio of the gear fitted, and what explains the recordings then."""
-    (gear,) = (m for m in made if m.name == GEAR)
+    gear = next(m for m in made if m.name == GEAR)
     others = [m for m in made if m is not gear]
     for mistake in others:
         recordings = without(recordings, mistake)
