@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ import pytest
 import rwn
 from rwn import evidence, hints
 from rwn.candidate import Candidate, candidate, fit
-from rwn.explain import _varied, explain
+from rwn.explain import _varied, _with_simpler, explain
 from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.prepare import Setup, prepare
@@ -167,3 +169,16 @@ def test_the_angle_is_followed_without_what_the_sensor_adds(effect: str, values:
     followed = hints.along_the_shaft(search.problem, right.vector, right.active).targets[0].angle
     assert np.max(np.abs(setup.problem.targets[0].angle - seen["position"])) > 0.5
     assert np.max(np.abs(followed - seen["position"])) < 0.05
+
+
+def test_simpler_explanations_are_sought_until_none_is_better(monkeypatch: pytest.MonkeyPatch) -> None:
+    def ended(cost: float, *added: str) -> SimpleNamespace:
+        return SimpleNamespace(added=added, cost=cost)
+
+    simpler = {3: [ended(9.9, "constant-load", "load-disturbance")], 2: [ended(9.95, "load-disturbance")]}
+    monkeypatch.setattr("rwn.explain._simpler", lambda search, best: simpler[len(best.added)])
+    three = ended(10.0, "constant-load", "load-disturbance", "backlash")
+    found = _with_simpler(cast(Any, None), cast(Any, ended(99.0)), cast(Any, [three]))
+    assert [f.added for f in found] == [
+        ("constant-load", "load-disturbance"), ("load-disturbance",), ("constant-load", "load-disturbance", "backlash")
+    ]  # fmt: skip

@@ -87,8 +87,7 @@ def explain(
         left = evidence.statistics(search.problem, best)
         layer = sorted(more, key=lambda f: f.cost)[:2]
     search, nominal, fits = _settled(search, nominal, fits, setup)
-    best = min([nominal, *fits], key=lambda f: f.cost)
-    fits = _distinct([*fits, *_simpler(search, best)])
+    fits = _with_simpler(search, nominal, fits)
     strained = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not f.limits_met and not f.idle]
     best = min([nominal, *fits], key=lambda f: f.cost)
@@ -211,6 +210,17 @@ def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Se
         return search, nominal, fits
     first, *rest = other.refit_all([nominal, *foremost(fits)])
     return other, first, sorted(rest, key=lambda f: f.cost)
+
+
+def _with_simpler(search: Search, nominal: Fitted, fits: list[Fitted]) -> list[Fitted]:
+    """The fits and simpler ones than the best; where one of these costs less, simpler ones than that too."""
+    best = min([nominal, *fits], key=lambda f: f.cost)
+    for _ in range(MOST_EFFECTS - 1):
+        fits = _distinct([*fits, *_simpler(search, best)])
+        last, best = best, min([nominal, *fits], key=lambda f: f.cost)
+        if len(best.added) >= len(last.added):
+            break
+    return fits
 
 
 def _simpler(search: Search, best: Fitted) -> list[Fitted]:
