@@ -176,7 +176,7 @@ def test_simpler_explanations_are_sought_until_none_is_better(monkeypatch: pytes
         return SimpleNamespace(added=added, cost=cost)
 
     simpler = {3: [ended(9.9, "constant-load", "load-disturbance")], 2: [ended(9.95, "load-disturbance")]}
-    monkeypatch.setattr("rwn.explain._simpler", lambda search, best: simpler[len(best.added)])
+    monkeypatch.setattr("rwn.explain._simpler", lambda _, best: simpler[len(best.added)])
     three = ended(10.0, "constant-load", "load-disturbance", "backlash")
     found = _with_simpler(cast(Any, None), cast(Any, ended(99.0)), cast(Any, [three]))
     assert [f.added for f in found] == [
