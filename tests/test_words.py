@@ -45,16 +45,12 @@ def test_a_set_names_every_member() -> None:
 
 
 def test_a_name_that_leaves_more_than_noise_is_only_the_nearest() -> None:
-    from dataclasses import replace
-
     found = made_up.found()
     assert words.verdict_sentence(found).startswith("The model lacks ")
     assert words.verdict_sentence(replace(found, whole=0.4)).startswith("The nearest name to what the model lacks is ")
 
 
 def test_a_loss_is_not_called_a_gain() -> None:
-    from dataclasses import replace
-
     found = made_up.found()
     worse = replace(found, heldout=(replace(found.heldout[0], gain=-0.2),))
     assert "increases" in words.verdict_sentence(worse)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -19,6 +20,7 @@ Slot = Literal[
 Role = Literal["measured", "nominal", "refitted", "corrected", "before", "after", "reference", "noise-floor"]
 Array = NDArray[np.float64]
 
+RECORDING = "recording"  # the equation of a mistake in the recordings
 NEAREST = 0.5  # probability of being the whole, up to which a name is only the nearest one; a proved one that leaves
 # more than noise has no more
 
@@ -83,6 +85,14 @@ class FittedParameter:
     uncertainty: float
     refitted: Estimate  # the nominal structure alone
     corrected: Estimate | None = None  # together with the found effects
+
+    @property
+    def moved(self) -> float:
+        """By how many declared standard deviations the refit moved it, relative or in its logarithm; 0 where exact."""
+        if self.uncertainty == 0.0 or self.nominal <= 0.0:
+            return 0.0
+        ratio = self.refitted.value / self.nominal
+        return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -49,6 +49,11 @@ class Explanation:
         """The refitted nominal model among the hypotheses."""
         return next(h for h in self.hypotheses if not h.fitted.added)
 
+    @property
+    def closest(self) -> Fitted:
+        """What fits best, however many effects it takes."""
+        return min((h.fitted for h in self.hypotheses), key=lambda f: f.cost)
+
 
 def explain(
     setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None,

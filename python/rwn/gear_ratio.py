@@ -26,19 +26,15 @@ def gear_ratio(mistake: Mistake, recordings: Sequence[Recording], model: Model, 
     """
     from scipy.optimize import minimize_scalar  # late: the command line starts without it
 
-    best = min((h.fitted for h in beneath.hypotheses), key=lambda f: f.cost)
-
     def tried(change: float) -> Mistake:
         return gear(mistake.signals, mistake.factor * float(np.exp(change)), mistake.spread)
 
     def cost(change: float) -> float:
         setup = prepare(without(recordings, tried(change)), model)
-        noise = {
-            s: level * (float(np.exp(-change)) if s in mistake.signals else 1.0)
-            for s, level in beneath.setup.problem.noise.items()
-        }
-        problem = replace(setup.problem, noise=noise, colour=beneath.setup.problem.colour)
-        return Search.of(setup, problem=problem).refit(best, problem).cost
+        known = beneath.setup.problem
+        noise = replace(mistake, factor=float(np.exp(change))).levels(known.noise)  # on top of what is undone already
+        problem = replace(setup.problem, noise=noise, colour=known.colour)
+        return Search.of(setup, problem=problem).refit(beneath.closest, problem).cost
 
     end = minimize_scalar(cost, bounds=(-REACH, REACH), method="bounded", options={"xatol": EXACT})
     return tried(float(end.x)) if end.fun < cost(0.0) else mistake

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.diagnosis import Estimate, FoundEffect
+from rwn.diagnosis import RECORDING, Estimate, FoundEffect
 from rwn.recording import Recording
 
 Array = NDArray[np.float64]
@@ -17,6 +17,7 @@ UNIT = "wrong-unit"
 SIGN = "wrong-sign"
 GEAR = "wrong-gear-ratio"
 SHIFT = "time-shift"
+MOTION = ("speed", "position")  # signals of one shaft
 SURE = 0.99  # probability that is stated of a mistake; those that fit alike share it
 
 
@@ -42,6 +43,10 @@ class Mistake:
                 signals[name] = _moved(np.array(recording.signals[name]), self.delay)[:n] / self.factor
         return replace(recording, time=recording.time[:n], signals=signals)
 
+    def levels(self, noise: Mapping[str, float]) -> dict[str, float]:
+        """Noise levels of the signals once it is undone."""
+        return {s: level / (abs(self.factor) if s in self.signals else 1.0) for s, level in noise.items()}
+
     def found(self) -> FoundEffect:
         """How a diagnosis reports it."""
         parameters = {}
@@ -52,7 +57,7 @@ class Mistake:
         if self.delay:
             parameters["shift"] = Estimate(value=self.delay * self.step, unit="s")
         return FoundEffect(
-            name=self.name, equation="recording", probability=SURE / (1 + len(self.also)), parameters=parameters,
+            name=self.name, equation=RECORDING, probability=SURE / (1 + len(self.also)), parameters=parameters,
             meaning=self.meaning,
         )  # fmt: skip
 

@@ -13,9 +13,10 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn import evidence
 from rwn.explain import Explanation, with_noise
 from rwn.fitted import Fitted
-from rwn.mistakes import SHIFT, Mistake, without
+from rwn.mistakes import MOTION, SHIFT, Mistake, without
 from rwn.model import Model
 from rwn.output_error import OutputError
 from rwn.prepare import Setup, prepare
@@ -58,7 +59,7 @@ def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None
     best = None
     for mistake in chain(gears(recordings, model), _shifts(recordings, setup, fitted)):
         undone = prepare(without(recordings, mistake), model)
-        own = _undone(noise, mistake)
+        own = mistake.levels(noise)
         after = _left(undone, _refitted(undone, own), own)
         if after < (best.after if best else (1.0 - SUSPECT) * before):
             best = Suspicion(mistake=mistake, noise=noise, before=before, after=after)
@@ -67,7 +68,7 @@ def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None
 
 def unexplained(doubt: Suspicion, found: Explanation) -> float:
     """Mean squared error above the noise, in units of it, that physics leaves of the recordings as they are."""
-    return _left(found.setup, _best(found), doubt.noise)
+    return _left(found.setup, found.closest, doubt.noise)
 
 
 def rivals(alone: Explanation, beneath: Explanation) -> list[str]:
@@ -89,7 +90,7 @@ def sharpened(
     doubt: Suspicion, recordings: Sequence[Recording], model: Model, beneath: Explanation
 ) -> tuple[Mistake, float]:
     """The mistake with the delay at which what was found beneath it fits best, and what that leaves."""
-    noise, base = _undone(doubt.noise, doubt.mistake), _best(beneath)
+    noise, base = doubt.mistake.levels(doubt.noise), beneath.closest
     best, least = doubt.mistake, _left(beneath.setup, base, noise)
     for off in NEAR if doubt.mistake.delay else ():
         tried = _shift(doubt.mistake.signals, doubt.mistake.delay + off, doubt.mistake.step)
@@ -101,29 +102,13 @@ def sharpened(
     return best, least
 
 
-def _best(found: Explanation) -> Fitted:
-    return min((h.fitted for h in found.hypotheses), key=lambda f: f.cost)
-
-
-def _undone(noise: Mapping[str, float], mistake: Mistake) -> dict[str, float]:
-    """Noise levels of the signals with the mistake undone."""
-    return {s: level / (abs(mistake.factor) if s in mistake.signals else 1.0) for s, level in noise.items()}
-
-
 def _refitted(setup: Setup, noise: Mapping[str, float]) -> Fitted:
     return Search.of(setup, problem=replace(setup.problem, noise=dict(noise))).fit_nominal()
 
 
-def _residuals(setup: Setup, fitted: Fitted) -> list[dict[str, Array]]:
-    return setup.problem.residuals(fitted.vector, fitted.candidate.active)
-
-
 def _left(setup: Setup, fitted: Fitted, noise: Mapping[str, float]) -> float:
     """Mean squared error above the noise, in units of it."""
-    residuals = _residuals(setup, fitted)
-    count = sum(int(np.isfinite(r).sum()) for each in residuals for r in each.values())
-    error = sum(float(np.nansum((r / noise[s]) ** 2)) for each in residuals for s, r in each.items())
-    return error / max(count, 1) - 1.0
+    return evidence.statistics(replace(setup.problem, noise=dict(noise)), fitted).variance - 1.0
 
 
 # ---- delays that are worth a refit -----------------------------------------------------------------------------------
@@ -136,7 +121,7 @@ def _shifts(recordings: Sequence[Recording], setup: Setup, fitted: Fitted) -> It
     problem, active = setup.problem, fitted.candidate.active
     lags = {s: _lag(problem, fitted.vector, active, s) for s in problem.targets[0].recorded if s != "position"}
     step = float(np.median(np.diff(recordings[0].time)))
-    groups = {"speed": tuple(s for s in ("speed", "position") if s in recordings[0].signals), "current": ("current",)}
+    groups = {"speed": tuple(s for s in MOTION if s in recordings[0].signals), "current": ("current",)}
     alone = "current" not in lags  # late against the input alone: as well a delay of the drive, which is physics
     for signal, lag in lags.items():
         for delay in sorted({lag - 1, lag, lag + 1, *(lag - other for other in lags.values())}):

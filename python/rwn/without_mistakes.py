@@ -35,19 +35,18 @@ def explained(
     made, right = _scaled(recordings, model)
     doubt = suspected(right, model)
     say("refitting the nominal model", 0.05)
-    if doubt:
-        mistake = _settled(doubt, right, model, explanation)
-        if mistake:
-            return [*made, mistake], explanation(without(right, mistake))
+    if doubt and (mistake := _settled(doubt, right, model, explanation)):
+        made, right = [*made, mistake], without(right, mistake)
     found = explanation(right)
-    return _geared(made, recordings, model, found, explanation) if any(m.name == GEAR for m in made) else (made, found)
+    gear = next((m for m in made if m.name == GEAR), None)
+    return _geared(gear, made, recordings, model, found, explanation) if gear else (made, found)
 
 
 def _geared(
-    made: Sequence[Mistake], recordings: Sequence[Recording], model: Model, found: Explanation, explanation: Explain
-) -> tuple[list[Mistake], Explanation]:
+    gear: Mistake, made: Sequence[Mistake], recordings: Sequence[Recording], model: Model, found: Explanation,
+    explanation: Explain,
+) -> tuple[list[Mistake], Explanation]:  # fmt: skip
     """The mistakes with the ratio of the gear fitted, and what explains the recordings then."""
-    gear = next(m for m in made if m.name == GEAR)
     others = [m for m in made if m is not gear]
     for mistake in others:
         recordings = without(recordings, mistake)

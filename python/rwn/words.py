@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rwn.diagnosis import NEAREST, Diagnosis, Estimate, FittedParameter, FoundEffect, HeldoutRow
+from rwn.diagnosis import NEAREST, RECORDING, Diagnosis, Estimate, FoundEffect, HeldoutRow
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
@@ -149,21 +149,13 @@ def _with_parameters(effect: FoundEffect) -> str:
 
 def _adequate(found: Diagnosis) -> str:
     fitted = {name: p for name, p in found.nominal_fit.parameters.items() if p.uncertainty > 0}
-    far = {name: moved(p) for name, p in fitted.items() if moved(p) > BELIEVABLE}
+    far = {name: p.moved for name, p in fitted.items() if p.moved > BELIEVABLE}
     where = "" if far else " within their declared uncertainty"
     tail = f" once its parameters are refitted{where}" if fitted else ""
     sentence = f"The model is adequate{tail}: nothing that these recordings can show is missing."
     for name, times in far.items():
         sentence += f" But {name} had to move by {number(times, 2)} times its declared uncertainty: check it."
     return sentence
-
-
-def moved(p: FittedParameter) -> float:
-    """By how many declared standard deviations the refit moved a parameter, relative or in its logarithm."""
-    if p.uncertainty == 0.0 or p.nominal <= 0.0:
-        return 0.0
-    ratio = p.refitted.value / p.nominal
-    return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / p.uncertainty
 
 
 def _unexplained(found: Diagnosis) -> str:
@@ -179,11 +171,11 @@ def _insufficient(found: Diagnosis) -> str:
 
 
 def _mistake(found: Diagnosis) -> str:
-    wrong = [effect for effect in found.effects if effect.equation == "recording"]
+    wrong = [effect for effect in found.effects if effect.equation == RECORDING]
     sentence = f"The recordings hold a mistake: {listing([effect.meaning for effect in wrong])}."
     if found.beneath is None:
         return sentence
-    physics = tuple(effect for effect in found.effects if effect.equation != "recording")
+    physics = tuple(effect for effect in found.effects if effect.equation != RECORDING)
     rest = replace(found, verdict=found.beneath.verdict, set=found.beneath.set, effects=physics, beneath=None)
     return f"{sentence} With it undone: {verdict_sentence(rest)}"
 

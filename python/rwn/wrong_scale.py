@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rwn.candidate import candidate
 from rwn.effects import motor_index
-from rwn.mistakes import GEAR, SIGN, UNIT, Mistake, without
+from rwn.mistakes import GEAR, MOTION, SIGN, UNIT, Mistake, without
 from rwn.model import Model
 from rwn.output_error import Target
 from rwn.prepare import motion, prepare, smoothing_over
@@ -49,7 +49,6 @@ ANGLE_UNITS = {
 }
 THOUSANDS = {1e3: "thousandths of the unit (milli) taken for the unit", 1e-3: "the unit taken for thousandths (milli)"}
 LEAST_FORCE = 0.3  # correlation of a force with what the motion takes, below which nothing is said of its scale
-MOTION = ("speed", "position")
 
 
 @dataclass(frozen=True)
@@ -113,8 +112,9 @@ def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Mistake]:
         return
     seen = _likeness(recordings, model)
     moving = tuple(s for s in MOTION if s in seen)
-    if moving and abs(np.log(_mean([seen[s] for s in moving]).ratio)) > np.log(GEAR_LIKE):
-        yield from _gears(moving, _mean([seen[s] for s in moving]).ratio, _spread(model))
+    ratio = _mean([seen[s] for s in moving]).ratio if moving else 1.0
+    if abs(np.log(ratio)) > np.log(GEAR_LIKE):
+        yield from _gears(moving, ratio, _spread(model))
 
 
 def _undone(
@@ -152,7 +152,7 @@ def _doubted(seen: Mapping[str, Likeness], model: Model) -> Iterator[Mistake]:
     for group in sorted(groups):
         if any(seen[s].far for s in group):
             yield from _scales(group, _mean([seen[s] for s in group]), model, whole=group == moving)
-    yield Mistake(name=SIGN, signals=("voltage",), factor=-1.0, meaning="voltage of the wrong sign")
+    yield _turned(("voltage",))
     yield from _in_units(("voltage",), THOUSANDS)
 
 
@@ -164,8 +164,7 @@ def _mean(of: Sequence[Likeness]) -> Likeness:
 
 def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool) -> Iterator[Mistake]:
     """Sign and units of a group of signals that its size allows, and a gear ratio where it is all of the motion."""
-    label = " and ".join(group)
-    yield Mistake(name=SIGN, signals=group, factor=-1.0, meaning=f"{label} of the wrong sign")
+    yield _turned(group)
     leeway = _leeway(seen, model)
     units = {f: text for f, text in _units(group, model).items() if abs(np.log(seen.ratio / f)) < leeway}
     if not whole:
@@ -183,6 +182,10 @@ def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool
 def _gears(group: tuple[str, ...], ratio: float, spread: float) -> Iterator[Mistake]:
     yield gear(group, ratio, spread)
     yield gear(group, -ratio, spread)
+
+
+def _turned(group: tuple[str, ...]) -> Mistake:
+    return Mistake(name=SIGN, signals=group, factor=-1.0, meaning=f"{' and '.join(group)} of the wrong sign")
 
 
 def _in_units(group: tuple[str, ...], units: Mapping[float, str]) -> Iterator[Mistake]:
@@ -239,7 +242,7 @@ def _of_axis(recordings: Sequence[Recording], model: Model) -> Mistake | None:
 
 
 def _any_scale(group: tuple[str, ...], model: Model) -> Iterator[Mistake]:
-    yield Mistake(name=SIGN, signals=group, factor=-1.0, meaning=f"{' and '.join(group)} of the wrong sign")
+    yield _turned(group)
     yield from _in_units(group, _units(group, model))
 
 

@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from rwn.diagnosis import RECORDING
 from rwn.trials.adapter import heldout_files, simulated_file
 from rwn.trials.dossier import read_columns
 from rwn.trials.plant import simulate
 from rwn.trials.run import out_of, trial_folders
 from rwn.trials.seal import ANSWERS, unseal
 
-RECORDING = "recording"  # the equation of a mistake in the recordings
 NO_RESULT = "no-result"  # the diagnosis failed or was never run
 CONFIDENT = 0.5  # a single name with at least this probability
 LARGEST_SET = 3
