@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "rwn/active_effects.hpp"
+#include "rwn/room.hpp"
 
 namespace rwn {
 
@@ -54,21 +55,22 @@ class TransferFunction {
 
   /// Advances `s` over `h` with constant input.
   void advance(State& s, const S& h, const S& input, double) {
-    const Step& step = step_of(h);
-    const State before = s;
+    const Matrix& m = step_of(h).m;
+    Room<S, max_order> before;
+    for (int i = 0; i < order_; ++i) before[at(i)] = s.x[at(i)];
     for (int i = 0; i < order_; ++i) {
-      S sum = step.m[place(i, order_)] * input;
-      for (int j = 0; j < order_; ++j) sum += step.m[place(i, j)] * before.x[at(j)];
+      S sum = m[place(i, order_)] * input;
+      for (int j = 0; j < order_; ++j) sum += m[place(i, j)] * before[at(j)];
       s.x[at(i)] = sum;
     }
-    finish(before, s, h);
+    finish(before[w], s, h);
   }
 
  private:
-  static constexpr int room = max_order + 1;
-  using Matrix = std::array<S, static_cast<std::size_t>(room* room)>;
+  /// Of the highest order; a lower one uses the beginning.
+  using Matrix = Room<S, static_cast<std::size_t>((max_order + 1) * (max_order + 1))>;
   struct Step {
-    double h = -1.0;
+    S h{-1.0};
     Matrix m;
   };
 
@@ -78,9 +80,9 @@ class TransferFunction {
   /// Coefficient of s^{order - i} of numerator or denominator.
   const S& coefficient(Coefficient which, int i) const { return coefficients_[which + order_ - i]; }
 
-  void finish(const State& before, State& after, const S& h) const {
+  void finish(const S& before, State& after, const S& h) const {
     Motion<S> first, last;
-    first.speed = before.x[w];
+    first.speed = before;
     last.speed = after.x[w];
     const Motor<S> none{};
     for (int k = 0; k < count_; ++k) {
@@ -90,20 +92,16 @@ class TransferFunction {
     }
   }
 
-  /// Steps of constant length are kept; those whose length carries derivatives (an input delay) are made anew.
+  /// The last few steps are kept; a late input, whose instants carry a derivative, divides every sample alike.
   const Step& step_of(const S& h) {
     const double length = value_of(h);
-    if (!is_constant(h)) {
-      exponential(passing_.m, h);
-      return passing_;
-    }
     for (const Step& s : kept_) {
-      if (std::abs(s.h - length) <= 1e-9 * length) return s;
+      if (std::abs(value_of(s.h) - length) <= 1e-9 * length && same_slopes(s.h, h)) return s;
     }
     Step& slot = kept_[at(next_)];
     next_ = (next_ + 1) % static_cast<int>(kept_.size());
-    exponential(slot.m, S(length));
-    slot.h = length;
+    exponential(slot.m, h);
+    slot.h = h;
     return slot;
   }
 
@@ -123,13 +121,11 @@ class TransferFunction {
     }
     identity(result, 1.0);
     for (int k = terms; k >= 1; --k) {  // Horner: I + z/1 (I + z/2 (...))
-      multiply(scratch_, z_, result, 1.0 / k);
-      result = scratch_;
+      multiply(result, z_, result, 1.0 / k);
       for (int i = 0; i <= order_; ++i) result[place(i, i)] += S(1.0);
     }
     for (int k = 0; k < doublings; ++k) {
-      multiply(scratch_, result, result, 1.0);
-      result = scratch_;
+      multiply(result, result, result, 1.0);
     }
   }
 
@@ -139,14 +135,16 @@ class TransferFunction {
     }
   }
 
-  void multiply(Matrix& c, const Matrix& a, const Matrix& b, double factor) const {
+  /// c = factor a b; c may be a or b.
+  void multiply(Matrix& c, const Matrix& a, const Matrix& b, double factor) {
     for (int i = 0; i <= order_; ++i) {
       for (int j = 0; j <= order_; ++j) {
         S sum = a[place(i, 0)] * b[place(0, j)];
         for (int k = 1; k <= order_; ++k) sum += a[place(i, k)] * b[place(k, j)];
-        c[place(i, j)] = factor * sum;
+        scratch_[place(i, j)] = factor * sum;
       }
     }
+    for (std::size_t k = 0; k < place(order_ + 1, 0); ++k) c[k] = scratch_[k];
   }
 
   static constexpr int terms = 14;  // of the series; 0.5^15 / 15! is far below rounding
@@ -156,10 +154,9 @@ class TransferFunction {
   const ActiveEffect<S>* effects_;
   int count_;
   double rate_ = 0.0;  // time scale that makes the coefficients of order one
-  std::array<Step, 2> kept_{};
+  std::array<Step, 4> kept_{};
   int next_ = 0;
-  Step passing_{};
-  Matrix z_{}, scratch_{};
+  Matrix z_, scratch_;
 };
 
 }  // namespace rwn
