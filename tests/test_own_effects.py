@@ -185,6 +185,7 @@ def test_in_a_model_file(tmp_path: Path) -> None:
         ("strength = true", "strenght = true", "did you mean 'strength'"),
         ("start = 100", 'start = "fast"', "own_effects"),
         ("eddy-brake]\nterm", "quadratic-drag]\nterm", "rename it"),
+        ("lower = 1, upper = 500", "lower = 100, upper = 100", "52.3599 rad/s.*expected 100 rad/s, the constant"),
         ("(speed / corner)^2", "(speeed / corner)^2", "did you mean 'speed'"),
         (
             'kind = "axis"\ninertia = 0.1\nviscous_friction = 0.01',

@@ -22,18 +22,63 @@ int places(Operation operation, int parameters) {
   }
 }
 
+int taken(Operation operation) { return pushes(operation) ? 0 : takes_two(operation) ? 2 : 1; }
+
+constexpr int nothing = -1, several = -2;  // what a value depends on, other than one variable
+
+int joined(int a, int b) { return a == nothing || a == b ? b : b == nothing ? a : several; }
+
+/// Where the steps that give a value begin, and the variable that it depends on.
+struct Value {
+  std::size_t begin = 0;
+  int on = nothing;
+};
+
+int source(const Instruction& step) {
+  return step.operation == Operation::number ? nothing : step.operation == Operation::variable ? step.place : several;
+}
+
+/// What every step leaves on top of the stack.
+std::vector<Value> values_of(std::span<const Instruction> program) {
+  std::vector<Value> values, stack;
+  for (std::size_t k = 0; k < program.size(); ++k) {
+    Value value{k, pushes(program[k].operation) ? source(program[k]) : nothing};
+    for (int n = taken(program[k].operation); n > 0; --n) {
+      value = {stack.back().begin, joined(stack.back().on, value.on)};
+      stack.pop_back();
+    }
+    stack.push_back(value);
+    values.push_back(value);
+  }
+  return values;
+}
+
 }  // namespace
 
 void check_formula(std::span<const Instruction> program, int parameters) {
   int depth = 0;
   for (const Instruction& step : program) {
     require(step.place >= 0 && step.place < places(step.operation, parameters), "formula: no such value");
-    const int taken = pushes(step.operation) ? 0 : takes_two(step.operation) ? 2 : 1;
-    require(depth >= taken, "formula: an operation lacks its values");
-    depth += 1 - taken;
+    require(step.operation != Operation::curve, "formula: curves are found, not given");
+    require(depth >= taken(step.operation), "formula: an operation lacks its values");
+    depth += 1 - taken(step.operation);
     require(depth <= formula_depth, "formula: too deep for the stack");
   }
   require(depth == 1, "formula: a program leaves one value");
+}
+
+std::vector<Instruction> with_curves(std::span<const Instruction> program) {
+  const std::vector<Value> values = values_of(program);
+  std::vector<Instruction> reversed;
+  for (std::size_t k = program.size(); k-- > 0;) {
+    reversed.push_back(program[k]);
+    const auto [begin, on] = values[k];
+    if (on < 0 || begin == k) continue;
+    const auto length = static_cast<double>(k + 1 - begin);
+    while (k > begin) reversed.push_back(program[--k]);
+    reversed.push_back({Operation::curve, length, on});
+  }
+  return {reversed.rbegin(), reversed.rend()};
 }
 
 }  // namespace rwn

@@ -20,10 +20,7 @@ class AlongMotion {
   AlongMotion(const Motor<Real>& motor, std::span<const int> active, const std::vector<Real>& values,
               std::span<const OwnEffect> own)
       : motor_(motor) {
-    for (const OwnEffect& effect : own) {
-      const OwnProgram program{effect.term, effect.program.data(), static_cast<int>(effect.program.size())};
-      own_.emplace_back(program, stack_.data(), &failed_);
-    }
+    for (const OwnEffect& effect : own) own_.emplace_back(effect.plain(), stack_.data(), &failed_);
     int memory = 0;
     for (int effect : active) {
       if (effect >= effect_count) {
@@ -75,7 +72,7 @@ class AlongMotion {
     for (const auto& effect : effects_) {
       if (effect.call.hiddens == 0) continue;
       any = true;
-      if (effect.call.rate != nullptr) rate = std::max(rate, effect.call.rate(effect.p, motor_, x, 0.0));
+      if (effect.call.rate != nullptr) rate = std::max(rate, effect.call.rate(effect.p, motor_, x, 0.0, h));
     }
     if (!any) return;
     const int steps = std::clamp(static_cast<int>(std::ceil(h * rate / 0.3)), 1, most_steps);

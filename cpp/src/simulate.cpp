@@ -57,9 +57,7 @@ void check_own(const SimulationTask& task) {
 
 std::array<OwnProgram, max_own_effects> programs_of(std::span<const OwnEffect> own) {
   std::array<OwnProgram, max_own_effects> found{};
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    found[k] = {own[k].term, own[k].program.data(), static_cast<int>(own[k].program.size()), own[k].varies()};
-  }
+  for (std::size_t k = 0; k < own.size(); ++k) found[k] = own[k].plain();
   return found;
 }
 

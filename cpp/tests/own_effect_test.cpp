@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -170,6 +172,65 @@ TEST(OwnEffect, SlopesOfEveryTermAgreeWithCentralDifferences) {
   expect(Term::current, Variable::drive_torque, 1.0, 0.4, 0.0);
   expect(Term::speed, Variable::speed, 80.0, 90.0, 0.0);
   expect(Term::position, Variable::position, 1.0, 2.0, 0.0);
+}
+
+/// p0 hat((v - 0.2) / 30) + p1 hat(sin(v / 40) / 0.7)
+std::vector<Instruction> two_wavelets(Variable v) {
+  return {own(0),
+          variable(v),
+          number(0.2),
+          op(Operation::subtract),
+          number(30.0),
+          op(Operation::divide),
+          op(Operation::mexican_hat),
+          op(Operation::multiply),
+          own(1),
+          variable(v),
+          number(40.0),
+          op(Operation::divide),
+          op(Operation::sin),
+          number(0.7),
+          op(Operation::divide),
+          op(Operation::mexican_hat),
+          op(Operation::multiply),
+          op(Operation::add)};
+}
+
+TEST(OwnEffect, SlopesOfWavelets) {
+  for (Variable v : {Variable::speed, Variable::position}) {
+    Case c;
+    c.add(Term::torque, two_wavelets(v), {0.02, -0.03});
+    expect_slopes(c);
+  }
+}
+
+TEST(OwnEffect, CurvesAreAnnouncedAndChangeNothing) {
+  using S = Dual<4, struct Plain>;
+  const auto value = [](const std::vector<Instruction>& program) {
+    const std::array<S, 2> p{S::variable(0.5, 0), S::variable(2.0, 1)};
+    Motion<S> x;
+    x.speed = S::variable(11.0, 2);
+    x.current = S::variable(0.7, 3);
+    std::array<S, formula_depth> stack;
+    return evaluate(program.data(), static_cast<int>(program.size()), p.data(), Motor<S>{}, x, stack.data());
+  };
+  const auto curves = [](const std::vector<Instruction>& program) {
+    return std::count_if(program.begin(), program.end(), [](auto& step) { return step.operation == Operation::curve; });
+  };
+  auto mixed = two_wavelets(Variable::speed);  // beside a product of two variables, which is no curve
+  for (Instruction step : {variable(Variable::speed), variable(Variable::current), op(Operation::multiply)}) {
+    mixed.push_back(step);
+  }
+  mixed.push_back(op(Operation::add));
+  const auto announced = with_curves(mixed);
+  EXPECT_EQ(curves(announced), 2);
+  EXPECT_EQ(announced.size(), mixed.size() + 2);
+  const S a = value(mixed), b = value(announced);
+  EXPECT_DOUBLE_EQ(a.v, b.v);
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(a.d[k], b.d[k], 1e-15);
+  EXPECT_EQ(curves(with_curves(drag())), 1);  // |w|: the other w stands beside a parameter
+  EXPECT_EQ(curves(with_curves(std::vector<Instruction>{number(1.0)})), 0);
+  EXPECT_THROW(OwnEffect(Term::torque, announced, 2), std::invalid_argument);
 }
 
 TEST(OwnEffect, FrictionOfItsOwnHoldsAtStandstill) {

@@ -14,7 +14,7 @@ from rwn.drives import Drive, Nominal
 from rwn.effects import Effect
 from rwn.errors import InputError
 from rwn.layout import Layout
-from rwn.own_effects import OwnEffect, check_own_effects, with_own
+from rwn.own_effects import OwnEffect, check_constants, check_own_effects, with_own
 
 
 class EffectParameter(Protocol):
@@ -65,7 +65,9 @@ class Model:
             tables = {key: MappingProxyType(dict(values)) for key, values in getattr(self, name).items()}
             object.__setattr__(self, name, MappingProxyType(tables))
         if self.own_effects:
-            check_own_effects(self.own_effects, self.kind, where=f"{self.source or 'model'}, [own_effects]")
+            where = self.source or "model"
+            check_own_effects(self.own_effects, self.kind, where=f"{where}, [own_effects]")
+            check_constants(self.own_effects, self.effects, where=where)
             own = tuple(e if e.drive == self.drive else replace(e, drive=self.drive) for e in self.own_effects)
             object.__setattr__(self, "own_effects", own)
 

@@ -125,7 +125,9 @@ class OwnEffect:
         variables = {name: ("variable", k) for k, name in enumerate(VARIABLES)}
         nominal = {p.name: ("nominal", motor_index(p.name)) for p in self.drive.parameters}
         known = nominal | variables | places  # a parameter's own name comes first
-        return _core.OwnEffect(self.term, [_step(s, known) for s in self.formula.program], len(self.parameters))
+        constants = {p.name: p.start for p in self.parameters if p.fixed}
+        steps = [_step(s, known, constants) for s in self.formula.program]
+        return _core.OwnEffect(self.term, steps, len(self.parameters))
 
     @property
     def _names(self) -> dict[str, str]:
@@ -140,8 +142,12 @@ class OwnEffect:
         return TERMS[self.term][1 + (self.drive.input == "force")] or _input_unit(self.drive)
 
 
-def _step(step: Instruction, known: Mapping[str, tuple[str, int]]) -> tuple[str, float, int]:
+def _step(
+    step: Instruction, known: Mapping[str, tuple[str, int]], constants: Mapping[str, float]
+) -> tuple[str, float, int]:
     """A step as the core takes it: operation, number, place."""
+    if step.name in constants:
+        return "number", constants[step.name], 0
     if step.operation == "name":
         operation, place = known[step.name]
         return operation, 0.0, place
@@ -194,6 +200,21 @@ def check_own_effects(own: Sequence[OwnEffect], kind: str, *, where: str) -> Non
                 expected="a name of its own",
                 fix=f"rename it, or use [effects.{name}]",
             )
+
+
+def check_constants(own: Sequence[OwnEffect], given: Mapping[str, Mapping[str, float]], *, where: str) -> None:
+    """Whether a model that has these effects leaves their constants as they are. Raises InputError."""
+    for effect in own:
+        values = given.get(effect.name, {})
+        for p in effect.parameters:
+            value = values.get(p.name, p.start)
+            if p.fixed and not math.isclose(value, p.start, rel_tol=1e-6):
+                raise InputError(
+                    f"{p.name} is {value:g} {p.unit}",
+                    where=f"{where}, [effects.{effect.name}]",
+                    expected=f"{p.start:g} {p.unit}, the constant that [own_effects.{effect.name}] makes it",
+                    fix=f"remove it here, or change lower, upper and start of parameters.{p.name} there",
+                )
 
 
 def with_own(known: Mapping[str, Effect], own: Sequence[OwnEffect]) -> Mapping[str, Effect]:

@@ -19,7 +19,7 @@ inline constexpr int max_breaks = 2;
 template <class S>
 struct EffectFunctions {
   void (*apply)(const S*, const Motor<S>&, const Motion<S>&, Terms<S>&) = nullptr;
-  double (*rate)(const S*, const Motor<S>&, const Motion<S>&, double) = nullptr;
+  double (*rate)(const S*, const Motor<S>&, const Motion<S>&, double, double) = nullptr;
   S (*actuate)(const S*, const S&) = nullptr;
   S (*delay)(const S*) = nullptr;
   std::array<S, max_breaks> (*breaks)(const S*) = nullptr;

@@ -39,6 +39,27 @@ struct Slopes {
   }
 };
 
+/// One derivative: a number, not a vector of which the rest would be idle.
+template <class Isa>
+struct Slopes<1, Isa> {
+  double part = 0.0;
+
+  double operator[](int) const { return part; }
+  void set(int, double value) { part = value; }
+  RWN_INLINE Slopes& operator+=(Slopes o) {
+    part += o.part;
+    return *this;
+  }
+  RWN_INLINE Slopes& operator-=(Slopes o) {
+    part -= o.part;
+    return *this;
+  }
+  RWN_INLINE friend Slopes operator+(Slopes a, Slopes b) { return {a.part + b.part}; }
+  RWN_INLINE friend Slopes operator-(Slopes a, Slopes b) { return {a.part - b.part}; }
+  RWN_INLINE friend Slopes operator-(Slopes a) { return {-a.part}; }
+  RWN_INLINE friend Slopes operator*(double factor, Slopes a) { return {factor * a.part}; }
+};
+
 /// No derivatives at all; takes no room.
 template <class Isa>
 struct Slopes<0, Isa> {

@@ -6,7 +6,7 @@
 // and, where it needs them,
 //   turns                             true: depends on the angle
 //   varies                            false: terms change only with direction and at `breaks` (default true)
-//   rate(p, motor, motion)            fastest rate of change it brings [1/s]: sets the step
+//   rate(p, motor, motion, acceleration, h)   fastest rate of change it brings over the next h [1/s]: sets the step
 //   actuate(p, input)                 maps the commanded input to what acts
 //   delay(p)                          input delay [s]
 //   breaks(p)                         instants at which its terms jump [s]

@@ -101,10 +101,11 @@ class Equations {
     const Vector f = nonlinear(s, s.memory.data(), s.position, 0, t);
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
     double rate = winding_rate(t, h);
-    const Motion<S> x = motion_of(s, s.position);
+    Motion<S> x = motion_of(s, s.position);
     for (int k = 0; k < count_; ++k) {
       if (effects_[k].call.rate != nullptr) {
-        rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration));
+        x.memory = s.memory.data() + effects_[k].memory;
+        rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration, h));
       } else if (effects_[k].own != nullptr && effects_[k].call.varies) {
         rate = std::max(rate, effects_[k].own->rate(effects_[k].p, motor_, x, acceleration, h));
       }

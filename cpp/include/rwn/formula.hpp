@@ -4,13 +4,16 @@
 #include <cmath>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "rwn/drive.hpp"
 #include "rwn/dual.hpp"
+#include "rwn/room.hpp"
 
 namespace rwn {
 
-/// What a step of a program does. The first four push a value, the others act on the top of the stack.
+/// What a step of a program does. The first four push a value, the others act on the top of the stack; the last is no
+/// word of users, see `with_curves`.
 enum class Operation {
   number,
   variable,
@@ -34,7 +37,8 @@ enum class Operation {
   sign,
   min,
   max,
-  mexican_hat
+  mexican_hat,
+  curve
 };
 inline constexpr std::string_view operation_names[] = {
     "number", "variable", "nominal", "parameter", "negate", "add",  "subtract",   "multiply",
@@ -46,7 +50,8 @@ enum class Variable { time, input, current, speed, position, direction, drive_to
 inline constexpr std::string_view variable_names[] = {"time",     "input",     "current",     "speed",
                                                       "position", "direction", "drive_torque"};
 
-/// One step: `number` is what it pushes, `place` the variable, nominal parameter or own parameter that it pushes.
+/// One step: `number` is what it pushes, `place` the variable, nominal parameter or own parameter that it pushes. A
+/// `curve` announces that the next `number` steps depend on the variable `place` alone.
 struct Instruction {
   Operation operation = Operation::number;
   double number = 0.0;
@@ -58,6 +63,9 @@ inline constexpr int formula_depth = 32;  // most values that are on the stack a
 /// Refuses a program that does not leave exactly one value, needs more than `formula_depth`, or reads a place that
 /// does not exist. Throws std::invalid_argument.
 void check_formula(std::span<const Instruction> program, int parameters);
+
+/// The same program with its curves announced: they need one derivative, however many the result has.
+std::vector<Instruction> with_curves(std::span<const Instruction> program);
 
 template <class S>
 double direction_of(const Motion<S>& x) {
@@ -198,17 +206,21 @@ bool apply_number(Operation operation, S& a, double b) {
   }
 }
 
-/// Value of a checked program; `stack` has room for `formula_depth`. p: the effect's own parameters.
-template <class S>
-S evaluate(const Instruction* program, int length, const S* p, const Motor<S>& motor, const Motion<S>& x, S* stack) {
+/// Value of a checked program whose values `push` puts on the stack, which has room for `formula_depth`.
+/// `curve_of`: value of the curve that begins at a step.
+template <class S, class Push, class CurveOf>
+S run(const Instruction* program, int length, S* stack, const Push& push, const CurveOf& curve_of) {
   S* top = stack;  // one past the last
   for (int k = 0; k < length; ++k) {
     const Instruction& step = program[k];
     const bool direct = step.operation == Operation::number && k > 0 && k + 1 < length;
     if (direct && apply_number(program[k + 1].operation, top[-1], step.number)) {
       ++k;
+    } else if (step.operation == Operation::curve) {
+      *top++ = curve_of(program + k);
+      k += static_cast<int>(step.number);
     } else if (pushes(step.operation)) {
-      *top++ = push(step, p, motor, x);
+      *top++ = push(step);
     } else if (takes_two(step.operation)) {
       --top;
       apply_to_two(step.operation, top[-1], *top);
@@ -217,6 +229,29 @@ S evaluate(const Instruction* program, int length, const S* p, const Motor<S>& m
     }
   }
   return stack[0];
+}
+
+/// Value of a curve at x, with the slopes of x times its own.
+template <int N, class Isa>
+Dual<N, Isa> curve_at(const Instruction* curve, const Dual<N, Isa>& x) {
+  using One = Dual<(N > 0), Isa>;
+  Room<One, formula_depth> stack;
+  const One at = One::variable(x.v, 0);
+  const auto push = [&](const Instruction& step) { return step.operation == Operation::number ? One(step.number) : at; };
+  const auto none = [](const Instruction*) { return One(0.0); };
+  const One y = run(curve + 1, static_cast<int>(curve->number), stack.numbers, push, none);
+  if constexpr (N == 0) return y;
+  return x.chain(y.v, y.d[0]);
+}
+
+/// Value of a checked program; `stack` has room for `formula_depth`. p: the effect's own parameters.
+template <class S>
+S evaluate(const Instruction* program, int length, const S* p, const Motor<S>& motor, const Motion<S>& x, S* stack) {
+  const auto pushed = [&](const Instruction& step) { return push(step, p, motor, x); };
+  const auto curve_of = [&](const Instruction* curve) {
+    return curve_at(curve, variable_of(static_cast<Variable>(curve->place), x));
+  };
+  return run(program, length, stack, pushed, curve_of);
 }
 
 }  // namespace rwn

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rwn/formula.hpp"
+#include "rwn/room.hpp"
 
 namespace rwn {
 
@@ -19,16 +20,29 @@ enum class Term { torque, friction, load, drop, resistance, flux, inductance, in
 inline constexpr std::string_view term_names[] = {"torque",     "friction", "load",    "drop",  "resistance", "flux",
                                                   "inductance", "input",    "current", "speed", "position"};
 
+/// A definition in plain pointers, for kernels.
+struct OwnProgram {
+  Term term = Term::torque;
+  const Instruction* program = nullptr;
+  int length = 0;
+  int parameters = 0;
+  bool varies = true;  // within a step, other than with the direction of sliding
+};
+
 /// A definition as a task carries it.
 struct OwnEffect {
   Term term = Term::torque;
   std::vector<Instruction> program;
+  int parameters = 0;
 
   /// Throws std::invalid_argument for a program that `check_formula` refuses, or too many parameters.
-  OwnEffect(Term t, std::vector<Instruction> steps, int parameters);
+  OwnEffect(Term t, std::vector<Instruction> steps, int count);
 
   /// Whether it changes within a step, other than with the direction of sliding.
   bool varies() const;
+
+  /// Points into this.
+  OwnProgram plain() const;
 };
 
 [[gnu::always_inline]] inline constexpr bool is_factor(Term t) {
@@ -36,14 +50,6 @@ struct OwnEffect {
 }
 [[gnu::always_inline]] inline constexpr bool is_torque(Term t) { return t <= Term::load; }
 [[gnu::always_inline]] inline constexpr bool is_sensor(Term t) { return t >= Term::current; }
-
-/// The same in plain pointers, for kernels.
-struct OwnProgram {
-  Term term = Term::torque;
-  const Instruction* program = nullptr;
-  int length = 0;
-  bool varies = true;  // within a step, other than with the direction of sliding
-};
 
 /// A number with derivatives by current, speed and position, of the same instruction set as S.
 template <class S>
@@ -154,18 +160,11 @@ class ActiveOwnEffect {
     at.drive_torque = value_of(x.drive_torque);
     Motor<Partials> values;
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = value_of(motor[k]);
-    Partials own[max_own_parameters], stack[formula_depth];
-    for (int k = 0; k < parameters(); ++k) own[k] = value_of(p[k]);
-    return evaluate(program_.program, program_.length, static_cast<const Partials*>(own), values, at, stack);
-  }
-
-  /// Own parameters that the formula reads, counted to the last.
-  int parameters() const {
-    int last = 0;
-    for (int k = 0; k < program_.length; ++k) {
-      if (program_.program[k].operation == Operation::parameter) last = std::max(last, program_.program[k].place + 1);
-    }
-    return last;
+    Room<Partials, max_own_parameters> own;
+    Room<Partials, formula_depth> stack;
+    for (int k = 0; k < program_.parameters; ++k) own.numbers[k] = value_of(p[k]);
+    const Partials* known = own.numbers;
+    return evaluate(program_.program, program_.length, known, values, at, stack.numbers);
   }
 
   OwnProgram program_;

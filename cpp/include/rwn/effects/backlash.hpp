@@ -65,7 +65,7 @@ struct Backlash {
     t.hidden_rate[1] = (torque - share * load_speed) / load;
   }
   template <class S>
-  static double rate(const S* p, const Motor<S>&, const Motion<S>&, double) {
+  static double rate(const S* p, const Motor<S>&, const Motion<S>&, double, double) {
     return 2.0 * value_of(p[2]) * (1.1 + value_of(p[3]));  // always: steps that follow the contact roughen the error
   }
 };

@@ -37,7 +37,7 @@ struct BrushVoltageDrop {
   }
   /// The drop changes sign within a step where the current does: how often it passes the transition then.
   template <class S>
-  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double) {
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double, double) {
     const double transition = value_of(p[1]), i = value_of(x.current);
     const double drive = value_of(x.input) - value_of(m[back_emf_constant]) * value_of(x.speed);
     const double drop = value_of(p[0]) * std::tanh(i / transition);

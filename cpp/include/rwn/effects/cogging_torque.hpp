@@ -26,7 +26,7 @@ struct CoggingTorque {
     t.torque -= p[0] * sin(p[1] * x.angle + p[2]);
   }
   template <class S>
-  static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double) {
+  static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double, double) {
     // 1.3 rad of a period a step: the error of its quadrature, (1.3)^4 / 2880, is 0.1 % of the ripple
     return 0.55 * value_of(p[1]) * std::abs(value_of(x.speed)) * x.angle_per_position;
   }

@@ -26,7 +26,7 @@ struct InertiaVariation {
     t.inertia_slope -= 2.0 * x.angle_per_position * p[0] * sin(2.0 * x.angle);
   }
   template <class S>
-  static double rate(const S*, const Motor<S>&, const Motion<S>& x, double) {
+  static double rate(const S*, const Motor<S>&, const Motion<S>& x, double, double) {
     return 2.0 * std::abs(value_of(x.speed)) * x.angle_per_position;
   }
 };

@@ -34,7 +34,7 @@ struct PositionDependentFriction {
     t.friction += p[0] * (1.0 + p[1] * cos(x.angle + p[2]));
   }
   template <class S>
-  static double rate(const S*, const Motor<S>&, const Motion<S>& x, double) {
+  static double rate(const S*, const Motor<S>&, const Motion<S>& x, double, double) {
     return std::abs(value_of(x.speed)) * x.angle_per_position;
   }
 };

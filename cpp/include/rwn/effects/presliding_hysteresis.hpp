@@ -34,6 +34,7 @@ struct PreslidingHysteresis {
                                                    .scale = Scale::torque,
                                                    .replaces = coulomb_friction}};
   static constexpr int memories = 1;  // bristle deflection z [rad]
+  static constexpr double at_the_limit = 1e-4;  // share of the largest deflection
 
   /// Exact for motion in one direction: z relaxes to sign(w) T_c/s0 over the travelled angle.
   template <class S>
@@ -49,8 +50,12 @@ struct PreslidingHysteresis {
     const S z = deflection(p, x.memory[0], x.travel);
     t.torque -= p[0] * z + p[1] * (x.speed - p[0] * abs(x.speed) * z / p[2]);
   }
+  /// A bristle at its limit is no spring as long as the motion goes on in its direction.
   template <class S>
-  static double rate(const S* p, const Motor<S>& m, const Motion<S>&, double) {
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
+    const double speed = value_of(x.speed);
+    const double bend = value_of(x.memory[0]) * value_of(p[0]) / value_of(p[2]) * (speed < 0.0 ? -1.0 : 1.0);
+    if (std::abs(speed) > 2.0 * acceleration * h && std::abs(1.0 - bend) < at_the_limit) return 0.0;
     return std::sqrt(value_of(p[0]) / value_of(m[inertia])) + value_of(p[1]) / value_of(m[inertia]);
   }
   template <class S>

@@ -47,7 +47,7 @@ struct ShaftCompliance {
     t.hidden_rate[1] = (torque - share * x.hidden[1]) / load;
   }
   template <class S>
-  static double rate(const S* p, const Motor<S>& m, const Motion<S>&, double) {
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>&, double, double) {
     const double load = value_of(p[2]);
     const double reduced = load * (value_of(m[inertia]) - load) / value_of(m[inertia]);
     return std::sqrt(value_of(p[0]) / reduced) + value_of(p[1]) / reduced;

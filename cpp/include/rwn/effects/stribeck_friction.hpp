@@ -43,7 +43,7 @@ struct StribeckFriction {
     if (value_of(p[1]) > value_of(p[0])) t.friction += (p[1] - p[0]) * exp(-(ratio * ratio));
   }
   template <class S>
-  static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double acceleration) {
+  static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double acceleration, double) {
     return std::abs(value_of(x.speed)) < 4.0 * value_of(p[2]) ? acceleration / value_of(p[2]) : 0.0;
   }
 };

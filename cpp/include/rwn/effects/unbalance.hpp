@@ -17,7 +17,7 @@ struct Unbalance {
     t.torque -= p[0] * sin(x.angle + p[1]);
   }
   template <class S>
-  static double rate(const S*, const Motor<S>&, const Motion<S>& x, double) {
+  static double rate(const S*, const Motor<S>&, const Motion<S>& x, double, double) {
     return std::abs(value_of(x.speed)) * x.angle_per_position;
   }
 };
