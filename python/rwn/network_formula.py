@@ -32,6 +32,11 @@ class Place:
     linear: bool = False  # on a linear axis
 
     @property
+    def sign(self) -> float:
+        """Of the nominal term: viscous friction brakes."""
+        return -1.0 if self.nominal == "viscous_friction" else 1.0
+
+    @property
     def words(self) -> str:
         """A clause: "a torque over speed"."""
         kind = "voltage" if self.term == "drop" else "force" if self.linear else "torque"
@@ -137,24 +142,23 @@ def _scale_of(setup: Setup, place: Place) -> tuple[OwnParameter, ...]:
     )
 
 
-def as_effect(setup: Setup, model: Model, place: Place, weights: Array, *, orthogonal: bool) -> OwnEffect:
-    """Amplitude times a sum of wavelets; `orthogonal`: without what the nominal term of the same state could do."""
+def nominal_share(setup: Setup, model: Model, place: Place, weights: Array) -> float:
+    """What of the network the nominal term of the same state could do, per unit of the state; 0: that term is exact."""
+    if model.uncertainty.get(place.nominal, 0.0) == 0.0:
+        return 0.0
+    states = states_of(setup, place)
+    return float(_curve(setup, place, weights, states) @ states / max(float(states @ states), 1e-300))
+
+
+def as_effect(setup: Setup, model: Model, place: Place, weights: Array, *, share: float) -> OwnEffect:
+    """Amplitude times a sum of wavelets, without `share` times the state."""
     states, scale = states_of(setup, place), _scale_of(setup, place)
-    waves = _wavelets(setup, place, weights.size)
-    values = {place.state: states, **{p.name: p.start for p in scale}}
-    shapes = [
-        np.broadcast_to(expression.parse(w, dict.fromkeys(values, "1"), where="network").evaluate(values), states.shape)
-        for w in waves
-    ]
-    curve, linear = weights @ np.array(shapes), 0.0
-    if orthogonal and model.uncertainty.get(place.nominal, 0.0) > 0.0:
-        x = states / scale[0].start
-        linear = float(curve @ x / max(x @ x, 1e-300))
-        curve = curve - linear * x
+    curve = _curve(setup, place, weights, states) - share * states
     size = max(float(np.sqrt(2.0 * np.mean(curve**2))), 1e-9 * size_of(setup, place))
+    waves = _wavelets(setup, place, weights.size)
     text = " ".join(f"{_signed(w / size)} * {wave}" for w, wave in zip(weights, waves, strict=True))
-    if linear:
-        text += f" {_signed(-linear / size)} * {place.state} / {scale[0].name}"
+    if share:
+        text += f" {_signed(-share * scale[0].start / size)} * {place.state} / {scale[0].name}"
     amplitude = OwnParameter(
         name="amplitude", unit=place.unit, lower=0.0, upper=5.0 * size, start=size, strength=True,
         meaning="square root of twice its mean square",
@@ -164,6 +168,16 @@ def as_effect(setup: Setup, model: Model, place: Place, weights: Array, *, ortho
         equation=f"amplitude * ({text.removeprefix('+ ')})", drive=model.drive, parameters=(amplitude, *scale),
         meaning=f"what has no name: {place.words}, drawn by a wavelet network",
     )  # fmt: skip
+
+
+def _curve(setup: Setup, place: Place, weights: Array, states: Array) -> Array:
+    """The network at `states` (n,)."""
+    values = {place.state: states, **{p.name: p.start for p in _scale_of(setup, place)}}
+    names = dict.fromkeys(values, "1")
+    waves = _wavelets(setup, place, weights.size)
+    shapes = [expression.parse(wave, names, where="network").evaluate(values) for wave in waves]
+    curve: Array = weights @ np.array(shapes)
+    return curve
 
 
 def _signed(number: float) -> str:

@@ -22,7 +22,18 @@ from rwn.evidence import Hypothesis
 from rwn.explain import Explanation
 from rwn.fitted import Fitted
 from rwn.model import Model
-from rwn.network_formula import NAME, PART, Place, as_effect, parts_of, places, size_of, states_of, unit_of_state
+from rwn.network_formula import (
+    NAME,
+    PART,
+    Place,
+    as_effect,
+    nominal_share,
+    parts_of,
+    places,
+    size_of,
+    states_of,
+    unit_of_state,
+)
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
 from rwn.proof import proved
@@ -122,12 +133,18 @@ class _Heat:
 
 
 def _kept(found: Explanation, model: Model, heat: _Heat, *, orthogonal: bool) -> StandIn:
-    """The network with these weights as one own effect, its amplitude fitted together with the nominal parameters."""
-    place = heat.place
-    effect = as_effect(found.setup, model, place, np.array(list(heat.weights.values())), orthogonal=orthogonal)
+    """The network with these weights as one own effect, its amplitude fitted together with the nominal parameters.
+
+    `orthogonal`: what the nominal term of the same state could do is that term's.
+    """
+    place, motor, weights = heat.place, heat.fitted.motor, np.array(list(heat.weights.values()))
+    share = nominal_share(found.setup, model, place, weights) if orthogonal else 0.0
+    if share:
+        motor = {**motor, place.nominal: motor[place.nominal] + place.sign * share}
+    effect = as_effect(found.setup, model, place, weights, share=share)
     known = replace(model, own_effects=(*model.own_effects, effect))
     setup = _knowing(found.setup, known)
-    this = candidate(setup.nominal, (effect.name,), setup.scales, motor=heat.fitted.motor)
+    this = candidate(setup.nominal, (effect.name,), setup.scales, motor=motor)
     fitted = Fitted(added=(effect.name,), candidate=this, minimum=fit(setup.problem, this, max_iterations=20))
     hypothesis = Hypothesis(fitted=fitted, score=0.0, probability=0.0, misfit=0.0)
     return StandIn(place=place, found=replace(found, setup=setup), chosen=hypothesis, model=known)
