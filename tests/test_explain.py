@@ -51,6 +51,28 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(setup: Setup) -> None:
     assert replace(fitted, minimum=replace(fitted.minimum, values=values)).limits_met == ()
 
 
+def test_a_window_from_end_to_end_is_no_window(setup: Setup) -> None:
+    fitted = _fitted(setup, "load-disturbance")
+    names = [u.name for u in fitted.candidate.unknowns]
+    begin, end = (names.index(f"load-disturbance.{t}") for t in ("t_start", "t_end"))
+    duration = fitted.candidate.unknowns[end].upper
+    for share, along in ((0.98, ()), (0.999, ("load-disturbance",))):
+        values = fitted.minimum.values.copy()
+        values[[begin, end]] = 0.0005 * duration, (0.0005 + share) * duration
+        assert replace(fitted, minimum=replace(fitted.minimum, values=values)).all_along == along
+    assert _fitted(setup, "quadratic-drag").all_along == ()
+
+
+def test_a_drifting_position_is_no_sign_of_a_law() -> None:
+    noise, drift = np.random.default_rng(2).standard_normal(4000), np.sin(np.linspace(0.0, 9.0, 4000))
+    problem: Any = SimpleNamespace(residuals=lambda *_: [{"speed": noise, "position": drift}], noise={})
+    fitted: Any = SimpleNamespace(vector=None, candidate=SimpleNamespace(active=[]))
+    assert evidence.statistics(problem, fitted).coloured > 10.0
+    assert evidence.statistics(problem, fitted, drift=False).coloured < evidence.AT_THE_FLOOR
+    problem.residuals = lambda *_: [{"position": drift}]
+    assert evidence.statistics(problem, fitted, drift=False).coloured > 10.0
+
+
 def test_second_effects_are_added_to_explanations_of_different_kinds(setup: Setup) -> None:
     names = ("asymmetric-friction", "stribeck-friction", "coulomb-friction", "actuator-deadzone", "quadratic-drag")
     fits = [replace(_fitted(setup, "quadratic-drag"), added=(name,), candidate=_with(setup, name)) for name in names]

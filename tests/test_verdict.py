@@ -73,6 +73,19 @@ def test_no_position_is_better_known_than_the_clock() -> None:
     assert noise_levels([far], [error])["position"] == pytest.approx(CLOCK * 1000.0 * np.sin(1.5))
 
 
+def test_only_the_speed_is_as_exact_as_encoder_counts() -> None:
+    rng, time = np.random.default_rng(1), np.linspace(0.0, 1.0, 2000)
+    counts = np.round(300.0 * np.sin(2.0 * time)) * 1e-3
+    current = np.round(rng.standard_normal(time.size) / 0.5) * 0.01  # a converter whose step is half of the noise
+    target = Target(
+        name="coarse", time=time, input=0.0 * time, current=current, speed=counts, position=counts,
+        speed_is_difference=True,
+    )  # fmt: skip
+    levels = noise_levels([target], [{"current": current, "speed": current, "position": current}])
+    assert levels["current"] == pytest.approx(0.02, rel=0.3)
+    assert levels["speed"] < 1e-3
+
+
 def _with_error(h: Hypothesis, chi2: float) -> Fitted:
     return replace(h.fitted, minimum=replace(h.fitted.minimum, chi2=chi2))
 

@@ -28,17 +28,17 @@ def another_law(found: Explanation, chosen: Hypothesis, model: Model, *, jobs: i
     """Where a law beside `chosen` explains most of what it leaves; None where it leaves noise or nothing so plain."""
     named = chosen.fitted
     search = Search.of(found.setup)
-    coloured = evidence.statistics(search.problem, named).coloured >= AT_THE_FLOOR
+    coloured = evidence.statistics(search.problem, named, drift=False).coloured >= AT_THE_FLOOR
     if not coloured or not has_room(model, 1, beside=len(named.added)):
         return None
     part = replace(found.setup, problem=search.look(named))
-    left = evidence.statistics(part.problem, named)
+    left = evidence.statistics(part.problem, named, drift=False)
     effects = {name: named.values_of(name) for name in named.added}
 
     def gain(place: Place) -> float:
         setup, this = with_network(part, model, place, PART, motor=named.motor, effects=effects)
         end = Fitted(added=named.added, candidate=this, minimum=fit(setup.problem, this, max_iterations=ITERATIONS))
-        after = evidence.statistics(setup.problem, end)
+        after = evidence.statistics(setup.problem, end, drift=False)
         gained = left.variance - after.variance
         seen = 0.5 * gained * left.count / (after.variance * after.correlation_time)
         return gained if seen > SEEN and gained > MOST * (left.variance - 1.0) else 0.0

@@ -62,9 +62,14 @@ def coloured_share(x: Array, blocks: Sequence[int] = (8, 32, 128)) -> float:
     return max(found)
 
 
-def statistics(problem: OutputError, fitted: Fitted) -> Statistics:
-    """Residual statistics of a fit, over all recordings and signals."""
+def statistics(problem: OutputError, fitted: Fitted, *, drift: bool = True) -> Statistics:
+    """Residual statistics of a fit, over all recordings and signals.
+
+    `drift`: with the position's beside those of other signals; its noise level is the slow error that it is left.
+    """
     joined = join(problem, problem.residuals(fitted.vector, fitted.candidate.active))
+    if not drift and len(joined) > 1:
+        joined.pop("position", None)
     energies = {s: float(np.nansum(r**2)) for s, r in joined.items()}
     whole = sum(energies.values()) or 1.0
     count = sum(int(np.isfinite(r).sum()) for r in joined.values())

@@ -94,7 +94,7 @@ def explain(
     search, nominal, fits = _settled(search, nominal, fits, setup)
     fits = _with_simpler(search, nominal, fits)
     strained = [f for f in fits if f.limits_met]
-    fits = [f for f in fits if not f.limits_met and not f.idle]
+    fits = [f for f in fits if not (f.limits_met or f.idle or f.all_along)]
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
     hypotheses = evidence.weigh([nominal, *fits], left, rivals=len(wanted), prior=_prior(setup))

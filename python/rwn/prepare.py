@@ -156,16 +156,16 @@ def smoothing_over(target: Target) -> int:
 def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Array]]) -> dict[str, float]:
     """Standard deviation of the measurement noise per signal.
 
-    Encoder counts: of their quantisation. Else what is left of second differences, robustly: a model error is smooth
-    against the sample time, so it falls out, and a few sharp instants do not count (median). No position is better
-    known than the clock that its travel was timed with.
+    Encoder counts, and a speed that is their difference: of their quantisation. Else what is left of second
+    differences, robustly: a model error is smooth against the sample time, so it falls out, and a few sharp instants
+    do not count (median). No position is better known than the clock that its travel was timed with.
     """
     levels = {}
     for signal in residuals[0]:
         steps = float(np.median([quantisation(t, signal) for t in targets]))
         found = [_noise(r[signal]) for r in residuals if r[signal].size > 8]
         rough = max(float(np.median(found)) if found else 1.0, 1e-12)
-        encoder = signal == "position" or any(t.speed_is_difference for t in targets)
+        encoder = signal == "position" or (signal == "speed" and any(t.speed_is_difference for t in targets))
         levels[signal] = steps if steps and encoder else max(steps, rough)
     if "position" in levels:
         levels["position"] = max(levels["position"], CLOCK * max(float(np.ptp(t.position)) for t in targets))
