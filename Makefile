@@ -10,9 +10,11 @@ install:
 	@./tools/setup.sh
 	@$(PY) -m pip install -q --disable-pip-version-check .
 
+# One build for the extension and the C++ tests: the kernels take most of the time.
+WITH_TESTS := -C cmake.define.RWN_BUILD_TESTS=ON -C cmake.define.RWN_WERROR=ON
 install-test:
 	@./tools/setup.sh test
-	@$(PY) -m pip install -q --disable-pip-version-check --group test --group dev '.[thesis]'
+	@$(PY) -m pip install -q --disable-pip-version-check --group test --group dev '.[thesis]' $(WITH_TESTS)
 
 # The main job on the embedded recording, whose missing effect is known.
 demo: install
@@ -29,9 +31,7 @@ demo-real: install
 test: test-cpp test-sanitize test-python lint
 
 test-cpp: install-test
-	cmake -S . -B build/test -DCMAKE_BUILD_TYPE=Release -DRWN_WERROR=ON -DRWN_BUILD_TESTS=ON >/dev/null
-	cmake --build build/test -j $(JOBS)
-	ctest --test-dir build/test --output-on-failure -j $(JOBS)
+	ctest --test-dir "$$(dirname build/cp*/rwn_tests)" --output-on-failure -j $(JOBS)
 
 # The C++ tests with the address and undefined-behaviour sanitizers; EVERY_ISA=ON: with the kernels of every instruction set.
 EVERY_ISA ?= OFF
@@ -43,7 +43,7 @@ test-sanitize: install-test
 	for isa in $(ISAS_$(EVERY_ISA)); do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
 
 test-python: install-test
-	$(PY) -m pytest
+	$(PY) -m pytest -n $(JOBS) --dist worksteal
 
 bench:
 	@./tools/setup.sh
@@ -68,4 +68,4 @@ stubs: install-test
 develop:
 	@./tools/setup.sh test
 	@[ -d .venv/lib/python3.11/site-packages/scikit_build_core ] || $(PY) -m pip install -q --disable-pip-version-check scikit-build-core pybind11 cmeel-eigen --group test --group dev
-	@$(PY) -m pip install -q --disable-pip-version-check --no-build-isolation '.[thesis]'
+	@$(PY) -m pip install -q --disable-pip-version-check --no-build-isolation '.[thesis]' $(WITH_TESTS)
