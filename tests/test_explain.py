@@ -13,7 +13,7 @@ import pytest
 import rwn
 from rwn import evidence, hints
 from rwn.candidate import Candidate, candidate, fit
-from rwn.explain import _varied, _with_simpler, explain
+from rwn.explain import _no_window, _varied, _with_simpler, explain
 from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.prepare import Setup, prepare
@@ -51,16 +51,31 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(setup: Setup) -> None:
     assert replace(fitted, minimum=replace(fitted.minimum, values=values)).limits_met == ()
 
 
-def test_a_window_from_end_to_end_is_no_window(setup: Setup) -> None:
+@pytest.mark.parametrize(("begin", "end", "none"), [(0.3, 0.6, False), (0.0005, 0.9995, True), (0.998, 0.9985, True)])
+def test_a_load_from_end_to_end_or_for_a_moment_is_none(setup: Setup, begin: float, end: float, none: bool) -> None:
     fitted = _fitted(setup, "load-disturbance")
     names = [u.name for u in fitted.candidate.unknowns]
-    begin, end = (names.index(f"load-disturbance.{t}") for t in ("t_start", "t_end"))
-    duration = fitted.candidate.unknowns[end].upper
-    for share, along in ((0.98, ()), (0.999, ("load-disturbance",))):
-        values = fitted.minimum.values.copy()
-        values[[begin, end]] = 0.0005 * duration, (0.0005 + share) * duration
-        assert replace(fitted, minimum=replace(fitted.minimum, values=values)).all_along == along
-    assert _fitted(setup, "quadratic-drag").all_along == ()
+    at = [names.index(f"load-disturbance.{t}") for t in ("t_start", "t_end")]
+    values = fitted.minimum.values.copy()
+    values[at] = np.array([begin, end]) * fitted.candidate.unknowns[at[0]].upper
+    moved = replace(fitted, minimum=replace(fitted.minimum, values=values))
+    assert moved.windows == [pytest.approx((begin, end))]
+    assert _no_window(moved, setup) == none
+    assert _fitted(setup, "quadratic-drag").windows == []
+
+
+def test_the_ends_of_a_difference_are_not_compared(setup: Setup) -> None:
+    def error(ends: float) -> list[float]:
+        targets = []
+        for t in setup.problem.targets:
+            speed = t.speed.copy()
+            speed[[0, -1]] += ends
+            targets.append(replace(t, speed=speed, speed_is_difference=True))
+        problem, this = replace(setup.problem, targets=tuple(targets)), candidate(setup.nominal, (), setup.scales)
+        (first, *_) = problem.residuals(this.vector, this.active)
+        return [problem.error(this.vector, this.active), float(np.sum(first["speed"] ** 2))]
+
+    assert error(0.0) == error(1e3)
 
 
 def test_a_drifting_position_is_no_sign_of_a_law() -> None:

@@ -29,6 +29,8 @@ FAR_OFF = 100.0  # squared error in units of the noise, from which short windows
 PATIENCE = 4  # in short windows, where the misfit is large and the first steps of a fit are short
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
 HALF_A_TURN = 0.5  # travel in revolutions, from which a torque of the angle is more than a load and a spring
+WHOLE = 0.99  # share of the time from which a window is none
+BRIEF = 10  # samples that a load acts for at least
 PLAIN = "coulomb-friction"  # what the other laws of dry friction elaborate
 
 
@@ -94,7 +96,7 @@ def explain(
     search, nominal, fits = _settled(search, nominal, fits, setup)
     fits = _with_simpler(search, nominal, fits)
     strained = [f for f in fits if f.limits_met]
-    fits = [f for f in fits if not (f.limits_met or f.idle or f.all_along)]
+    fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, setup))]
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
     hypotheses = evidence.weigh([nominal, *fits], left, rivals=len(wanted), prior=_prior(setup))
@@ -245,6 +247,15 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
         return Fitted(added=names, candidate=this, minimum=end)
 
     return side_by_side(less, dict.fromkeys([*sets[1:], *plain]), jobs=search.jobs)
+
+
+def _no_window(fitted: Fitted, setup: Setup) -> bool:
+    """Whether a load is said to act from end to end of the recordings, which has a name of its own, or for a moment.
+
+    A stray sample is no load.
+    """
+    brief = BRIEF / max(t.time.size for t in setup.problem.targets)
+    return any(not brief < end - begin < WHOLE for begin, end in fitted.windows)
 
 
 def _replaces(name: str) -> set[str]:

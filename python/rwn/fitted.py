@@ -13,7 +13,6 @@ from rwn.least_squares import Minimum, Unknown
 Array = NDArray[np.float64]
 
 IDLE = 1e-9  # strength, relative to its upper limit, that is none
-WHOLE = 0.99  # share of the time from which a window is none
 LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 
 
@@ -62,17 +61,14 @@ class Fitted:
         return tuple(name for name, strong in strengths.items() if strong and not any(strong))
 
     @property
-    def all_along(self) -> tuple[str, ...]:
-        """Added effects whose window in time takes in the recordings from end to end: what acts then acts always."""
-        windows = {
-            name: [p for p in self.candidate.table[name].parameters if p.window] for name in self.added
-        }
-        limits = {u.name: u.upper for u in self.candidate.unknowns}
-        return tuple(
-            name
-            for name, ends in windows.items()
-            if ends and np.ptp([self.values_of(name)[p.name] for p in ends]) > WHOLE * limits[f"{name}.{ends[0].name}"]
-        )
+    def windows(self) -> list[tuple[float, float]]:
+        """Begin and end of every time window of the added effects, in units of the longest recording."""
+        longest = {u.name: u.upper for u in self.candidate.unknowns}
+        ends = [
+            [self.value(f"{name}.{p.name}") / longest[f"{name}.{p.name}"] for p in effect.parameters if p.window]
+            for name, effect in ((name, self.candidate.table[name]) for name in self.added)
+        ]
+        return [(pair[0], pair[1]) for pair in ends if pair]
 
     @property
     def motor(self) -> dict[str, float]:

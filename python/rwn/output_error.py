@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +49,15 @@ class Target:
     def signal(self, name: str) -> Array:
         """A recorded signal by name; empty where it was not recorded."""
         return {"current": self.current, "speed": self.speed, "position": self.position}[name]
+
+    @cached_property
+    def compared_speed(self) -> Array:
+        """The speed without the ends of a difference, for which there are as many formulas as makers (NaN there)."""
+        if not self.speed_is_difference:
+            return self.speed
+        speed = self.speed.copy()
+        speed[[0, -1]] = np.nan
+        return speed
 
     @property
     def followed(self) -> Array:
@@ -122,11 +132,13 @@ class OutputError:
         return Output(status=status, signals=signals, slopes=slopes)
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
-        """Measured minus simulated per recording and signal, unweighted."""
+        """Measured minus simulated per recording and signal, unweighted; 0 where they are not compared."""
         found = []
         for target in self.targets:
             out = self.simulate(target, vector, active).signals
             found.append({s: target.signal(s) - out[s] for s in target.recorded})
+            if target.speed_is_difference:
+                found[-1]["speed"][[0, -1]] = 0.0
         return found
 
     def error(self, vector: Array, active: Sequence[int]) -> float:
@@ -157,9 +169,9 @@ class OutputError:
     ) -> CountedNormal:
         """Normal equations of one recording whose start is part of `vector`."""
         status, chi2, count, gradient, curvature = _core.normal_equations(
-            self.kind, target.time, target.input, vector, list(active), list(by), target.current, target.speed,
-            target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS], target.speed_is_difference,
-            self.angle_per_position, target.input_before, target.followed,
+            self.kind, target.time, target.input, vector, list(active), list(by), target.current,
+            target.compared_speed, target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS],
+            target.speed_is_difference, self.angle_per_position, target.input_before, target.followed,
             target.angle_from_speed, target.restart_every, target.restart_speed, target.restart_position,
             self.order, self.own,
         )  # fmt: skip
