@@ -12,7 +12,8 @@ from rwn.errors import InputError, unknown
 from rwn.layout import Column, Layout
 from rwn.model import EffectTable, Model, effect_table, lti_parameters
 from rwn.model_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
-from rwn.own_effects import OwnEffect, check_own_effects, from_entry
+from rwn.own_effects import OwnEffect, check_own_effects
+from rwn.own_effects_file import from_entry
 from rwn.signals import COLUMNS, TIME
 
 _PENDULUM = (

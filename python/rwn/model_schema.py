@@ -10,7 +10,7 @@ import msgspec
 
 from rwn.errors import InputError, closest, unknown
 from rwn.layout import Initial
-from rwn.own_effects import EffectEntry, ParameterEntry
+from rwn.own_effects_file import EffectEntry, ParameterEntry
 
 Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 

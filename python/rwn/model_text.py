@@ -8,7 +8,7 @@ import msgspec
 
 from rwn.layout import Layout
 from rwn.model import Model
-from rwn.own_effects import to_lines
+from rwn.own_effects_file import to_lines
 from rwn.units import linear_unit
 
 
