@@ -31,7 +31,7 @@ demo-real: install
 test: test-cpp test-sanitize test-python lint
 
 test-cpp: install-test
-	ctest --test-dir "$$(dirname build/cp*/rwn_tests)" --output-on-failure -j $(JOBS)
+	ctest --test-dir "$$(dirname "$$(ls -t build/cp*/rwn_tests | head -n 1)")" --output-on-failure -j $(JOBS)
 
 # The C++ tests with the address and undefined-behaviour sanitizers; EVERY_ISA=ON: with the kernels of every instruction set.
 EVERY_ISA ?= OFF

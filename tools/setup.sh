@@ -9,7 +9,7 @@ python3 -c 'import ensurepip, venv' 2>/dev/null || need+=(python3-venv)
 [ -e /usr/include/python3.11/Python.h ] || python3 -c 'import sysconfig,os,sys; sys.exit(not os.path.exists(sysconfig.get_path("include")+"/Python.h"))' 2>/dev/null || need+=(python3-dev)
 if [ "${1:-}" = test ]; then
   [ -e /usr/include/gtest/gtest.h ] || need+=(libgtest-dev)
-  [ -e /usr/include/eigen3/Eigen/Core ] || need+=(libeigen3-dev)  # the C++ tests build without pip, which would bring it
+  [ -e /usr/include/eigen3/Eigen/Core ] || need+=(libeigen3-dev)  # the sanitized tests build without pip, which would bring it
 fi
 if [ ${#need[@]} -gt 0 ]; then
   if [ "$(id -u)" = 0 ]; then sudo=; elif command -v sudo >/dev/null; then sudo=sudo; else

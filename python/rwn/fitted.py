@@ -64,10 +64,8 @@ class Fitted:
     def windows(self) -> list[tuple[float, float]]:
         """Begin and end of every time window of the added effects, in units of the longest recording."""
         longest = {u.name: u.upper for u in self.candidate.unknowns}
-        ends = [
-            [self.value(f"{name}.{p.name}") / longest[f"{name}.{p.name}"] for p in effect.parameters if p.window]
-            for name, effect in ((name, self.candidate.table[name]) for name in self.added)
-        ]
+        windows = [[f"{n}.{p.name}" for p in self.candidate.table[n].parameters if p.window] for n in self.added]
+        ends = [[self.value(name) / longest[name] for name in names] for names in windows]
         return [(pair[0], pair[1]) for pair in ends if pair]
 
     @property
