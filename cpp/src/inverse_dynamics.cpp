@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "rwn/active_effects.hpp"
+#include "rwn/memory.hpp"
 
 namespace rwn {
 namespace {

@@ -38,8 +38,8 @@ const std::array<int, effect_count + 1>& offsets() {
 
 int simulate_slice(Kind kind, int width, const SimulationSlice& slice) {
 #ifdef RWN_X86
-  if (isa() == Isa::avx512) return avx512::simulate_slice(kind, width, slice);
-  if (isa() == Isa::avx2) return avx2::simulate_slice(kind, width, slice);
+  if (isa() == Isa::avx512 && width % 8 == 0) return avx512::simulate_slice(kind, width, slice);
+  if (isa() != Isa::baseline) return avx2::simulate_slice(kind, width, slice);  // vectors that would stay half empty
 #endif
   return baseline::simulate_slice(kind, width, slice);
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rwn/active_effects.hpp"
+#include "rwn/memory.hpp"
 
 namespace rwn {
 namespace {

@@ -12,7 +12,6 @@ namespace rwn {
 
 inline constexpr int max_active_effects = 8;
 inline constexpr int max_active_parameters = max_active_effects * max_own_parameters;  // no effect has more
-inline constexpr int max_memories = 8;
 inline constexpr int max_breaks = 2;
 
 /// The functions of one effect for scalar S; null where the effect has no such part.

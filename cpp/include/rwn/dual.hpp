@@ -3,38 +3,71 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "rwn/vectors.hpp"
 
 namespace rwn {
 
-/// N derivatives (rounded up to whole vectors) in the processor's own vectors. In an array of numbers they would be
-/// copied in pieces that straddle what has just been stored, and wait for it every time.
+/// Vectors of derivatives one after the other. Members, not an array: the compiler keeps members in registers and copies
+/// them whole, where an array of three is copied in pieces that wait for what has just been stored.
+template <int count, class Isa>
+struct Vectors {
+  using Vector [[gnu::vector_size(RWN_VECTOR_WIDTH * sizeof(double))]] = double;
+  Vector first{};
+  [[no_unique_address]] Vectors<count - 1, Isa> rest{};
+
+  double get(int k) const { return k < RWN_VECTOR_WIDTH ? first[k] : rest.get(k - RWN_VECTOR_WIDTH); }
+  void set(int k, double value) {
+    if (k < RWN_VECTOR_WIDTH) {
+      first[k] = value;
+    } else {
+      rest.set(k - RWN_VECTOR_WIDTH, value);
+    }
+  }
+  RWN_INLINE void add(const Vectors& o) {
+    first += o.first;
+    rest.add(o.rest);
+  }
+  RWN_INLINE void subtract(const Vectors& o) {
+    first -= o.first;
+    rest.subtract(o.rest);
+  }
+  RWN_INLINE void scale(double factor) {
+    first *= factor;
+    rest.scale(factor);
+  }
+};
+
+template <class Isa>
+struct Vectors<0, Isa> {
+  double get(int) const { __builtin_unreachable(); }
+  void set(int, double) {}
+  RWN_INLINE void add(Vectors) {}
+  RWN_INLINE void subtract(Vectors) {}
+  RWN_INLINE void scale(double) {}
+};
+
+/// N derivatives (rounded up to whole vectors) in the processor's own vectors.
 template <int N, class Isa>
 struct Slopes {
-  static constexpr int width = RWN_VECTOR_WIDTH;
-  static constexpr int count = (N + width - 1) / width;
-  using Vector [[gnu::vector_size(width * sizeof(double))]] = double;
-  Vector part[count]{};
+  Vectors<(N + RWN_VECTOR_WIDTH - 1) / RWN_VECTOR_WIDTH, Isa> all{};
 
-  double operator[](int k) const { return part[k / width][k % width]; }
-  void set(int k, double value) { part[k / width][k % width] = value; }
+  double operator[](int k) const { return all.get(k); }
+  void set(int k, double value) { all.set(k, value); }
   RWN_INLINE Slopes& operator+=(const Slopes& o) {
-    for (int k = 0; k < count; ++k) part[k] += o.part[k];
+    all.add(o.all);
     return *this;
   }
   RWN_INLINE Slopes& operator-=(const Slopes& o) {
-    for (int k = 0; k < count; ++k) part[k] -= o.part[k];
+    all.subtract(o.all);
     return *this;
   }
   RWN_INLINE friend Slopes operator+(Slopes a, const Slopes& b) { return a += b; }
   RWN_INLINE friend Slopes operator-(Slopes a, const Slopes& b) { return a -= b; }
-  RWN_INLINE friend Slopes operator-(Slopes a) {
-    for (Vector& each : a.part) each = -each;
-    return a;
-  }
+  RWN_INLINE friend Slopes operator-(Slopes a) { return -1.0 * a; }
   RWN_INLINE friend Slopes operator*(double factor, Slopes a) {
-    for (Vector& each : a.part) each *= factor;
+    a.all.scale(factor);
     return a;
   }
 };
@@ -77,6 +110,8 @@ struct Slopes<0, Isa> {
 /// instruction sets apart, so that the linker never merges them; N = 0 is a plain number at no cost.
 template <int N, class Isa>
 struct Dual {
+  using Value = Dual<0, Isa>;
+
   [[no_unique_address]] Slopes<N, Isa> d{};
   double v = 0.0;
 
@@ -138,6 +173,12 @@ struct Dual {
     y.d = b.v * a.d + a.v * b.d;
     return y;
   }
+  /// sum += a b
+  RWN_INLINE friend void add_product(Dual& sum, const Dual& a, const Dual& b) {
+    sum.v += a.v * b.v;
+    sum.d += b.v * a.d;
+    sum.d += a.v * b.d;
+  }
   RWN_INLINE friend Dual operator*(Dual a, double b) { return a *= b; }
   RWN_INLINE friend Dual operator*(double a, Dual b) { return b *= a; }
   RWN_INLINE friend Dual operator/(const Dual& a, const Dual& b) {
@@ -188,6 +229,17 @@ double value_of(const Dual<N, Isa>& x) {
   return x.v;
 }
 inline double value_of(double x) { return x; }
+inline void add_product(double& sum, double a, double b) { sum += a * b; }
+
+/// The same number as a T; its derivatives are kept where T has them in the same places.
+template <class T, class From>
+T as_scalar(const From& x) {
+  if constexpr (std::is_same_v<T, From>) {
+    return x;
+  } else {
+    return T(value_of(x));
+  }
+}
 
 /// True where both carry the same derivatives.
 template <int N, class Isa>

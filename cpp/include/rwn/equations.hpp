@@ -6,6 +6,7 @@
 
 #include "rwn/active_effects.hpp"
 #include "rwn/exponential.hpp"
+#include "rwn/memory.hpp"
 
 namespace rwn {
 
@@ -22,7 +23,7 @@ struct MovingState {
 /// The same with what effects remember from step to step.
 template <class S, Kind kind>
 struct DriveState : MovingState<S, kind> {
-  std::array<S, max_memories> memory{};
+  Memory<S> memory{};
 };
 
 template <class S, Kind kind>
@@ -42,8 +43,8 @@ class Equations {
       const auto& call = effects_[k].call;
       varies_ = varies_ || call.varies;
       dry_ = dry_ || call.dry;
-      electrical_ = electrical_ || (kind == Kind::dc && call.electrical && call.varies);
-      rates_ = rates_ || electrical_ || call.rate != nullptr || (effects_[k].own != nullptr && call.varies);
+      winds_ = winds_ || (call.electrical && call.varies);
+      rates_ = rates_ || electrical() || call.rate != nullptr || (effects_[k].own != nullptr && call.varies);
       timed_ = timed_ || call.breaks != nullptr;
       replaced = replaced || call.replaces;
       hiddens_ = hiddens_ || call.hiddens > 0;
@@ -58,6 +59,7 @@ class Equations {
   }
 
   bool varies() const { return varies_; }      // within a step, other than with the direction of sliding
+  bool rates() const { return rates_; }        // something asks for short steps
   bool dry() const { return dry_; }            // there is friction that holds
   bool hiddens() const { return hiddens_; }    // effects have differential states
   bool finishes() const { return finishes_; }  // effects have memories that follow the motion
@@ -87,18 +89,15 @@ class Equations {
   /// A winding that has become faster than R/L (saturation, brush contact) is linearised at R 2^level, which keeps the
   /// remainder stable.
   int choose_level(const State& s) const {
-    if (kind == Kind::axis || !electrical_) return 0;
+    if (!electrical()) return 0;
     const Terms<S> t = terms_of(s, s.position);
     const double ratio =
         (value_of(t.resistance) + t.drop_slope / value_of(motor_[resistance])) / value_of(t.inductance);
     return ratio > 1.3 ? std::min(12, static_cast<int>(std::ceil(std::log2(ratio)))) : 0;
   }
 
-  /// Steps that the fastest effect asks for over h.
-  int step_count(const State& s, double h) const {
-    if (!rates_) return 1;
-    Terms<S> t;
-    const Vector f = nonlinear(s, s.memory.data(), s.position, 0, t);
+  /// Steps that the fastest effect asks for over h, where `f` and `t` are those of its start (level 0).
+  int step_count(const State& s, double h, const Vector& f, const Terms<S>& t) const {
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
     double rate = winding_rate(t, h);
     Motion<S> x = motion_of(s, s.position);
@@ -117,6 +116,15 @@ class Equations {
   Vector nonlinear(const Moving& s, const S* memory, const S& start, int level, Terms<S>& t) const {
     put_terms(t, s, memory, start);
     Vector f;
+    if (!winds_ && value_of(t.inertia) == 0.0) {  // torques alone are added
+      if constexpr (kind == Kind::dc) f[0] = input_ * inverse_inductance_;
+      if (s.direction == 0.0 && dry_) return f;
+      S torque = t.torque;
+      if constexpr (kind == Kind::axis) torque += input_;
+      if (dry_) torque -= s.direction * t.friction;
+      f[w] = torque * inverse_inertia_;
+      return f;
+    }
     if constexpr (kind == Kind::dc) {
       const S back_emf = motor_[back_emf_constant] * s.x[1];
       S rate = (input_ - motor_[resistance] * t.resistance * s.x[0] - back_emf * t.flux - t.drop) * inverse_inductance_;
@@ -195,31 +203,33 @@ class Equations {
     S torque{}, friction{}, acceleration{};
   };
 
+  /// Whether the equation of the winding is another than R, L and Ke make it.
+  bool electrical() const { return kind == Kind::dc && winds_; }
+
   static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
 
   /// Where its equation is not linear, the winding's transient within the interval has to be followed: how fast it is.
   double winding_rate(const Terms<S>& t, double h) const {
     if constexpr (kind == Kind::dc) {
       const double rate = value_of(motor_[resistance]) / value_of(motor_[inductance] * t.inductance);
-      return electrical_ ? std::min(rate, winding_steps * angle_of_a_step / h) : 0.0;
+      return electrical() ? std::min(rate, winding_steps * angle_of_a_step / h) : 0.0;
     }
     return 0.0;
   }
 
   Motion<S> motion_of(const Moving& s, const S& start) const {
-    Motion<S> x;
-    x.time = time_;
-    x.direction = s.direction;
-    x.input = input_;
-    if constexpr (kind == Kind::dc) x.current = s.x[0];
-    x.speed = s.x[w];
-    x.position = s.position;
-    x.angle = angle_per_position_ * (s.position + offset_);
-    x.angle_per_position = angle_per_position_;
-    x.travel = s.position - start;
-    x.hidden = s.hidden.data();
-    x.drive_torque = kind == Kind::dc ? motor_[torque_constant] * x.current : input_;
-    return x;
+    return {.time = time_,
+            .direction = s.direction,
+            .input = input_,
+            .current = kind == Kind::dc ? s.x[0] : S(0.0),
+            .speed = s.x[w],
+            .position = s.position,
+            .angle = angle_per_position_ * (s.position + offset_),
+            .angle_per_position = angle_per_position_,
+            .drive_torque = kind == Kind::dc ? motor_[torque_constant] * s.x[0] : input_,
+            .travel = s.position - start,
+            .memory = nullptr,
+            .hidden = s.hidden.data()};
   }
 
   Terms<S> terms_of(const State& s, const S& start) const {
@@ -271,7 +281,7 @@ class Equations {
   const ActiveEffect<S>* effects_;
   int count_;
   double angle_per_position_;
-  bool varies_ = false, dry_ = false, hiddens_ = false, finishes_ = false, pendulum_ = false, electrical_ = false,
+  bool varies_ = false, dry_ = false, hiddens_ = false, finishes_ = false, pendulum_ = false, winds_ = false,
        rates_ = false, timed_ = false;
   S base_friction_{}, inverse_inertia_{}, inverse_inductance_{};
   S input_{};

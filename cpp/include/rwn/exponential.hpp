@@ -22,7 +22,7 @@ SmallMatrix<S, n> product(const SmallMatrix<S, n>& a, const SmallMatrix<S, n>& b
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       S sum = a[i * n] * b[j];
-      for (std::size_t k = 1; k < n; ++k) sum += a[i * n + k] * b[k * n + j];
+      for (std::size_t k = 1; k < n; ++k) add_product(sum, a[i * n + k], b[k * n + j]);
       c[i * n + j] = sum;
     }
   }
@@ -31,9 +31,11 @@ SmallMatrix<S, n> product(const SmallMatrix<S, n>& a, const SmallMatrix<S, n>& b
 
 /// y += a x
 template <class S, int n>
-void add_product(SmallVector<S, n>& y, const SmallMatrix<S, n>& a, const SmallVector<S, n>& x) {
+RWN_INLINE void add_product(SmallVector<S, n>& y, const SmallMatrix<S, n>& a, const SmallVector<S, n>& x) {
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) y[i] += a[i * n + j] * x[j];
+    S sum = y[i];
+    for (std::size_t j = 0; j < n; ++j) add_product(sum, a[i * n + j], x[j]);
+    y[i] = sum;
   }
 }
 

@@ -6,10 +6,10 @@
 
 namespace rwn {
 
-/// Root of g on (0, h], g(0) >= 0 > g(h), by the Illinois method.
+/// Root of g on (0, h], where g(0) = at_low >= 0 > g(h) = at_high, by the Illinois method.
 template <class G>
-double illinois(double h, const G& g) {
-  double low = 0.0, high = h, at_low = g(0.0), at_high = g(h);
+double illinois(double h, double at_low, double at_high, const G& g) {
+  double low = 0.0, high = h;
   double mid = h;
   for (int k = 0; k < 60 && high - low > 1e-13 * h; ++k) {
     mid = (at_low * high - at_high * low) / (at_low - at_high);
@@ -44,19 +44,19 @@ class FrictionEvents {
 
   /// Puts `s` at the end of its sliding or sticking, which lies within h; returns the time that it took.
   S pass(State& s, const S& h, const State& beyond) {
-    return s.direction != 0.0 ? stop(s, h) : break_away(s, h, equations_.breaking(beyond));
+    return s.direction != 0.0 ? stop(s, h, beyond) : break_away(s, h, beyond);
   }
 
  private:
-  S stop(State& s, const S& h) {
+  S stop(State& s, const S& h, const State& beyond) {
     if (value_of(s.x[w]) == 0.0) {  // could not start: the friction holds after all
       s.direction = 0.0;
       s = stepper_.step(s, h);
       s.x[w] = S(0.0);
       return h;
     }
-    const double instant =
-        root(value_of(h), [&](double tau) { return s.direction * value_of(stepper_.step(s, S(tau)).x[w]); });
+    const auto ahead = [&](const State& x) { return s.direction * value_of(x.x[w]); };
+    const double instant = root(s, h, beyond, ahead);
     const State there = stepper_.step(s, S(instant));
     const S duration = shifted(instant, there.x[w], equations_.acceleration(there));
     s = stepper_.step(s, duration);
@@ -66,13 +66,14 @@ class FrictionEvents {
     return duration;
   }
 
-  S break_away(State& s, const S& h, double direction) {
-    const auto excess = [&](double tau) { return equations_.excess_torque(stepper_.step(s, S(tau)), direction); };
-    const auto margin = [&](double tau) { return -value_of(excess(tau)); };
-    const double instant = root(value_of(h), margin);
+  S break_away(State& s, const S& h, const State& beyond) {
+    const double direction = equations_.breaking(beyond);
+    const auto excess = [&](const State& x) { return equations_.excess_torque(x, direction); };
+    const double instant = root(s, h, beyond, [&](const State& x) { return -value_of(excess(x)); });
+    const S there = excess(stepper_.step(s, S(instant)));
     const double nudge = 1e-6 * value_of(h);
-    const double slope = (margin(instant) - margin(instant + nudge)) / nudge;
-    const S duration = shifted(instant, excess(instant), slope);
+    const double slope = (value_of(excess(stepper_.step(s, S(instant + nudge)))) - value_of(there)) / nudge;
+    const S duration = shifted(instant, there, slope);
     s = stepper_.step(s, duration);
     s.x[w] = S(0.0);
     s.direction = direction;
@@ -86,10 +87,12 @@ class FrictionEvents {
     return tau;
   }
 
+  /// The instant within h, between `s` and `beyond`, at which g of the state goes through zero.
   template <class G>
-  double root(double h, const G& g) {
+  double root(const State& s, const S& h, const State& beyond, const G& g) {
     stepper_.search(true);
-    const double found = illinois(h, g);
+    const auto at = [&](double tau) { return g(stepper_.step(s, S(tau))); };
+    const double found = illinois(value_of(h), g(s), g(beyond), at);
     stepper_.search(false);
     return found;
   }

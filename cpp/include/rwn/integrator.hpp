@@ -37,7 +37,7 @@ class Integrator {
 
  private:
   void advance_smoothly(State& s, const S& h) {
-    const int steps = equations_.step_count(s, value_of(h));
+    const int steps = stepper_.step_count(s, value_of(h));
     const S part = steps == 1 ? h : h / static_cast<double>(steps);
     for (int k = 0; k < steps; ++k) s = stepper_.step(s, part);
   }
@@ -64,7 +64,7 @@ class Integrator {
     const double whole = value_of(left);
     for (int guard = 0; guard < 40 && value_of(left) > 1e-12 * whole; ++guard) {
       if (s.direction == 0.0) s.direction = equations_.breaking(s);
-      const int steps = guard < 39 ? equations_.step_count(s, value_of(left)) : 1;
+      const int steps = guard < 39 ? stepper_.step_count(s, value_of(left)) : 1;
       const S h = steps == 1 ? left : left / static_cast<double>(steps);
       for (int k = 0; k < steps; ++k) {
         const State next = stepper_.step(s, h);

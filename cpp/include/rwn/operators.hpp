@@ -22,19 +22,21 @@ class Operators {
   explicit Operators(const Equations<S, kind>& equations) : equations_(equations) {}
 
   /// Those of constant lengths are kept, and the last few that carry derivatives: a late command divides every sample
-  /// alike. Those of instants that are searched are made anew.
+  /// alike. Those of instants that are searched are made anew, without derivatives.
   const Step& over(const S& h, int level, bool stick) {
     if (searching_) {
-      make(passing_, h, level, stick);
+      make<Value>(passing_, h, level, stick);
       return passing_;
     }
     return is_constant(h) ? constant_.over(*this, h, level, stick) : sloped_.over(*this, h, level, stick);
   }
 
-  /// While an instant is searched nothing is worth keeping.
+  /// While an instant is searched nothing is worth keeping, and values alone are wanted.
   void search(bool on) { searching_ = on; }
 
  private:
+  using Value = typename S::Value;
+
   /// The last few that were made.
   template <std::size_t size>
   struct Kept {
@@ -49,34 +51,45 @@ class Operators {
       }
       Step& slot = steps[next];
       next = (next + 1) % size;
-      maker.make(slot, h, level, stick);
+      maker.template make<S>(slot, h, level, stick);
       return slot;
     }
   };
 
-  static Matrix scaled(Matrix a, const S& h) {
-    for (S& entry : a) entry *= h;
+  template <class T>
+  static SmallMatrix<T, n> scaled(SmallMatrix<T, n> a, const T& h) {
+    for (T& entry : a) entry *= h;
     return a;
   }
 
-  void make(Step& o, const S& h, int level, bool stick) const {
-    const Matrix a = equations_.system_matrix(level, stick);
-    const PhiFunctions<S, n> f = phi_functions<S, n>(scaled(a, h));
-    o.h = h;
+  template <class T, class From>
+  static SmallMatrix<T, n> as(const From& from) {
+    SmallMatrix<T, n> a;
+    for (std::size_t k = 0; k < a.size(); ++k) a[k] = as_scalar<T>(from[k]);
+    return a;
+  }
+
+  /// Computed in scalar T: S, or values alone.
+  template <class T>
+  void make(Step& o, const S& length, int level, bool stick) const {
+    const SmallMatrix<T, n> a = as<T>(equations_.system_matrix(level, stick));
+    const T h = as_scalar<T>(length);
+    const PhiFunctions<T, n> f = phi_functions<T, n>(scaled<T>(a, h));
+    o.h = length;
     o.level = level;
     o.stick = stick;
-    o.e = f.p0;
-    o.p1 = scaled(f.p1, h);
+    o.e = as<S>(f.p0);
+    o.p1 = as<S>(scaled<T>(f.p1, h));
     if (!equations_.varies()) {
-      o.p2 = scaled(f.p2, h * h);
+      o.p2 = as<S>(scaled<T>(f.p2, h * h));
       return;
     }
-    const PhiFunctions<S, n> half = phi_functions<S, n>(scaled(a, 0.5 * h));
-    o.eh = half.p0;
-    o.p1h = scaled(half.p1, 0.5 * h);
-    o.f1 = scaled(combine<S, n>(1.0, combine<S, n>(1.0, f.p1, -3.0, f.p2), 4.0, f.p3), h);
-    o.f2 = scaled(combine<S, n>(2.0, f.p2, -4.0, f.p3), h);
-    o.f3 = scaled(combine<S, n>(-1.0, f.p2, 4.0, f.p3), h);
+    const PhiFunctions<T, n> half = phi_functions<T, n>(scaled<T>(a, 0.5 * h));
+    o.eh = as<S>(half.p0);
+    o.p1h = as<S>(scaled<T>(half.p1, 0.5 * h));
+    o.f1 = as<S>(scaled<T>(combine<T, n>(1.0, combine<T, n>(1.0, f.p1, -3.0, f.p2), 4.0, f.p3), h));
+    o.f2 = as<S>(scaled<T>(combine<T, n>(2.0, f.p2, -4.0, f.p3), h));
+    o.f3 = as<S>(scaled<T>(combine<T, n>(-1.0, f.p2, 4.0, f.p3), h));
   }
 
   const Equations<S, kind>& equations_;

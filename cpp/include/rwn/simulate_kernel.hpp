@@ -45,22 +45,22 @@ class Simulation {
  public:
   explicit Simulation(const SimulationSlice& slice) : slice_(slice) {
     for (int k = 0; k < motor_parameter_count; ++k) motor_[static_cast<std::size_t>(k)] = parameter(k);
-    int memory = 0, slot = 0;
+    int slot = 0;
     for (int a = 0; a < slice_.active_count; ++a) {
       const int effect = slice_.active[a], own = effect - effect_count;
       auto& e = effects_[static_cast<std::size_t>(a)];
       if (own < 0) {
-        e = {all_effect_functions<S>[static_cast<std::size_t>(effect)], parameters_.data() + slot, memory};
+        e = {all_effect_functions<S>[static_cast<std::size_t>(effect)], parameters_.data() + slot, memories_};
         slot = take(slice_.first_parameter[effect], slice_.first_parameter[effect + 1], slot);
       } else {
         auto& formula = owns_[static_cast<std::size_t>(own)];
         formula = {slice_.own[own], stack_.data(), slice_.formula_failed};
         has_own_ = true;
-        e = {functions_of(formula), parameters_.data() + slot, memory, &formula};
+        e = {functions_of(formula), parameters_.data() + slot, memories_, &formula};
         const int first = slice_.first_own + own * max_own_parameters;
         slot = take(first, first + max_own_parameters, slot);
       }
-      memory += e.call.memories;
+      memories_ += e.call.memories;
     }
     if constexpr (kind == Kind::lti) {
       for (int k = 0; k < coefficient_count; ++k)
@@ -123,7 +123,7 @@ class Simulation {
 
   /// What of the actuators and sensors has to be done at every sample.
   void prepare(State& s) {
-    using std::sqrt;
+    s.memory.use(memories_);
     for (int a = 0; a < slice_.active_count; ++a) {
       const auto& e = effects_[static_cast<std::size_t>(a)];
       if (e.call.delay != nullptr) delay_ += e.call.delay(e.p);
@@ -266,7 +266,7 @@ class Simulation {
   S shown_{0.0}, turned_{0.0};  // simulated reading of the speed, and its integral
   S start_{0.0}, offset_{0.0};  // position where that integral starts; angle minus position, 0 without one
   std::array<S, 8> breaks_{};
-  int break_count_ = 0;
+  int break_count_ = 0, memories_ = 0;
   bool delayed_ = false, actuates_ = false, senses_ = false, has_own_ = false;
 };
 

@@ -20,6 +20,15 @@ class Stepper {
 
   explicit Stepper(Equations<S, kind>& equations) : equations_(equations), operators_(equations) {}
 
+  /// Steps that the fastest effect asks for over h. What it learns of the start serves the first of them.
+  int step_count(const State& s, double h) {
+    start_known_ = equations_.rates();
+    if (!start_known_) return 1;
+    t0_ = {};
+    f0_ = equations_.nonlinear(s, s.memory.data(), s.position, 0, t0_);
+    return equations_.step_count(s, h, f0_, t0_);
+  }
+
   State step(const State& s, const S& h) { return equations_.varies() ? nonlinear_step(s, h) : linear_step(s, h); }
 
   /// Exact solution over h for constant terms; `x` and `position` may be those of `s`.
@@ -52,21 +61,25 @@ class Stepper {
     const auto& o = operators_.over(h, level, stick);
     const S& start = s.position;
     const S* memory = s.memory.data();  // as of the start of the step
-    Terms<S> t0, ta, tb, tc;
-    const Vector f0 = equations_.nonlinear(s, memory, start, level, t0);
-    const Moving a = stage(s, o.eh, s.x, o.p1h, f0, 0.5 * h, s.x[w], t0);
+    if (!start_known_ || level != 0) {
+      t0_ = {};
+      f0_ = equations_.nonlinear(s, memory, start, level, t0_);
+    }
+    start_known_ = false;
+    Terms<S> ta, tb, tc;
+    const Moving a = stage(s, o.eh, s.x, o.p1h, f0_, 0.5 * h, s.x[w], t0_);
     const Vector fa = equations_.nonlinear(a, memory, start, level, ta);
     const Moving b = stage(s, o.eh, s.x, o.p1h, fa, 0.5 * h, a.x[w], ta);
     const Vector fb = equations_.nonlinear(b, memory, start, level, tb);
     Vector mixed = fb;
-    for (std::size_t j = 0; j < n; ++j) mixed[j] = 2.0 * fb[j] - f0[j];
+    for (std::size_t j = 0; j < n; ++j) mixed[j] = 2.0 * fb[j] - f0_[j];
     const Moving c = stage(s, o.eh, a.x, o.p1h, mixed, h, b.x[w], tb);
     const Vector fc = equations_.nonlinear(c, memory, start, level, tc);
 
     State next = s;
     next.x = Vector{};
     add_product<S, n>(next.x, o.e, s.x);
-    add_product<S, n>(next.x, o.f1, f0);
+    add_product<S, n>(next.x, o.f1, f0_);
     for (std::size_t j = 0; j < n; ++j) mixed[j] = fa[j] + fb[j];
     add_product<S, n>(next.x, o.f2, mixed);
     add_product<S, n>(next.x, o.f3, fc);
@@ -75,7 +88,7 @@ class Stepper {
     if (equations_.hiddens()) {
       for (std::size_t k = 0; k < next.hidden.size(); ++k) {
         next.hidden[k] +=
-            sixth * (t0.hidden_rate[k] + 2.0 * (ta.hidden_rate[k] + tb.hidden_rate[k]) + tc.hidden_rate[k]);
+            sixth * (t0_.hidden_rate[k] + 2.0 * (ta.hidden_rate[k] + tb.hidden_rate[k]) + tc.hidden_rate[k]);
       }
     }
     if (equations_.finishes()) equations_.finish(s, next, h);
@@ -97,6 +110,9 @@ class Stepper {
 
   Equations<S, kind>& equations_;
   Operators<S, kind> operators_;
+  Vector f0_{};  // at the start of a step, with its terms
+  Terms<S> t0_{};
+  bool start_known_ = false;
 };
 
 }  // namespace rwn

@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "rwn/active_effects.hpp"
+#include "rwn/memory.hpp"
 #include "rwn/room.hpp"
 
 namespace rwn {
@@ -32,7 +33,7 @@ class TransferFunction {
     std::array<S, max_order> x{};  // scaled: x_i / rate^{i-1}
     S position{};                  // not modelled
     std::array<S, max_hiddens> hidden{};
-    std::array<S, max_memories> memory{};
+    Memory<S> memory{};
   };
 
   /// `coefficients`: `coefficient_count` values in the order of `Coefficient`.
