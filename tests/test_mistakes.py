@@ -100,14 +100,14 @@ def test_missing_physics_is_no_mistake(model: rwn.Model) -> None:
 def test_channels_out_of_step(
     model: rwn.Model, right: rwn.Recording, names: tuple[str, ...], delay: int, signal: str
 ) -> None:
-    made, found = explained([altered(right, names, delay=delay)], model, jobs=2, say=silent)
+    made, found = explained([altered(right, names, delay=delay)], model, say=silent)
     assert [(m.name, m.signals[0], m.delay) for m in made] == [("time-shift", signal, delay)]
     assert not found.hypotheses[0].fitted.added
 
 
 def test_a_channel_out_of_step_is_seen_through_missing_physics(model: rwn.Model) -> None:
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    made, found = explained([altered(friction, ("current",), delay=6)], model, jobs=2, say=silent)
+    made, found = explained([altered(friction, ("current",), delay=6)], model, say=silent)
     assert [(m.name, m.delay) for m in made] == [("time-shift", 6)]
     assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
 
@@ -134,7 +134,7 @@ def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Mo
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     wrong = altered(friction, MOTION, 1.0 / 3.5)
     rough = wrong_scale([wrong], model)
-    made, found = explained([wrong], model, jobs=2, say=silent)
+    made, found = explained([wrong], model, say=silent)
     assert rough is not None
     assert [m.name for m in made] == ["wrong-gear-ratio"]
     assert abs(3.5 * made[0].factor - 1.0) < abs(3.5 * rough.factor - 1.0)

@@ -24,7 +24,7 @@ SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights 
 MOST = 0.5  # share of the squared error above the noise that the curve has to explain
 
 
-def another_law(found: Explanation, chosen: Hypothesis, model: Model, *, jobs: int = 1) -> Place | None:
+def another_law(found: Explanation, chosen: Hypothesis, model: Model) -> Place | None:
     """Where a law beside `chosen` explains most of what it leaves; None where it leaves noise or nothing so plain."""
     named = chosen.fitted
     search = Search.of(found.setup)
@@ -44,5 +44,5 @@ def another_law(found: Explanation, chosen: Hypothesis, model: Model, *, jobs: i
         return gained if seen > SEEN and gained > MOST * (left.variance - 1.0) else 0.0
 
     tried = places(found.setup, model)
-    gained, best = max(zip(side_by_side(gain, tried, jobs=jobs), range(len(tried)), strict=True))
+    gained, best = max(zip(side_by_side(gain, tried), range(len(tried)), strict=True))
     return tried[best] if gained > 0.0 else None

@@ -39,12 +39,12 @@ class Conclusion:
 
 
 def conclude(
-    found: Explanation, heldout: Sequence[Target], model: Model, *, seed: int, jobs: int, say: Progress
+    found: Explanation, heldout: Sequence[Target], model: Model, *, seed: int, say: Progress
 ) -> Conclusion:
     """The explanation that is named, or none and what stands in for it; proved on `heldout`, or by cross-validation."""
 
     def prove(h: Hypothesis) -> tuple[HeldoutRow, ...]:
-        return proved(found, h, heldout, model, seed=seed, jobs=jobs)
+        return proved(found, h, heldout, model, seed=seed)
 
     chosen = choose(found)
     if heldout:
@@ -58,19 +58,19 @@ def conclude(
         without = verdict if verdict == "unexplained" else verdict_without_a_name(found)
         end = replace(leading, chosen=nothing, verdict=without, rows=prove(nothing))
     if end.verdict == "missing-physics":
-        place = another_law(found, chosen, model, jobs=jobs)
+        place = another_law(found, chosen, model)
         return replace(end, another=True, warnings=(_nearest(place),)) if place else end
     if end.verdict != "unexplained":
         return end
     say("drawing what has no name", 0.9)
-    return _with_stand_in(end, leading, heldout, seed=seed, jobs=jobs)
+    return _with_stand_in(end, leading, heldout, seed=seed)
 
 
 def _with_stand_in(
-    end: Conclusion, leading: Conclusion, heldout: Sequence[Target], *, seed: int, jobs: int
+    end: Conclusion, leading: Conclusion, heldout: Sequence[Target], *, seed: int
 ) -> Conclusion:
     """`end` with a wavelet network that helps on recordings that were not fitted; without one, the name that leads."""
-    network = proved_stand_in(end.found, end.model, heldout, seed=seed, jobs=jobs)
+    network = proved_stand_in(end.found, end.model, heldout, seed=seed)
     if network:
         drawn, rows = network
         return replace(

@@ -24,6 +24,7 @@ from rwn.model import Model
 from rwn.prepare import proof_target
 from rwn.proof import LEFT_OUT
 from rwn.recording import Recording
+from rwn.threads import crew
 from rwn.unknown_law import laws
 from rwn.verdict import is_certain, whole
 from rwn.without_mistakes import explained
@@ -55,14 +56,14 @@ def diagnose(
     """
     began = time.perf_counter()
     say = progress or _silent
-    jobs = jobs or os.cpu_count() or 1
-    made, found = explained(recordings, model, jobs=jobs, say=say)
-    say("proving it on data that were not fitted", 0.85)
-    for mistake in made:
-        heldout = without(heldout, mistake)
-    end = conclude(found, [proof_target(r, model) for r in heldout], model, seed=seed, jobs=jobs, say=say)
-    say("drawing", 0.95)
-    return _report(end, made, seed, time.perf_counter() - began)
+    with crew(jobs or os.cpu_count() or 1):
+        made, found = explained(recordings, model, say=say)
+        say("proving it on data that were not fitted", 0.85)
+        for mistake in made:
+            heldout = without(heldout, mistake)
+        end = conclude(found, [proof_target(r, model) for r in heldout], model, seed=seed, say=say)
+        say("drawing", 0.95)
+        return _report(end, made, seed, time.perf_counter() - began)
 
 
 def _silent(what: str, done: float) -> None:

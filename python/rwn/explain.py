@@ -58,11 +58,11 @@ class Explanation:
 
 
 def explain(
-    setup: Setup, *, jobs: int = 1, progress: Progress, names: Sequence[str] | None = None,
+    setup: Setup, *, progress: Progress, names: Sequence[str] | None = None,
     at_once: int = MOST_EFFECTS,
 ) -> Explanation:  # fmt: skip
     """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most."""
-    search = Search.of(setup, jobs=jobs)
+    search = Search.of(setup)
     search = with_noise(search, search.fit_nominal())
     nominal = search.fit_nominal()
     within = tempered(search, nominal)
@@ -246,7 +246,7 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
         end = settled(search.problem, this, fit(search.problem, this), turns=1)
         return Fitted(added=names, candidate=this, minimum=end)
 
-    return side_by_side(less, dict.fromkeys([*sets[1:], *plain]), jobs=search.jobs)
+    return side_by_side(less, dict.fromkeys([*sets[1:], *plain]))
 
 
 def _no_window(fitted: Fitted, setup: Setup) -> bool:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.least_squares import Normal
+from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
 SIGNALS = ("current", "speed", "position")
@@ -133,13 +134,15 @@ class OutputError:
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
         """Measured minus simulated per recording and signal, unweighted; 0 where they are not compared."""
-        found = []
-        for target in self.targets:
+
+        def one(target: Target) -> dict[str, Array]:
             out = self.simulate(target, vector, active).signals
-            found.append({s: target.signal(s) - out[s] for s in target.recorded})
+            left = {s: target.signal(s) - out[s] for s in target.recorded}
             if target.speed_is_difference:
-                found[-1]["speed"][[0, -1]] = 0.0
-        return found
+                left["speed"][[0, -1]] = 0.0
+            return left
+
+        return side_by_side(one, self.targets)
 
     def error(self, vector: Array, active: Sequence[int]) -> float:
         """Weighted squared error; infinite where a run diverged."""
@@ -148,8 +151,7 @@ class OutputError:
     def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations by the parameters `by`, summed over the recordings."""
         chi2, count, gradient, curvature = 0.0, 0, np.zeros(len(by)), np.zeros((len(by), len(by)))
-        for target in self.targets:
-            one = self.normal_of(target, vector, active, by)
+        for one in side_by_side(lambda t: self.normal_of(t, vector, active, by), self.targets):
             if not one.finite or not np.isfinite(one.curvature).all():
                 return CountedNormal(
                     chi2=np.inf, gradient=gradient, curvature=curvature, finite=False, count=max(count, 1)

@@ -17,8 +17,6 @@ def polished(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Searc
     """The same fits, those that may be the best fitted on by `rough.settled`."""
     bar = RIVAL * min(f.cost for f in (nominal, *fits))
     worth = [f for f in fits if f.cost < bar and rough(f.candidate)]
-    ends = side_by_side(
-        lambda f: settled(search.problem, f.candidate, f.minimum, turns=TURNS), worth, jobs=search.jobs
-    )
+    ends = side_by_side(lambda f: settled(search.problem, f.candidate, f.minimum, turns=TURNS), worth)
     better = {id(f): replace(f, minimum=m) for f, m in zip(worth, ends, strict=True)}
     return search, nominal, [better.get(id(f), f) for f in fits]

@@ -26,7 +26,7 @@ FITTED_PART = 0.7  # of a lone recording, when its rest has to serve as proof
 
 def proved(
     found: Explanation, chosen: Hypothesis, heldout: Sequence[Target], model: Model, *, seed: int,
-    again: Again | None = None, jobs: int = 1,
+    again: Again | None = None,
 ) -> tuple[HeldoutRow, ...]:  # fmt: skip
     """Rows on the held-out recordings; without any, every recording is judged by fits that did not see it.
 
@@ -48,7 +48,7 @@ def proved(
         fitted = search.refit(chosen.fitted, problem) if chosen.fitted.added else chosen.fitted
         return _rows(found, nominal, fitted, [target], model, seed=seed, first=first)
 
-    parts = side_by_side(fold, _folds(found), jobs=jobs)
+    parts = side_by_side(fold, _folds(found))
     return tuple(row for part in parts for row in part or ()) if None not in parts else ()
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rwn.candidate import Candidate, fit
 from rwn.least_squares import Minimum, Unknown, minimise
 from rwn.output_error import CountedNormal, OutputError
+from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
 
@@ -49,16 +50,21 @@ def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Array
 
     best = np.inf
 
+    def slope(values: Array, k: int) -> Array | float:
+        low, high = _sides(this.unknowns[k], float(values[k]), relative)
+        if high <= low:
+            return 0.0
+        below, above = (_weighted(problem, this, _with(values, k, v)) for v in (low, high))
+        return (below - above) / (high - low)  # the error is recorded minus simulated
+
     def evaluate(values: Array) -> CountedNormal:
         nonlocal best
         error = _weighted(problem, this, values)
         chi2 = float(error @ error)
         slopes = np.zeros((error.size, values.size))
-        for k, unknown in enumerate(this.unknowns if chi2 < LOST * best else ()):
-            low, high = _sides(unknown, float(values[k]), relative)
-            if high > low:
-                below, above = (_weighted(problem, this, _with(values, k, v)) for v in (low, high))
-                slopes[:, k] = (below - above) / (high - low)  # the error is recorded minus simulated
+        if chi2 < LOST * best:
+            for k, column in enumerate(side_by_side(lambda k: slope(values, k), range(values.size))):
+                slopes[:, k] = column
         best = min(best, chi2)
         return CountedNormal(
             chi2=chi2, gradient=slopes.T @ error, curvature=slopes.T @ slopes, count=error.size,
@@ -66,12 +72,17 @@ def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Array
         )  # fmt: skip
 
     samples = sum(t.signal(s).size for t in problem.targets for s in t.recorded)
-    with np.errstate(over="ignore", invalid="ignore"):  # a run that leaves the finite numbers is a step taken back
+    with _overflowing():
         found = minimise(
             evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * samples,
             prior_scale=problem.colour,
         )  # fmt: skip
     return found.values
+
+
+def _overflowing() -> np.errstate:
+    """A run that leaves the finite numbers is a step taken back."""
+    return np.errstate(over="ignore", invalid="ignore")
 
 
 def _sides(unknown: Unknown, value: float, relative: float) -> tuple[float, float]:
@@ -91,6 +102,7 @@ def _with(values: Array, k: int, value: float) -> Array:
 
 def _weighted(problem: OutputError, this: Candidate, values: Array) -> Array:
     """Weighted errors of all recordings and signals, end to end; nothing where nothing was recorded."""
-    errors = problem.residuals(this.with_values(values), this.active)
-    weighted: Array = np.nan_to_num(np.concatenate([r[s] / problem.noise[s] for r in errors for s in r]))
+    with _overflowing():  # of every thread its own
+        errors = problem.residuals(this.with_values(values), this.active)
+        weighted: Array = np.nan_to_num(np.concatenate([r[s] / problem.noise[s] for r in errors for s in r]))
     return weighted

@@ -32,9 +32,7 @@ def unrounded_fits(
         noise_before_rounding(t, r["speed"], step)
         for t, r, step in zip(problem.targets, residuals, steps, strict=True)
     ]
-    settled = side_by_side(
-        lambda f: _settled(search, f, problem, steps, noises), (nominal, *foremost(fits)), jobs=search.jobs
-    )
+    settled = side_by_side(lambda f: _settled(search, f, problem, steps, noises), (nominal, *foremost(fits)))
     _, on = min(settled, key=lambda pair: pair[0].cost)
     return replace(search, problem=on), settled[0][0], sorted((f for f, _ in settled[1:]), key=lambda f: f.cost)
 

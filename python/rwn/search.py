@@ -53,13 +53,12 @@ class Search:
     problem: OutputError
     nominal: Nominal
     scales: Mapping[str, float]
-    jobs: int = 2
     patience: int = 1  # how many times the usual iterations a start gets before it is given up
 
     @classmethod
-    def of(cls, setup: Setup, *, problem: OutputError | None = None, jobs: int = 2) -> Search:
+    def of(cls, setup: Setup, *, problem: OutputError | None = None) -> Search:
         """The search of a prepared problem, or of `problem` in its place (other weights, other recordings)."""
-        return cls(problem=problem or setup.problem, nominal=setup.nominal, scales=setup.scales, jobs=jobs)
+        return cls(problem=problem or setup.problem, nominal=setup.nominal, scales=setup.scales)
 
     def fit_nominal(self) -> Fitted:
         """The nominal structure alone."""
@@ -109,7 +108,7 @@ class Search:
         That is for periodic effects, each order by itself, and where a contact makes the error rough.
         """
         astray = [r for r in racers if _misleads(r)]
-        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray, jobs=self.jobs)
+        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray)
         groups: dict[tuple[str, float], list[tuple[float, int]]] = {}
         for k, (racer, cost) in enumerate(zip(astray, ends, strict=True)):
             groups.setdefault(_kind(racer), []).append((cost, k))
@@ -140,7 +139,7 @@ class Search:
         """Some iterations of every racer; each row starts the next leg where this one ended."""
         on = problem or self.problem
         ends = side_by_side(
-            lambda r: fit(on, r.candidate, max_iterations=iterations, tolerance=RESOLUTION), racers, jobs=self.jobs
+            lambda r: fit(on, r.candidate, max_iterations=iterations, tolerance=RESOLUTION), racers
         )
         return [
             (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
@@ -154,7 +153,7 @@ class Search:
             racer, m = row
             return settled(problem, racer.candidate, m, turns=1) if m.cost < SLIGHT * base_cost else m
 
-        ends = side_by_side(near, rows, jobs=self.jobs)
+        ends = side_by_side(near, rows)
         return [
             (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
             for (racer, _), m in zip(rows, ends, strict=True)
@@ -173,7 +172,7 @@ class Search:
             hopeless = bool(this.added) and this.cost > bar
             return self.refit(this, self.problem, iterations=IN_PASSING if hopeless else 60)
 
-        return side_by_side(again, these, jobs=self.jobs)
+        return side_by_side(again, these)
 
     def _starts(self, base: Fitted, name: str, *, orders: int) -> list[Racer]:
         effect = self.nominal.table[name]

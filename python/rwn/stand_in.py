@@ -70,19 +70,19 @@ class StandIn:
         return self.chosen.fitted.cost
 
 
-def stand_in(found: Explanation, model: Model, *, at: Place | None = None, jobs: int = 1) -> StandIn | None:
+def stand_in(found: Explanation, model: Model, *, at: Place | None = None) -> StandIn | None:
     """The network that explains most; None where none explains enough. `at`: this place and no other."""
     parts = -(-MANY // PART)
     if not has_room(model, parts):
         return None
     tried = [at] if at else places(found.setup, model)
     part = replace(found, setup=replace(found.setup, problem=Search.of(found.setup).look(found.nominal)))
-    heats = side_by_side(lambda place: _fit(part, model, place, FEW, 5), tried, jobs=jobs)
+    heats = side_by_side(lambda place: _fit(part, model, place, FEW, 5), tried)
     for on, count, kept in ((part, FEW, 2), (found, MANY, 1)):
         best_first = sorted(heats, key=lambda heat: heat.fitted.cost)
-        heats = side_by_side(partial(_grown, on, model, count), best_first[:kept], jobs=jobs)
+        heats = side_by_side(partial(_grown, on, model, count), best_first[:kept])
     whole, apart = side_by_side(
-        lambda orthogonal: _kept(found, model, heats[0], orthogonal=orthogonal), (False, True), jobs=jobs
+        lambda orthogonal: _kept(found, model, heats[0], orthogonal=orthogonal), (False, True)
     )
     best = apart if apart.cost <= FREE * whole.cost else whole
     return best if best.cost < WORTH * found.nominal.cost else None
@@ -96,10 +96,10 @@ def has_room(model: Model, parts: int, *, beside: int = 0) -> bool:
 
 
 def proved_stand_in(
-    found: Explanation, model: Model, heldout: Sequence[Target], *, seed: int, jobs: int = 1
+    found: Explanation, model: Model, heldout: Sequence[Target], *, seed: int
 ) -> tuple[StandIn, tuple[HeldoutRow, ...]] | None:
     """The network with its proof; None where there is none that helps on recordings that it was not fitted to."""
-    made = stand_in(found, model, jobs=jobs)
+    made = stand_in(found, model)
     if made is None:
         return None
 
@@ -107,7 +107,7 @@ def proved_stand_in(
         other = _refitted_to(problem, found, model, made.place)
         return (other.found, other.chosen.fitted) if other else None
 
-    rows = proved(made.found, made.chosen, heldout, made.model, seed=seed, again=again, jobs=jobs)
+    rows = proved(made.found, made.chosen, heldout, made.model, seed=seed, again=again)
     return (made, rows) if _helps(rows) else None
 
 

@@ -20,14 +20,14 @@ WRONG = 0.01  # relative error of a gear ratio, from which what is beneath it is
 
 
 def explained(
-    recordings: Sequence[Recording], model: Model, *, jobs: int, say: Progress
+    recordings: Sequence[Recording], model: Model, *, say: Progress
 ) -> tuple[list[Mistake], Explanation]:
     """Mistakes of the recordings, and what explains these when they are undone."""
 
     def explanation(
         of: Sequence[Recording], at_once: int = MOST_EFFECTS, names: Sequence[str] | None = None
     ) -> Explanation:
-        return explain(prepare(of, model), jobs=jobs, progress=say, at_once=at_once, names=names)
+        return explain(prepare(of, model), progress=say, at_once=at_once, names=names)
 
     if model.kind == "lti":  # its gain is in no unit that could be doubted
         return [], explanation(recordings)
