@@ -45,6 +45,7 @@ class Explanation:
     before: Statistics  # residual of the refitted nominal
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     strained: tuple[Fitted, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
+    complete: bool = True  # more effects at once would not have been tried either, had they been allowed
 
     @property
     def nothing_missing(self) -> Hypothesis:
@@ -81,18 +82,21 @@ def explain(
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
     layer = _varied(fits)
+    complete = left.at_the_floor or not layer
     for size in range(2, at_once + 1):
-        if left.at_the_floor or not layer:
+        if complete:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
         more = _distinct(_beside(search, layer, wanted, fits))
         gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
-        if gained < WORTH * left.variance:
+        complete = gained < WORTH * left.variance
+        if complete:
             break
         fits += more
         best = min(fits, key=lambda f: f.cost)
         left = evidence.statistics(search.problem, best)
         layer = sorted(more, key=lambda f: f.cost)[:2]
+        complete = left.at_the_floor
     search, nominal, fits = _settled(search, nominal, fits, setup)
     fits = _with_simpler(search, nominal, fits)
     strained = [f for f in fits if f.limits_met]
@@ -107,6 +111,7 @@ def explain(
         left=left,
         before=before,
         speed_steps=steps_shown(search.problem, setup.problem, best),
+        complete=complete or at_once >= MOST_EFFECTS,
         strained=tuple(f for f in strained if f.cost < best.cost),
     )
 

@@ -15,7 +15,7 @@ from rwn import hints
 from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
 from rwn.effects import Effect
 from rwn.fitted import Fitted
-from rwn.least_squares import Minimum
+from rwn.least_squares import FitStatus, Minimum
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
 from rwn.rough import rough, settled
@@ -81,7 +81,7 @@ class Search:
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience, problem=look)
         start = base.cost if look is self.problem else self.refit(base, look).cost
         rows = _promising(_best_of_each(rows, keep), start)
-        finals = self._race([racer for racer, _ in self._over_rough(rows, look, start)], iterations=60)
+        finals = self._to_the_end([racer for racer, _ in self._over_rough(rows, look, start)])
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
             for racer, m in sorted(finals, key=lambda row: row[1].cost)
@@ -145,6 +145,15 @@ class Search:
             (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
             for racer, m in zip(racers, ends, strict=True)
         ]
+
+    def _to_the_end(self, racers: Sequence[Racer]) -> list[Row]:
+        """Every racer fitted until it converges, the hopeless ones by a few iterations."""
+        rows = self._race(racers, iterations=IN_PASSING)
+        bar = HOPELESS * min((m.cost for _, m in rows), default=np.inf)
+        under_way = [k for k, (_, m) in enumerate(rows) if m.status is FitStatus.ITERATION_LIMIT and m.cost < bar]
+        ends = self._race([rows[k][0] for k in under_way], iterations=60)
+        further = dict(zip(under_way, ends, strict=True))
+        return [further.get(k, row) for k, row in enumerate(rows)]
 
     def _over_rough(self, rows: Sequence[Row], problem: OutputError, base_cost: float) -> list[Row]:
         """Starts whose error is rough and that have gained something, brought near before they are fitted."""

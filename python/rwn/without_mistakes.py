@@ -35,9 +35,10 @@ def explained(
     made, right = _scaled(recordings, model)
     doubt = suspected(right, model)
     say("refitting the nominal model", 0.05)
-    if doubt and (mistake := _settled(doubt, right, model, explanation)):
+    mistake, found = _settled(doubt, right, model, explanation) if doubt else (None, None)
+    if mistake:
         made, right = [*made, mistake], without(right, mistake)
-    found = explanation(right)
+    found = found or explanation(right)
     gear = next((m for m in made if m.name == GEAR), None)
     return _geared(gear, made, recordings, model, found, explanation) if gear else (made, found)
 
@@ -56,20 +57,29 @@ def _geared(
     return [*others, fitted], explanation(without(recordings, fitted), MOST_EFFECTS, None)
 
 
-def _settled(doubt: Suspicion, right: Sequence[Recording], model: Model, explanation: Explain) -> Mistake | None:
-    """The suspected mistake if it explains more, alone or beside one effect, than as many effects do by themselves."""
+def _settled(
+    doubt: Suspicion, right: Sequence[Recording], model: Model, explanation: Explain
+) -> tuple[Mistake | None, Explanation | None]:
+    """The suspected mistake if it explains more, alone or beside one effect, than as many effects do by themselves.
+
+    If it does not, what explains the recordings as they are, where one effect is found to do.
+    """
     mistake, left, beneath = doubt.mistake, doubt.after, None
+    alone = explanation(right, 1, None)
+    physics = unexplained(doubt, alone)
+    nothing = None, alone if alone.complete else None
+    if physics <= LITTLE:
+        return nothing
     if left > LITTLE:
         beneath = explanation(without(right, mistake), 1, None)
         mistake, left = sharpened(doubt, right, model, beneath)
-    alone = explanation(right, 1, None)
-    if not believed(doubt, left=left, physics=unexplained(doubt, alone)):
-        return None
+    if not believed(doubt, left=left, physics=physics):
+        return nothing
     if beneath and left > CLEAR * doubt.before:
         pairs = explanation(right, 2, rivals(alone, beneath))
         if not believed(doubt, left=left, physics=unexplained(doubt, pairs)):
-            return None
-    return mistake
+            return nothing
+    return mistake, None
 
 
 def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
