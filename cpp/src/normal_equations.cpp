@@ -1,26 +1,34 @@
 #include "rwn/normal_equations.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
+
+#include "rwn/aligned.hpp"
+#include "rwn/isa.hpp"
+#include "rwn/kernels/normal_equations.hpp"
 
 namespace rwn {
+
+namespace baseline {
+void accumulate(NormalSlice& slice);
+}
+#ifdef RWN_X86
+namespace avx2 {
+void accumulate(NormalSlice& slice);
+}
+namespace avx512 {
+void accumulate(NormalSlice& slice);
+}
+#endif
+
 namespace {
 
-void accumulate(NormalEquations& sum, std::span<const double> measured, std::span<const double> simulated,
-                std::span<const double> slopes, double weight, std::size_t p) {
-  for (std::size_t k = 0; k < measured.size(); ++k) {
-    const double error = weight * (measured[k] - simulated[k]);
-    if (std::isnan(error)) continue;
-    sum.chi2 += error * error;
-    ++sum.count;
-    const double* row = slopes.data() + k * p;
-    for (std::size_t i = 0; i < p; ++i) {
-      const double slope = weight * row[i];
-      sum.gradient[i] += slope * error;
-      double* out = sum.curvature.data() + i * p;
-      for (std::size_t j = 0; j <= i; ++j) out[j] += slope * weight * row[j];
-    }
-  }
+void accumulate(NormalSlice& slice) {
+#ifdef RWN_X86
+  if (isa() == Isa::avx512) return avx512::accumulate(slice);
+  if (isa() == Isa::avx2) return avx2::accumulate(slice);
+#endif
+  return baseline::accumulate(slice);
 }
 
 }  // namespace
@@ -56,11 +64,32 @@ NormalEquations normal_equations(const SimulationTask& task, const Measurements&
     central_difference(task.time, position, speed, 1);
     central_difference(task.time, d_position, d_speed, p);
   }
-  accumulate(sum, measured.current, current, d_current, measured.current_weight, p);
-  accumulate(sum, measured.speed, speed, d_speed, measured.speed_weight, p);
-  accumulate(sum, measured.position, position, d_position, measured.position_weight, p);
+  const int columns = static_cast<int>(p), stride = padded(columns);
+  const auto row = static_cast<std::size_t>(stride);
+  AlignedVector block(NormalSlice::block * row), lower(p * row);
+  const auto add = [&](std::span<const double> recorded, const std::vector<double>& simulated,
+                       const std::vector<double>& slopes, double weight) {
+    NormalSlice slice{.measured = recorded.data(),
+                      .simulated = simulated.data(),
+                      .slopes = slopes.data(),
+                      .rows = static_cast<int>(recorded.size()),
+                      .columns = columns,
+                      .weight = weight,
+                      .stride = stride,
+                      .room = block.data(),
+                      .gradient = sum.gradient.data(),
+                      .curvature = lower.data(),
+                      .chi2 = 0.0,
+                      .count = 0};
+    accumulate(slice);
+    sum.chi2 += slice.chi2;
+    sum.count += slice.count;
+  };
+  add(measured.current, current, d_current, measured.current_weight);
+  add(measured.speed, speed, d_speed, measured.speed_weight);
+  add(measured.position, position, d_position, measured.position_weight);
   for (std::size_t i = 0; i < p; ++i) {
-    for (std::size_t j = i + 1; j < p; ++j) sum.curvature[i * p + j] = sum.curvature[j * p + i];
+    for (std::size_t j = 0; j <= i; ++j) sum.curvature[i * p + j] = sum.curvature[j * p + i] = lower[i * row + j];
   }
   return sum;
 }
