@@ -6,7 +6,7 @@ passed through that filter, so the residual is never differentiated.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +16,7 @@ from rwn import _core
 from rwn.effects import motor_index
 from rwn.locate import unknown_inputs
 from rwn.output_error import OutputError, Target
-from rwn.prepare import motion
+from rwn.prepare import integral, motion
 
 Array = NDArray[np.float64]
 
@@ -34,13 +34,11 @@ def drive_filter(problem: OutputError, motor: Array, step: float) -> tuple[float
 
 def along_the_shaft(problem: OutputError, vector: Array, active: Sequence[int]) -> OutputError:
     """`problem` with the angles that effects act along: without what a simulated sensor adds to the speed."""
-    from scipy.integrate import cumulative_trapezoid  # late: the command line starts without it
-
     targets = []
     for target in problem.targets:
         if target.follows and target.angle_from_speed and target.speed.size:
             run = problem.simulate(target, vector, active).signals
-            shown = cumulative_trapezoid(run["speed"], target.time, initial=0.0)
+            shown = integral(target.time, run["speed"])
             angle = target.angle - (shown - (run["position"] - run["position"][0]))
             target = replace(target, angle=angle, angle_from_speed=False)
         targets.append(target)
@@ -55,33 +53,30 @@ def angle_spectrum(
     *,
     with_current: bool = False,
 ) -> Array:
-    """Share of the speed residual's energy that a torque cos(N theta), sin(N theta) explains, per order N.
+    """Share of the speed residual's energy that a torque cos(N theta), sin(N theta) explains, per order N (m,).
 
     `with_current`: the torque is proportional to the driving current as well (a ripple of Kt).
     """
     from scipy.signal import lfilter  # late: the command line starts without it
 
-    explained, energy = np.zeros(orders.size), 1e-300
-    grams = np.zeros((orders.size, 2, 2))
-    loads = np.zeros((orders.size, 2))
+    energy = 1e-300
+    grams, loads = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2))
     for target, residual in zip(problem.targets, residuals, strict=True):
         if "speed" not in residual or not target.angle.size:
             continue
         angle = problem.angle_per_position * target.angle
         r = residual["speed"]
-        drive = current_of(problem, motor, target) if with_current else np.ones(r.size)
+        drive = current_of(problem, motor, target) if with_current else 1.0
+        r = r - r.mean()
         a, b = drive_filter(problem, motor, float(np.median(np.diff(target.time))))
-        for k, order in enumerate(orders):
-            pair = np.stack([np.cos(order * angle), np.sin(order * angle)]) * drive
-            answer = lfilter([0.0, b], [1.0, -a], pair, axis=1)
-            answer -= answer.mean(axis=1, keepdims=True)
-            grams[k] += answer @ answer.T
-            loads[k] += answer @ (r - r.mean())
-        energy += float(np.sum((r - r.mean()) ** 2))
-    for k in range(orders.size):
-        ridge = 1e-9 * np.trace(grams[k]) + 1e-300
-        explained[k] = loads[k] @ np.linalg.solve(grams[k] + ridge * np.eye(2), loads[k])
-    return explained / energy
+        for k, wave in enumerate(_waves(angle, orders)):
+            answer = lfilter([0.0, b], [1.0, -a], drive * wave)
+            answer -= answer.mean()
+            grams[k] += _gram(answer)
+            load = complex(answer @ r)
+            loads[k] += load.real, load.imag
+        energy += float(r @ r)
+    return _explained(grams, loads) / energy
 
 
 def flux_spectrum(problem: OutputError, motor: Array, orders: Array) -> Array:
@@ -98,14 +93,34 @@ def flux_spectrum(problem: OutputError, motor: Array, orders: Array) -> Array:
     voltage, linear, speed, angle = (np.concatenate(rows) for rows in zip(*parts, strict=True))
     basis, _ = np.linalg.qr(linear)
     left = _beside(basis, voltage)
-    shares = np.zeros(orders.size)
-    for k, order in enumerate(orders):
-        waves = np.exp(1j * order * angle) * speed
-        ripple = _beside(basis, np.stack([waves.real, waves.imag], axis=1))
-        load = ripple.T @ left
-        gram = ripple.T @ ripple
-        shares[k] = load @ np.linalg.solve(gram + (1e-9 * np.trace(gram) + 1e-300) * np.eye(2), load)
-    return shares / max(float(left @ left), 1e-300)
+    grams, loads = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2))
+    for k, wave in enumerate(_waves(angle, orders)):
+        ripple = _beside(basis, np.stack([wave.real, wave.imag], axis=1) * speed[:, None])
+        grams[k], loads[k] = ripple.T @ ripple, ripple.T @ left
+    return _explained(grams, loads) / max(float(left @ left), 1e-300)
+
+
+def _waves(angle: Array, orders: Array) -> Iterator[NDArray[np.complex128]]:
+    """exp(i N angle) of every order N; these are evenly spaced, so that each wave follows from the one before."""
+    wave = np.exp(1j * orders[0] * angle)
+    turn = np.exp(1j * (orders[1] - orders[0]) * angle) if orders.size > 1 else wave
+    for _ in orders:
+        yield wave
+        wave = wave * turn
+
+
+def _gram(wave: NDArray[np.complex128]) -> Array:
+    """Inner products of the real and the imaginary part."""
+    square, size = complex(wave @ wave), float(np.vdot(wave, wave).real)
+    return 0.5 * np.array([[size + square.real, square.imag], [square.imag, size - square.real]])
+
+
+def _explained(grams: Array, loads: Array) -> Array:
+    """Energy that pairs of regressors of these inner products (m, 2, 2) and (m, 2) explain, (m,)."""
+    ridge = 1e-9 * np.trace(grams, axis1=1, axis2=2) + 1e-300
+    amplitudes = np.linalg.solve(grams + ridge[:, None, None] * np.eye(2), loads[:, :, None])[:, :, 0]
+    found: Array = np.sum(loads * amplitudes, axis=1)
+    return found
 
 
 def _beside(basis: Array, x: Array) -> Array:
@@ -121,15 +136,12 @@ def torque_spectrum(problem: OutputError, vector: Array, active: Sequence[int], 
         lacking = _lacking_torque(problem, vector, active, target)
         lacking = lacking - lacking.mean()
         angle = problem.angle_per_position * target.angle
-        for k, order in enumerate(orders):
-            pair = np.stack([np.cos(order * angle), np.sin(order * angle)])
-            grams[k] += pair @ pair.T
-            loads[k] += pair @ lacking
+        for k, wave in enumerate(_waves(angle, orders)):
+            grams[k] += _gram(wave)
+            load = complex(wave @ lacking)
+            loads[k] += load.real, load.imag
         energy += float(lacking @ lacking)
-    grams += 1e-9 * np.trace(grams, axis1=1, axis2=2)[:, None, None] * np.eye(2) + 1e-300 * np.eye(2)
-    explained = np.einsum("ki,ki->k", loads, np.linalg.solve(grams, loads[:, :, None])[:, :, 0])
-    found: Array = explained / energy
-    return found
+    return _explained(grams, loads) / energy
 
 
 def _lacking_torque(problem: OutputError, vector: Array, active: Sequence[int], target: Target) -> Array:

@@ -114,7 +114,7 @@ def target(recording: Recording, model: Model) -> Target:
         speed_is_difference=model.kind != "lti" and counted(time, speed),
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
-        angle=position if position.size else _integral(time, speed),
+        angle=position if position.size else integral(time, speed),
         angle_from_speed=position.size == 0,
     )
 
@@ -186,7 +186,8 @@ def _start_speed(time: Array, speed: Array, position: Array) -> float:
     return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if position.size else 0.0
 
 
-def _integral(time: Array, speed: Array) -> Array:
+def integral(time: Array, speed: Array) -> Array:
+    """What a speed has turned since its first sample, by trapezia; (n,), empty where it was not recorded."""
     if not speed.size:
         return speed
     steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(time)

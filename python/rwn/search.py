@@ -71,12 +71,9 @@ class Search:
 
     def explain(self, base: Fitted, names: Iterable[str], *, keep: int = 2) -> list[Fitted]:
         """`base` with each of `names` added, fitted from several starts; best first."""
-        racers = [
-            racer
-            for name in names
-            if name not in base.candidate.effects and _has_room(base.candidate, name)
-            for racer in self._starts(base, name, orders=keep + 1)
-        ]
+        fitting = [n for n in names if n not in base.candidate.effects and _has_room(base.candidate, n)]
+        starts = side_by_side(lambda name: self._starts(base, name, orders=keep + 1), fitting)
+        racers = [racer for of_one in starts for racer in of_one]
         look = self.look(base)
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience, problem=look)
         start = base.cost if look is self.problem else self.refit(base, look).cost
