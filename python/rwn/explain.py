@@ -96,7 +96,7 @@ def explain(
         best = min(fits, key=lambda f: f.cost)
         left = evidence.statistics(search.problem, best)
         layer = sorted(more, key=lambda f: f.cost)[:2]
-        complete = left.at_the_floor
+        complete = _at_the_floor(search, best)
     search, nominal, fits = _settled(search, nominal, fits, setup)
     fits = _with_simpler(search, nominal, fits)
     strained = [f for f in fits if f.limits_met]
@@ -123,6 +123,15 @@ def _settled(
     search = replace(search, problem=as_shown(search.problem, setup.problem))
     tracked = retracked(*_reweighted(search, nominal, fits))
     return unrounded_fits(*polished(*tracked), setup.problem)
+
+
+def _at_the_floor(search: Search, best: Fitted) -> bool:
+    """Whether the best explanation leaves but noise, under the noise and the weight of priors that go with itself.
+
+    Those of the search go with what was best before it: under them a right pair is held off its minimum.
+    """
+    own = tempered(with_noise(search, best), best)
+    return any(evidence.statistics(s.problem, s.refit(best, s.problem)).at_the_floor for s in (search, own))
 
 
 def _far_off(search: Search, best: Fitted) -> bool:

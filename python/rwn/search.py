@@ -95,7 +95,7 @@ class Search:
         if not crowded:
             return list(racers)
         crowded = self._sighted(crowded, self.part(base, GLANCE))
-        part = self.part(base, GLANCE) if base.added else self.look(base)
+        part = self.part(base, GLANCE) if base.added or self.patience > 1 else self.look(base)
         rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
         return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
 
