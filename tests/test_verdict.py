@@ -61,9 +61,24 @@ def test_plain_friction_where_its_elaboration_is_finer_than_the_simulation(found
 def test_what_is_gained_below_the_noise_is_no_gain(found: Explanation, monkeypatch: pytest.MonkeyPatch) -> None:
     errors = {(): {"speed": 1.04, "position": 0.9}, ("coulomb-friction",): {"speed": 1.04, "position": 0.3}}
     monkeypatch.setattr(verdict, "_variances", lambda _, h: errors.get(h.fitted.added, errors[()]))
+    monkeypatch.setattr(verdict, "farthest", lambda _: 1.0)
     assert verdict.choose(found).fitted.added == ()
     errors[()]["speed"] = 1.5
     assert verdict.choose(found).fitted.added == ("coulomb-friction",)
+
+
+@pytest.mark.parametrize(
+    ("without", "with_it", "named"),
+    [(12.0, 1.0, "coulomb-friction"), (3.0, 1.0, None), (12.0, 6.0, None)],
+)
+def test_a_nominal_model_that_fits_as_well_beyond_belief_is_not_adequate(
+    found: Explanation, monkeypatch: pytest.MonkeyPatch, without: float, with_it: float, named: str | None
+) -> None:
+    monkeypatch.setattr(verdict, "_variances", lambda *_: {"speed": 1.0})
+    monkeypatch.setattr(verdict, "farthest", lambda f: with_it if f.added else without)
+    chosen = verdict.choose(found)
+    assert chosen.fitted.added == ((named,) if named else ())
+    assert verdict.rests_on_what_was_declared(found, chosen) == bool(named)
 
 
 def test_no_position_is_better_known_than_the_clock() -> None:

@@ -24,9 +24,10 @@ from rwn.model import Model
 from rwn.prepare import proof_target
 from rwn.proof import LEFT_OUT
 from rwn.recording import Recording
+from rwn.temper import farthest
 from rwn.threads import crew
 from rwn.unknown_law import laws
-from rwn.verdict import is_certain, whole
+from rwn.verdict import is_certain, rests_on_what_was_declared, whole
 from rwn.without_mistakes import explained
 
 QUANTISATION = "sensor-quantization"
@@ -182,6 +183,11 @@ def _warnings(
         texts.append(
             f"something smaller is left over: the residual of the corrected model is coloured "
             f"({found.left.effective:.0f} independent samples of {found.left.count})"
+        )
+    if rests_on_what_was_declared(found, chosen):
+        texts.append(
+            "without it the nominal model fits as well, "
+            f"{farthest(found.nothing_missing.fitted):.0f} declared uncertainties off: the name rests on these"
         )
     for f in found.strained[:1]:
         texts.append(

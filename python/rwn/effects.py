@@ -53,6 +53,11 @@ class Effect:
     states: int = 0  # differential states of its own, for which there is room once
     own: bool = False  # defined by the user
 
+    @property
+    def at_an_end(self) -> bool:
+        """Whether it belongs to what drives or what is read, not to the motor."""
+        return self.site in ("actuator", "sensor")
+
     def at(self, parameter: str) -> int:
         """Position of one of its parameters in the parameter vector."""
         return self.first + [p.name for p in self.parameters].index(parameter)

@@ -174,7 +174,7 @@ def _applies(name: str, setup: Setup) -> bool:
     axis = setup.problem.kind == "axis"
     if axis and effect.site in ("voltage", "flux"):
         return False
-    if setup.problem.kind == "lti" and effect.site not in ("actuator", "sensor"):
+    if setup.problem.kind == "lti" and not effect.at_an_end:
         return False
     if name == "sensor-rectification" and not _may_be_rectified(setup):
         return False

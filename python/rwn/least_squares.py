@@ -66,6 +66,7 @@ class Minimum:
     values: Array  # (p)
     chi2: float  # sum of squared weighted errors, priors aside
     cost: float  # chi2 and priors
+    first: float  # the same at the start
     information: (
         Array  # (p, p) J'J and priors by value: the inverse covariance for white residuals of variance 1
     )
@@ -152,7 +153,8 @@ def minimise(
     z = np.clip(z, search.lower, search.upper)
     cost, gradient, curvature, normal = search.at(z)
     if not np.isfinite(cost):
-        return _minimum(search, z, normal, cost, FitStatus.DIVERGED, 0)
+        return _minimum(search, z, normal, cost, cost, FitStatus.DIVERGED, 0)
+    first = cost
     growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
     for count in range(1, max_iterations + 1):  # noqa: B007 - reported
         step = _step(search, z, gradient, curvature, damping)
@@ -179,7 +181,7 @@ def minimise(
             if misses > 8:
                 status = FitStatus.STALLED
                 break
-    return _minimum(search, z, normal, cost, status, count)
+    return _minimum(search, z, normal, cost, first, status, count)
 
 
 def _size(normal: Normal) -> int:
@@ -215,12 +217,13 @@ def _reach(search: _Search) -> Array:
 
 
 def _minimum(
-    search: _Search, z: Array, normal: Normal, cost: float, status: FitStatus, count: int
+    search: _Search, z: Array, normal: Normal, cost: float, first: float, status: FitStatus, count: int
 ) -> Minimum:
     return Minimum(
         values=search.values(z),
         chi2=normal.chi2,
         cost=cost,
+        first=first,
         information=search.information(z, normal),
         data_information=normal.curvature,
         status=status,

@@ -76,7 +76,7 @@ def rivals(alone: Explanation, beneath: Explanation) -> list[str]:
 
     They are those of the drive's ends, which delay and scale, and the first ones with the mistake and without.
     """
-    ends = [name for name, effect in alone.setup.nominal.table.items() if effect.site in ("actuator", "sensor")]
+    ends = [name for name, effect in alone.setup.nominal.table.items() if effect.at_an_end]
     first = [name for of in (alone, beneath) for h in of.hypotheses[:FIRST] for name in h.fitted.added]
     return list(dict.fromkeys([*ends, *first]))
 

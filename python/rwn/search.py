@@ -26,14 +26,20 @@ Start = Mapping[str, float]
 
 
 class Racer(NamedTuple):
-    """A start of one effect; starts of different spatial frequencies do not compete before they are fitted."""
+    """A start of one effect; starts of different kinds (all but the candidate) do not compete before they are fitted.
+
+    Those of a drive's ends compete with the same first guess of the motor: a lag and a time constant of the motor that
+    have changed places fit nearly as well, and lie next to a motor that the missing lag has bent.
+    """
 
     name: str
     order: float  # periods per revolution; 0: not periodic
+    begin: int  # 0 from the motor as the base has it, 1 from any other
     candidate: Candidate
 
 
 Row = tuple[Racer, Minimum]
+Kind = tuple[str, float, int]
 
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
@@ -41,6 +47,7 @@ KEPT = 12  # explanations that are worth fitting again
 HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
 SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
 IN_PASSING = 6  # iterations for that
+STEEP = 0.5  # share of its first cost that a fit may have left after these, to go on whatever the others have
 GLANCE, LOOK = 2500, 9000  # samples on which starts of one effect are told apart, beside others and alone
 SIGHTED = 4  # starts that are worth an iteration where many are looked at
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
@@ -86,7 +93,7 @@ class Search:
         return list({f.added: f for f in reversed(found)}.values())[::-1]
 
     def _glance(self, base: Fitted, racers: Sequence[Racer], keep: int) -> list[Racer]:
-        """At most `keep` starts of each effect: those that an iteration brings furthest.
+        """At most `keep` starts of each kind: those that an iteration brings furthest.
 
         A part of the recordings has to do; alone a longer one, since a soft bristle is lost on a short one.
         """
@@ -106,7 +113,7 @@ class Search:
         """
         astray = [r for r in racers if _misleads(r)]
         ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray)
-        groups: dict[tuple[str, float], list[tuple[float, int]]] = {}
+        groups: dict[Kind, list[tuple[float, int]]] = {}
         for k, (racer, cost) in enumerate(zip(astray, ends, strict=True)):
             groups.setdefault(_kind(racer), []).append((cost, k))
         best = {k for group in groups.values() for _, k in sorted(group)[:SIGHTED]}
@@ -144,10 +151,11 @@ class Search:
         ]
 
     def _to_the_end(self, racers: Sequence[Racer]) -> list[Row]:
-        """Every racer fitted until it converges, the hopeless ones by a few iterations."""
+        """Every racer fitted until it converges, those that are hopeless and gain little by a few iterations."""
         rows = self._race(racers, iterations=IN_PASSING)
         bar = HOPELESS * min((m.cost for _, m in rows), default=np.inf)
-        under_way = [k for k, (_, m) in enumerate(rows) if m.status is FitStatus.ITERATION_LIMIT and m.cost < bar]
+        going = [m.status is FitStatus.ITERATION_LIMIT and m.cost < max(bar, STEEP * m.first) for _, m in rows]
+        under_way = [k for k, goes_on in enumerate(going) if goes_on]
         ends = self._race([rows[k][0] for k in under_way], iterations=60)
         further = dict(zip(under_way, ends, strict=True))
         return [further.get(k, row) for k, row in enumerate(rows)]
@@ -188,10 +196,11 @@ class Search:
             Racer(
                 name,
                 start.get(periodic, 0.0),
+                min(k, 1) if effect.at_an_end else 0,
                 candidate(self.nominal, (*base.added, name), self.scales, {**known, name: start}, begin),
             )
             for start in self._guesses(base, effect, orders)
-            for begin in (base.motor, *(({},) if _bent(base) else ()), *self.nominal.starts)
+            for k, begin in enumerate((base.motor, *(({},) if _bent(base) else ()), *self.nominal.starts))
         ]
 
     def _guesses(self, base: Fitted, effect: Effect, orders: int) -> list[Start]:
@@ -247,13 +256,13 @@ def _misleads(racer: Racer) -> bool:
     return bool(racer.order or rough(racer.candidate, racer.name))
 
 
-def _kind(racer: Racer) -> tuple[str, float]:
-    return racer.name, racer.order
+def _kind(racer: Racer) -> Kind:
+    return racer.name, racer.order, racer.begin
 
 
 def _best_of_each(rows: Sequence[Row], keep: int) -> list[Row]:
-    """The `keep` best starts of each effect, of a periodic one the best of each order."""
-    groups: dict[tuple[str, float], list[Row]] = {}
+    """The `keep` best starts of each kind, of a periodic effect the best of each order."""
+    groups: dict[Kind, list[Row]] = {}
     for row in rows:
         groups.setdefault(_kind(row[0]), []).append(row)
     ranked = [sorted(group, key=lambda row: row[1].cost) for group in groups.values()]

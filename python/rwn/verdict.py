@@ -17,6 +17,7 @@ from rwn.explain import Explanation, plainer
 from rwn.proof import LEFT_OUT, hurts
 from rwn.refuse import PROVED, removed_certainly
 from rwn.rough import rough
+from rwn.temper import BELIEVABLE, farthest
 
 REMOVED = 0.99  # share of the removable squared error that a name has to remove where more than noise is left
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
@@ -31,7 +32,7 @@ MATERIAL = 0.015  # smallest relative gain in squared error that is called physi
 
 def choose(found: Explanation) -> Hypothesis:
     """The most probable explanation, with plain friction where its elaboration is hardly more so or fits no better;
-    nothing where the gain is not material."""
+    nothing where the gain is not material and the nominal model fits as well within what was declared of it."""
     first = found.hypotheses[0]
     missing, left = found.nothing_missing.fitted.minimum.chi2, first.fitted.minimum.chi2
     plain = [h for h in found.hypotheses if set(h.fitted.added) == plainer(first.fitted.added)]
@@ -40,8 +41,22 @@ def choose(found: Explanation) -> Hypothesis:
         plain[0].probability > first.probability / ELABORATE or plain[0].fitted.minimum.chi2 - left < inexact
     ):
         first = plain[0]
-    gain = 1.0 - _above_noise(found, first) / _above_noise(found, found.nothing_missing)
-    return found.nothing_missing if gain < MATERIAL else first
+    return first if _is_material(found, first) or beyond_belief(found, first) else found.nothing_missing
+
+
+def _is_material(found: Explanation, h: Hypothesis) -> bool:
+    """Whether the recordings alone, whatever was declared, are explained better."""
+    return 1.0 - _above_noise(found, h) / _above_noise(found, found.nothing_missing) >= MATERIAL
+
+
+def beyond_belief(found: Explanation, h: Hypothesis) -> bool:
+    """Whether without `h` the nominal model has to leave what was declared of it, and with it has not."""
+    return farthest(h.fitted) <= BELIEVABLE < farthest(found.nothing_missing.fitted)
+
+
+def rests_on_what_was_declared(found: Explanation, h: Hypothesis) -> bool:
+    """Whether the nominal model would explain the recordings as well, had nothing been declared of it."""
+    return bool(h.fitted.added) and not _is_material(found, h)
 
 
 def verdict_of(found: Explanation, chosen: Hypothesis, *, certain: bool = False) -> Verdict:
