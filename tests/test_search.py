@@ -1,0 +1,85 @@
+"""Which starts of a search are followed, and how far."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.explain import explain
+from rwn.least_squares import FitStatus
+from rwn.model import Model
+from rwn.prepare import Setup, prepare
+from rwn.search import Racer, Row, Search
+
+TRUE = {
+    "resistance": 0.84, "inductance": 1e-4, "torque_constant": 0.116, "back_emf_constant": 0.116, "inertia": 3.84e-4,
+    "viscous_friction": 6e-5, "coulomb_friction": 0.02,
+}  # fmt: skip
+SHEET = {
+    **TRUE, "resistance": 0.69, "torque_constant": 0.118, "back_emf_constant": 0.118, "inertia": 4.1e-4,
+    "viscous_friction": 1.7e-4, "coulomb_friction": 0.018,
+}  # fmt: skip
+UNCERTAIN = {
+    "resistance": 0.2, "torque_constant": 0.06, "back_emf_constant": 0.06, "inertia": 0.34, "viscous_friction": 0.8,
+    "coulomb_friction": 0.46,
+}  # fmt: skip
+LAG = 0.0124  # half of the motor's own 24 ms
+
+
+@pytest.fixture(scope="module")
+def lagging() -> Setup:
+    """Voltage, and a speed that lags: as far as dry friction lets it, lag and time constant may change places."""
+    time, rng = 1e-3 * np.arange(4400.0), np.random.default_rng(9)
+    steps = np.repeat(rng.uniform(-20.0, 20.0, 22), 200)
+    runs = []
+    for name, voltage in (("steps", steps), ("sweep", 18.0 * np.sin(2.0 * np.pi * (0.3 + 0.2 * time) * time))):
+        run = rwn.Recording(name=name, time=time, signals={"voltage": voltage})
+        plant = Model(kind="dc", parameters=TRUE, effects={"speed-sensor-lag": {"time_constant": LAG}})
+        seen = rwn.simulate(plant, run)
+        speed = seen.signals["speed"] + 0.08 * rng.standard_normal(time.size)
+        runs.append(rwn.Recording(name=name, time=time, signals={"voltage": voltage, "speed": speed}))
+    return prepare(runs, Model(kind="dc", parameters=SHEET, uncertainty=UNCERTAIN))
+
+
+def test_a_lag_that_has_changed_places_with_the_motor_is_found_in_its_own(lagging: Setup) -> None:
+    found = explain(lagging, progress=lambda *_: None, names=["speed-sensor-lag", "input-delay", "actuator-deadzone"])
+    best = found.hypotheses[0].fitted
+    assert best.added == ("speed-sensor-lag",)
+    assert best.values_of("speed-sensor-lag")["time_constant"] == pytest.approx(LAG, rel=0.01)
+    assert found.left.at_the_floor
+
+
+def test_starts_of_a_drives_end_compete_per_first_guess_of_the_motor(lagging: Setup) -> None:
+    search = Search.of(lagging)
+    bent = search.fit_nominal()
+    kinds = {name: {r.begin for r in search._starts(bent, name, orders=3)} for name in ("speed-sensor-lag", "backlash")}
+    assert kinds == {"speed-sensor-lag": {0, 1}, "backlash": {0}}
+
+
+@pytest.mark.parametrize(
+    ("first", "cost", "goes_on"),
+    [(100.0, 30.0, True), (100.0, 90.0, False), (1000.0, 400.0, True)],
+    ids=["near the best", "hopeless", "hopeless as yet, and falling"],
+)
+def test_a_race_goes_on_with_what_may_still_win(
+    lagging: Setup, monkeypatch: pytest.MonkeyPatch, first: float, cost: float, goes_on: bool
+) -> None:
+    search = Search.of(lagging)
+    fitted = search.fit_nominal()
+    best, other = (Racer(name, 0.0, 0, fitted.candidate) for name in ("best", "other"))
+    limit = replace(fitted.minimum, status=FitStatus.ITERATION_LIMIT)
+    legs: list[list[str]] = []
+
+    def race(_: Search, racers: Sequence[Racer], **__: int) -> list[Row]:
+        legs.append([r.name for r in racers])
+        if len(legs) > 1:
+            return [(r, fitted.minimum) for r in racers]
+        return [(best, replace(fitted.minimum, cost=10.0, first=20.0)), (other, replace(limit, cost=cost, first=first))]
+
+    monkeypatch.setattr(Search, "_race", race)
+    search._to_the_end([best, other])
+    assert legs == [["best", "other"], ["other"] if goes_on else []]
