@@ -116,7 +116,7 @@ class Equations {
   Vector nonlinear(const Moving& s, const S* memory, const S& start, int level, Terms<S>& t) const {
     put_terms(t, s, memory, start);
     Vector f;
-    if (!winds_ && value_of(t.inertia) == 0.0) {  // torques alone are added
+    if (!winds_ && value_of(t.inertia) == 0.0 && value_of(t.inertia_slope) == 0.0) {  // torques alone are added
       if constexpr (kind == Kind::dc) f[0] = input_ * inverse_inductance_;
       if (s.direction == 0.0 && dry_) return f;
       S torque = t.torque;
