@@ -13,11 +13,12 @@ import pytest
 import rwn
 from rwn import evidence, hints
 from rwn.candidate import Candidate, candidate, fit
-from rwn.explain import _no_window, _varied, _with_simpler, explain
+from rwn.explain import _no_window, _varied, explain
 from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.prepare import Setup, prepare
 from rwn.search import Search
+from rwn.simpler import with_simpler
 from rwn.temper import tempered
 
 DEMO = Path(rwn.__file__).parent / "demo"
@@ -213,9 +214,9 @@ def test_simpler_explanations_are_sought_until_none_is_better(monkeypatch: pytes
         return SimpleNamespace(added=added, cost=cost)
 
     simpler = {3: [ended(9.9, "constant-load", "load-disturbance")], 2: [ended(9.95, "load-disturbance")]}
-    monkeypatch.setattr("rwn.explain._simpler", lambda _, best: simpler[len(best.added)])
+    monkeypatch.setattr("rwn.simpler._simpler", lambda _, best: simpler[len(best.added)])
     three = ended(10.0, "constant-load", "load-disturbance", "backlash")
-    found = _with_simpler(cast(Any, None), cast(Any, ended(99.0)), cast(Any, [three]))
+    found = with_simpler(cast(Any, None), cast(Any, ended(99.0)), cast(Any, [three]))
     assert [f.added for f in found] == [
         ("constant-load", "load-disturbance"), ("load-disturbance",), ("constant-load", "load-disturbance", "backlash")
     ]  # fmt: skip

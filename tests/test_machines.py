@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from rwn.cli import app
-from rwn.diagnosis import Diagnosis, FoundEffect
+from rwn.diagnosis import BELIEVABLE, Diagnosis, FoundEffect
 from rwn.errors import InputError
 from rwn.explain import explain
 from rwn.machines import ced, emps, fra233, frc, odrive, xl330
@@ -20,7 +20,7 @@ from rwn.machines.runner import run_machines
 from rwn.machines.table import markdown
 from rwn.prepare import prepare
 from rwn.recording import read_recording
-from rwn.temper import BELIEVABLE, farthest
+from rwn.temper import farthest
 
 
 def silent(text: str) -> None:

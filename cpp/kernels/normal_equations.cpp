@@ -3,15 +3,10 @@
 
 #include <cmath>
 
-#include "rwn/vectors.hpp"
+#include "pack.hpp"
 
 namespace rwn::RWN_ISA {
 namespace {
-
-constexpr int width = RWN_VECTOR_WIDTH;
-using Vector [[gnu::vector_size(width * sizeof(double))]] = double;
-
-const Vector* vectors(const double* x) { return reinterpret_cast<const Vector*>(x); }
 
 /// Adds the samples in `room`, whose errors are `error`.
 void add(NormalSlice& s, const double* error) {
@@ -19,10 +14,10 @@ void add(NormalSlice& s, const double* error) {
   for (int i = 0; i < s.columns; ++i) {
     double* sums = s.curvature + i * s.stride;
     for (int r = 0; r < block; ++r) s.gradient[i] += s.room[r * s.stride + i] * error[r];
-    for (int v = 0; v <= i / width; ++v) {
-      Vector sum = vectors(sums)[v];
-      for (int r = 0; r < block; ++r) sum += s.room[r * s.stride + i] * vectors(s.room + r * s.stride)[v];
-      reinterpret_cast<Vector*>(sums)[v] = sum;
+    for (int j = 0; j <= i; j += width) {
+      Pack sum = load(sums + j);
+      for (int r = 0; r < block; ++r) sum += s.room[r * s.stride + i] * load(s.room + r * s.stride + j);
+      store(sums + j, sum);
     }
   }
 }

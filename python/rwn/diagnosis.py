@@ -20,6 +20,7 @@ Slot = Literal[
 Role = Literal["measured", "nominal", "refitted", "corrected", "before", "after", "reference", "noise-floor"]
 Array = NDArray[np.float64]
 
+BELIEVABLE = 4.0  # declared standard deviations, beyond which a parameter is not merely off
 RECORDING = "recording"  # the equation of a mistake in the recordings
 NEAREST = 0.5  # probability of being the whole, up to which a name is only the nearest one; a proved one that leaves
 # more than noise has no more

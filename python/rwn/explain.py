@@ -8,30 +8,26 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rwn import evidence
-from rwn.candidate import candidate, fit
-from rwn.effects import table
 from rwn.evidence import Hypothesis, Statistics
 from rwn.fitted import Fitted
 from rwn.polish import polished
 from rwn.prepare import Setup, noise_levels, windowed
-from rwn.rough import settled
 from rwn.rounding import as_shown, steps_shown, unrounded_fits
 from rwn.search import Search, foremost
+from rwn.simpler import distinct, replaced, with_simpler
 from rwn.temper import tempered
-from rwn.threads import side_by_side
 from rwn.tracks import retracked
 
 Progress = Callable[[str, float], None]
 
+MOST_EFFECTS = 3  # at once
 WORTH = 0.2  # share of what is left that another effect has to remove
-MOST_EFFECTS = 3
 FAR_OFF = 100.0  # squared error in units of the noise, from which short windows are tried too
 PATIENCE = 4  # in short windows, where the misfit is large and the first steps of a fit are short
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
 HALF_A_TURN = 0.5  # travel in revolutions, from which a torque of the angle is more than a load and a spring
 WHOLE = 0.99  # share of the time from which a window is none
 BRIEF = 10  # samples that a load acts for at least
-PLAIN = "coulomb-friction"  # what the other laws of dry friction elaborate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,9 +70,9 @@ def explain(
     fits = search.explain(nominal, wanted)
     if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
         offset = next(f for f in search.explain(nominal, ["constant-load"]))
-        fits = _distinct([*fits, *search.explain(offset, wanted)])
+        fits = distinct([*fits, *search.explain(offset, wanted)])
     if _far_off(search, min([nominal, *fits], key=lambda f: f.cost)):
-        fits = _distinct([*fits, *_by_windows(search, nominal, wanted)])
+        fits = distinct([*fits, *_by_windows(search, nominal, wanted)])
     search, nominal, fits = _settled(search, nominal, fits, setup)
     before = evidence.statistics(search.problem, nominal)
     best = min([nominal, *fits], key=lambda f: f.cost)
@@ -87,7 +83,7 @@ def explain(
         if complete:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
-        more = _distinct(_beside(search, layer, wanted, fits))
+        more = distinct(_beside(search, layer, wanted, fits))
         gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
         complete = gained < WORTH * left.variance
         if complete:
@@ -96,9 +92,9 @@ def explain(
         best = min(fits, key=lambda f: f.cost)
         left = evidence.statistics(search.problem, best)
         layer = sorted(more, key=lambda f: f.cost)[:2]
-        complete = _at_the_floor(search, best)
+        complete = left.at_the_floor or _at_its_floor(search, best)
     search, nominal, fits = _settled(search, nominal, fits, setup)
-    fits = _with_simpler(search, nominal, fits)
+    fits = with_simpler(search, nominal, fits)
     strained = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, setup))]
     best = min([nominal, *fits], key=lambda f: f.cost)
@@ -125,13 +121,13 @@ def _settled(
     return unrounded_fits(*polished(*tracked), setup.problem)
 
 
-def _at_the_floor(search: Search, best: Fitted) -> bool:
-    """Whether the best explanation leaves but noise, under the noise and the weight of priors that go with itself.
+def _at_its_floor(search: Search, best: Fitted) -> bool:
+    """Whether the best explanation leaves but noise under the noise and the weight of priors that go with itself.
 
     Those of the search go with what was best before it: under them a right pair is held off its minimum.
     """
     own = tempered(with_noise(search, best), best)
-    return any(evidence.statistics(s.problem, s.refit(best, s.problem)).at_the_floor for s in (search, own))
+    return evidence.statistics(own.problem, own.refit(best, own.problem)).at_the_floor
 
 
 def _far_off(search: Search, best: Fitted) -> bool:
@@ -162,7 +158,7 @@ def _varied(fits: Sequence[Fitted]) -> list[Fitted]:
     """The three best explanations, at most two of them with a law in place of the same nominal parameters."""
     kept: list[Fitted] = []
     for f in fits:
-        alike = [k for k in kept if _replaced(k) and _replaced(k) == _replaced(f)]
+        alike = [k for k in kept if replaced(k) and replaced(k) == replaced(f)]
         if len(alike) < 2:
             kept.append(f)
     return kept[:3]
@@ -233,36 +229,6 @@ def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Se
     return other, first, sorted(rest, key=lambda f: f.cost)
 
 
-def _with_simpler(search: Search, nominal: Fitted, fits: list[Fitted]) -> list[Fitted]:
-    """The fits and simpler ones than the best; where one of these costs less, simpler ones than that too."""
-    best = min([nominal, *fits], key=lambda f: f.cost)
-    for _ in range(MOST_EFFECTS - 1):
-        fits = _distinct([*fits, *_simpler(search, best)])
-        last, best = best, min([nominal, *fits], key=lambda f: f.cost)
-        if len(best.added) >= len(last.added):
-            break
-    return fits
-
-
-def _simpler(search: Search, best: Fitted) -> list[Fitted]:
-    """The best explanation with each of several effects left out, and with plain friction for each of its elaborations.
-
-    The search adds what gains most, so that it may never have met the plain law beside the second effect.
-    """
-    if len(best.added) < 2:
-        return []
-    sets = [best.added, *(tuple(n for n in best.added if n != name) for name in best.added)]
-    plain = [tuple(sorted(plainer(names))) for names in sets]
-
-    def less(names: tuple[str, ...]) -> Fitted:
-        starts = {n: best.values_of(n) if n in best.added else _plain_values(best) for n in names}
-        this = candidate(search.nominal, names, search.scales, starts, best.motor)
-        end = settled(search.problem, this, fit(search.problem, this), turns=1)
-        return Fitted(added=names, candidate=this, minimum=end)
-
-    return side_by_side(less, dict.fromkeys([*sets[1:], *plain]))
-
-
 def _no_window(fitted: Fitted, setup: Setup) -> bool:
     """Whether a load is said to act from end to end of the recordings, which has a name of its own, or for a moment.
 
@@ -270,39 +236,3 @@ def _no_window(fitted: Fitted, setup: Setup) -> bool:
     """
     brief = BRIEF / max(t.time.size for t in setup.problem.targets)
     return any(not brief < end - begin < WHOLE for begin, end in fitted.windows)
-
-
-def _replaces(name: str) -> set[str]:
-    """Nominal parameters that an effect takes over."""
-    known = table().get(name)  # a user's own effect takes over nothing
-    return {p.replaces for p in known.parameters if p.replaces} if known else set()
-
-
-def _replaced(fitted: Fitted) -> set[str]:
-    """Nominal parameters that an explanation takes over."""
-    return set().union(*map(_replaces, fitted.added))
-
-
-def plainer(names: Sequence[str]) -> set[str]:
-    """The same explanation with plain friction for its elaborations."""
-    return {PLAIN if _replaces(n) and _replaces(n) == _replaces(PLAIN) else n for n in names}
-
-
-def _plain_values(fitted: Fitted) -> dict[str, float]:
-    """Plain friction of the level that the elaborate law of an explanation has."""
-    (plain,) = (p for p in table()[PLAIN].parameters if p.replaces)
-    levels = [
-        value
-        for name in fitted.added
-        for p, value in zip(fitted.candidate.table[name].parameters, fitted.values_of(name).values(), strict=True)
-        if p.replaces == plain.replaces
-    ]
-    return {plain.name: float(np.mean(levels))}
-
-
-def _distinct(fits: list[Fitted]) -> list[Fitted]:
-    """Each set of effects once."""
-    seen: dict[frozenset[str], Fitted] = {}
-    for f in sorted(fits, key=lambda f: f.cost):
-        seen.setdefault(frozenset(f.added), f)
-    return list(seen.values())

@@ -154,8 +154,11 @@ class Search:
         """Every racer fitted until it converges, those that are hopeless and gain little by a few iterations."""
         rows = self._race(racers, iterations=IN_PASSING)
         bar = HOPELESS * min((m.cost for _, m in rows), default=np.inf)
-        going = [m.status is FitStatus.ITERATION_LIMIT and m.cost < max(bar, STEEP * m.first) for _, m in rows]
-        under_way = [k for k, goes_on in enumerate(going) if goes_on]
+        under_way = [
+            k
+            for k, (_, m) in enumerate(rows)
+            if m.status is FitStatus.ITERATION_LIMIT and m.cost < max(bar, STEEP * m.first)
+        ]
         ends = self._race([rows[k][0] for k in under_way], iterations=60)
         further = dict(zip(under_way, ends, strict=True))
         return [further.get(k, row) for k, row in enumerate(rows)]

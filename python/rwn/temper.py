@@ -12,10 +12,10 @@ from dataclasses import replace
 import numpy as np
 
 from rwn import evidence
+from rwn.diagnosis import BELIEVABLE
 from rwn.fitted import Fitted
 from rwn.search import Search
 
-BELIEVABLE = 4.0  # declared standard deviations that a parameter may move
 WHITE = 2.0  # variance times correlation time below which nothing but noise is left
 
 

@@ -11,13 +11,14 @@ import numpy as np
 
 from rwn import excitation
 from rwn.correct import deviations
-from rwn.diagnosis import NEAREST, HeldoutRow, Verdict
+from rwn.diagnosis import BELIEVABLE, NEAREST, HeldoutRow, Verdict
 from rwn.evidence import Hypothesis, join
-from rwn.explain import Explanation, plainer
+from rwn.explain import Explanation
 from rwn.proof import LEFT_OUT, hurts
 from rwn.refuse import PROVED, removed_certainly
 from rwn.rough import rough
-from rwn.temper import BELIEVABLE, farthest
+from rwn.simpler import plainer
+from rwn.temper import farthest
 
 REMOVED = 0.99  # share of the removable squared error that a name has to remove where more than noise is left
 PARTLY = 0.75  # the same where held-out recordings prove it: real machines have small effects beside the large one
@@ -41,7 +42,7 @@ def choose(found: Explanation) -> Hypothesis:
         plain[0].probability > first.probability / ELABORATE or plain[0].fitted.minimum.chi2 - left < inexact
     ):
         first = plain[0]
-    return first if _is_material(found, first) or beyond_belief(found, first) else found.nothing_missing
+    return first if _is_material(found, first) or _beyond_belief(found, first) else found.nothing_missing
 
 
 def _is_material(found: Explanation, h: Hypothesis) -> bool:
@@ -49,7 +50,7 @@ def _is_material(found: Explanation, h: Hypothesis) -> bool:
     return 1.0 - _above_noise(found, h) / _above_noise(found, found.nothing_missing) >= MATERIAL
 
 
-def beyond_belief(found: Explanation, h: Hypothesis) -> bool:
+def _beyond_belief(found: Explanation, h: Hypothesis) -> bool:
     """Whether without `h` the nominal model has to leave what was declared of it, and with it has not."""
     return farthest(h.fitted) <= BELIEVABLE < farthest(found.nothing_missing.fitted)
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rwn.diagnosis import NEAREST, RECORDING, Diagnosis, Estimate, FoundEffect, HeldoutRow
+from rwn.diagnosis import BELIEVABLE, NEAREST, RECORDING, Diagnosis, Estimate, FoundEffect, HeldoutRow
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
@@ -20,7 +20,6 @@ _PREFIXABLE = (
     "J",
     "m",
 )  # the first factor of a unit that takes a prefix
-BELIEVABLE = 4.0  # declared standard deviations, beyond which a parameter is not merely off
 _SYMBOLS = (("ohm", "Ω"), ("^2", "²"), ("^3", "³"))
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 

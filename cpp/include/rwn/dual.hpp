@@ -229,9 +229,8 @@ double value_of(const Dual<N, Isa>& x) {
   return x.v;
 }
 inline double value_of(double x) { return x; }
-inline void add_product(double& sum, double a, double b) { sum += a * b; }
 
-/// The same number as a T; its derivatives are kept where T has them in the same places.
+/// The same number as a T: itself, or its value alone.
 template <class T, class From>
 T as_scalar(const From& x) {
   if constexpr (std::is_same_v<T, From>) {
