@@ -17,7 +17,7 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
               const Array& position, const std::array<double, 3>& weights, bool speed_is_difference,
               double angle_per_position, double input_before, const Array& angle, bool angle_from_speed,
               int restart_every, const Array& restart_speed, const Array& restart_position, int order,
-              const std::vector<OwnEffect>& own) {
+              const std::vector<OwnEffect>& own, const std::array<double, 3>& persistence) {
   const SimulationTask task{kind_of(kind),
                             view(time),
                             view(input),
@@ -40,7 +40,11 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
       weights[0],
       weights[1],
       weights[2],
-      speed_is_difference ? SpeedMeasurement::central_difference : SpeedMeasurement::instantaneous};
+      speed_is_difference ? SpeedMeasurement::central_difference : SpeedMeasurement::instantaneous,
+      persistence};
+  if (std::any_of(persistence.begin(), persistence.end(), [](double c) { return !(c >= 0.0 && c < 1.0); })) {
+    throw std::invalid_argument("normal_equations: a persistence is a correlation from 0 to less than 1");
+  }
   for (const auto& signal : {measured.current, measured.speed, measured.position}) {
     if (!signal.empty() && signal.size() != task.time.size()) {
       throw std::invalid_argument("normal_equations: a measured signal differs in length from time");
@@ -64,6 +68,7 @@ void bind_normal_equations(py::module_& m) {
         "speed_is_difference"_a = false, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
         "angle_from_speed"_a = false, "restart_every"_a = 0, "restart_speed"_a = Array(0),
         "restart_position"_a = Array(0), "order"_a = 0, "own"_a = std::vector<OwnEffect>{},
+        "persistence"_a = std::array<double, 3>{},
         "Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.");
 }
 

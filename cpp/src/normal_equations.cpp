@@ -1,6 +1,7 @@
 #include "rwn/normal_equations.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "rwn/aligned.hpp"
@@ -29,6 +30,26 @@ void accumulate(NormalSlice& slice) {
   if (isa() == Isa::avx2) return avx2::accumulate(slice);
 #endif
   return baseline::accumulate(slice);
+}
+
+/// Makes a simulation the prediction of the next sample from the error of the last, with its `slopes` (n, p).
+///
+/// The first sample of a run, and of what follows a gap, has no error before it: its own variance is that of the whole.
+void predict(std::span<const double> measured, double persistence, std::size_t every, std::span<double> simulated,
+             std::span<double> slopes) {
+  const std::size_t n = measured.size(), p = n > 0 ? slopes.size() / n : 0;
+  const double alone = std::sqrt(1.0 - persistence * persistence);
+  for (std::size_t k = n; k-- > 0;) {
+    double* slope = slopes.data() + k * p;
+    const bool first = k == 0 || (every > 0 && k % every == 0) || std::isnan(measured[k - 1]);
+    if (first) {
+      simulated[k] = measured[k] - alone * (measured[k] - simulated[k]);
+      for (std::size_t j = 0; j < p; ++j) slope[j] *= alone;
+    } else {
+      simulated[k] += persistence * (measured[k - 1] - simulated[k - 1]);
+      for (std::size_t j = 0; j < p; ++j) slope[j] -= persistence * slope[j - p];
+    }
+  }
 }
 
 }  // namespace
@@ -67,8 +88,10 @@ NormalEquations normal_equations(const SimulationTask& task, const Measurements&
   const int columns = static_cast<int>(p), stride = padded(columns);
   const auto row = static_cast<std::size_t>(stride);
   AlignedVector block(NormalSlice::block * row), lower(p * row);
-  const auto add = [&](std::span<const double> recorded, const std::vector<double>& simulated,
-                       const std::vector<double>& slopes, double weight) {
+  const auto every = static_cast<std::size_t>(std::max(task.restart_every, 0));
+  const auto add = [&](std::span<const double> recorded, std::vector<double>& simulated, std::vector<double>& slopes,
+                       double weight, double persistence) {
+    if (persistence > 0.0) predict(recorded, persistence, every, simulated, slopes);
     NormalSlice slice{.measured = recorded.data(),
                       .simulated = simulated.data(),
                       .slopes = slopes.data(),
@@ -85,9 +108,9 @@ NormalEquations normal_equations(const SimulationTask& task, const Measurements&
     sum.chi2 += slice.chi2;
     sum.count += slice.count;
   };
-  add(measured.current, current, d_current, measured.current_weight);
-  add(measured.speed, speed, d_speed, measured.speed_weight);
-  add(measured.position, position, d_position, measured.position_weight);
+  add(measured.current, current, d_current, measured.current_weight, measured.persistence[0]);
+  add(measured.speed, speed, d_speed, measured.speed_weight, measured.persistence[1]);
+  add(measured.position, position, d_position, measured.position_weight, measured.persistence[2]);
   for (std::size_t i = 0; i < p; ++i) {
     for (std::size_t j = 0; j <= i; ++j) sum.curvature[i * p + j] = sum.curvature[j * p + i] = lower[i * row + j];
   }

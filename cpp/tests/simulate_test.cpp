@@ -256,6 +256,31 @@ TEST(NormalEquations, AreTheSumsOverTheSamples) {
   EXPECT_EQ(sum.count, static_cast<long>(n));
 }
 
+TEST(NormalEquations, OfErrorsThatLastCountWhatIsNew) {
+  Case c = motor();
+  c.by = {rwn::resistance, rwn::inertia};
+  const std::size_t n = c.time.size();
+  std::vector<double> speed(n), slopes(2 * n), measured(n);
+  rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}});
+  const double share = 0.9, alone = std::sqrt(1.0 - share * share);
+  double chi2 = 0.0, gradient = 0.0, last = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double error = std::sin(0.1 * static_cast<double>(k));
+    measured[k] = speed[k] + error;
+    const double fresh = k == 0 ? alone * error : error - share * last;
+    const double slope = k == 0 ? alone * slopes[1] : slopes[2 * k + 1] - share * slopes[2 * k - 1];
+    chi2 += fresh * fresh;
+    gradient += slope * fresh;
+    last = error;
+  }
+  rwn::Measurements recorded;
+  recorded.speed = measured;
+  recorded.persistence = {0.0, share, 0.0};
+  const auto sum = rwn::normal_equations(c.task(), recorded);
+  EXPECT_NEAR(sum.chi2, chi2, 1e-9 * chi2);
+  EXPECT_NEAR(sum.gradient[1], gradient, 1e-9 * std::abs(gradient));
+}
+
 void expect_the_force_from_the_motion(Case c) {
   c.kind = rwn::Kind::axis;
   for (double& u : c.input) u *= 0.01;

@@ -76,8 +76,8 @@ def _unit_on_an_axis(unknown: str, unit: str, known: Mapping[str, Effect]) -> st
 
 def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, ...]:
     """The named effects with parameters, intervals and probability, the one that explains most first."""
-    numbers = estimates(chosen.fitted, found.left.variance, found.left.correlation_time)
-    known = chosen.fitted.candidate.table
+    numbers = estimates(chosen.final, found.counted.variance, found.counted.correlation_time)
+    known = chosen.final.candidate.table
     if found.setup.whole.angle_per_position != 1.0:
         numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
     rows = []
@@ -88,7 +88,7 @@ def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, 
         }
         for p in effect.parameters:
             if p.fixed:
-                parameters[p.name] = Estimate(value=float(chosen.fitted.vector[effect.at(p.name)]), unit=p.unit)
+                parameters[p.name] = Estimate(value=float(chosen.final.vector[effect.at(p.name)]), unit=p.unit)
         rows.append(
             FoundEffect(
                 name=name,
@@ -105,9 +105,9 @@ def found_effects(found: Explanation, chosen: Hypothesis) -> tuple[FoundEffect, 
 
 def nominal_fit(found: Explanation, chosen: Hypothesis, model: Model) -> NominalFit:
     """Nominal parameters: as given, refitted alone, and together with the found effects."""
-    left, before = found.left, found.before
+    left, before = found.counted, found.before
     alone = estimates(found.nominal, before.variance, before.correlation_time)
-    together = estimates(chosen.fitted, left.variance, left.correlation_time) if chosen.fitted.added else {}
+    together = estimates(chosen.final, left.variance, left.correlation_time) if chosen.fitted.added else {}
     rows = {}
     given = dict(model.parameters) or dict(found.setup.nominal.free)
     for name, value in given.items():

@@ -77,7 +77,7 @@ def _response(
     errors = [Trace(name="nominal, refitted", role="before", x=t, y=y - a)]
     if chosen.fitted.added:
         (b,) = _thin(
-            free.simulate(target, chosen.fitted.vector, chosen.fitted.candidate.active).signals[signal]
+            free.simulate(target, chosen.final.vector, chosen.final.candidate.active).signals[signal]
         )
         lines.append(Trace(name="corrected", role="corrected", x=t, y=b))
         errors.append(Trace(name="corrected", role="after", x=t, y=y - b))
@@ -129,7 +129,7 @@ def _mean_curve(x: Array, y: Array, name: str, role: str) -> Trace:
 def _torque_speed(found: Explanation, chosen: Hypothesis, speed_unit: str, torque_unit: str) -> Plot:
     """Friction over speed: the recordings' own (drive torque minus acceleration torque) and the models'."""
     whole = found.setup.whole
-    bare = chosen.fitted.vector.copy()
+    bare = chosen.final.vector.copy()
     for name in ("viscous_friction", "coulomb_friction"):
         bare[motor_index(name)] = 0.0
     own = [unknown_inputs(whole, bare, t) for t in whole.targets]

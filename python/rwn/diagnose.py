@@ -133,7 +133,7 @@ def _report(end: Conclusion, made: Sequence[Mistake], seed: int, elapsed: float)
         version=__version__,
         elapsed=elapsed,
         stand_in=end.stand_in,
-        corrected=corrected_model(chosen.fitted, model),
+        corrected=corrected_model(chosen.final, model),
     )
 
 
@@ -184,6 +184,11 @@ def _warnings(
             f"something smaller is left over: the residual of the corrected model is coloured "
             f"({found.left.effective:.0f} independent samples of {found.left.count})"
         )
+    for signal, share in found.weighted.persistence.items():
+        texts.append(
+            f"what is left of the {signal} lasts (its correlation from sample to sample is {share:.2f}): the corrected "
+            "model was fitted to what is new in it"
+        )
     if rests_on_what_was_declared(found, chosen):
         texts.append(
             "without it the nominal model fits as well, "
@@ -194,7 +199,7 @@ def _warnings(
             f"{' + '.join(f.added)} fits better, but {', '.join(f.limits_met)} ran into a limit: there the law bends "
             "towards one that it is not, and it is not named"
         )
-    for u, value in zip(chosen.fitted.candidate.unknowns, chosen.fitted.minimum.values, strict=True):
+    for u, value in zip(chosen.final.candidate.unknowns, chosen.final.minimum.values, strict=True):
         if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and "." not in u.name:
             off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
             if off > 3.0:

@@ -70,6 +70,11 @@ def statistics(problem: OutputError, fitted: Fitted, *, drift: bool = True) -> S
     joined = join(problem, problem.residuals(fitted.vector, fitted.candidate.active))
     if not drift and len(joined) > 1:
         joined.pop("position", None)
+    return statistics_of(joined)
+
+
+def statistics_of(joined: Mapping[str, Array]) -> Statistics:
+    """Statistics of weighted residuals by signal."""
     energies = {s: float(np.nansum(r**2)) for s, r in joined.items()}
     whole = sum(energies.values()) or 1.0
     count = sum(int(np.isfinite(r).sum()) for r in joined.values())
@@ -95,25 +100,29 @@ class Hypothesis:
     """An explanation with its probability among those that were tried."""
 
     fitted: Fitted
+    final: Fitted  # what is drawn and saved: `fitted`, or the same refitted under coloured noise
     score: float  # log of evidence, up to a constant
     probability: float
     misfit: float  # log-likelihood lost against the best, complexity aside
 
 
 def weigh(
-    fits: Sequence[Fitted], left: Statistics, *, rivals: int, prior: Mapping[str, float] | None = None
-) -> list[Hypothesis]:
+    fits: Sequence[Fitted], left: Statistics, *, rivals: int, prior: Mapping[str, float] | None = None,
+    finals: Sequence[Fitted] | None = None,
+) -> list[Hypothesis]:  # fmt: skip
     """Probabilities of the fits, best first.
 
     BIC with the effective number of samples of the best explanation's residual (coloured residuals carry less), a
     uniform prior over how many effects are missing, shared over the `rivals` names. `prior`: log prior odds per name.
+    `finals`: what the fits became under coloured noise, to be weighed in their place.
     """
+    finals = fits if finals is None else finals
     effective = left.effective if left.at_the_floor else min(left.effective, MISSPECIFIED)
     scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
-    least = min(f.cost for f in fits)
-    base = min(map(_seen, fits))
+    least = min(f.cost for f in finals)
+    base = min(map(_seen, finals))
     scores = []
-    for f in fits:
+    for f in finals:
         unknowns = _seen(f) - base
         names = sum((prior or {}).get(name, 0.0) for name in f.added)
         scores.append(
@@ -125,8 +134,8 @@ def weigh(
     weights = np.exp(np.array(scores) - max(scores))
     weights /= weights.sum()
     rows = [
-        Hypothesis(fitted=f, score=float(s), probability=float(p), misfit=float((f.cost - least) / scale))
-        for f, s, p in zip(fits, scores, weights, strict=True)
+        Hypothesis(fitted=f, final=g, score=float(s), probability=float(p), misfit=float((g.cost - least) / scale))
+        for f, g, s, p in zip(fits, finals, scores, weights, strict=True)
     ]
     return sorted(rows, key=lambda h: -h.score)
 

@@ -8,8 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rwn import evidence
+from rwn.coloured_noise import innovations, under_coloured_noise
 from rwn.evidence import Hypothesis, Statistics
 from rwn.fitted import Fitted
+from rwn.output_error import OutputError
 from rwn.polish import polished
 from rwn.prepare import Setup, noise_levels, windowed
 from rwn.rounding import as_shown, steps_shown, unrounded_fits
@@ -39,6 +41,8 @@ class Explanation:
     hypotheses: tuple[Hypothesis, ...]
     left: Statistics  # residual of the best
     before: Statistics  # residual of the refitted nominal
+    weighted: OutputError  # the problem of the final fits: that of `setup`, or the same under coloured noise
+    counted: Statistics  # what is left there: `left`, or what is new in each error
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     strained: tuple[Fitted, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
     complete: bool = True  # more effects at once would not have been tried either, had they been allowed
@@ -99,13 +103,23 @@ def explain(
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, setup))]
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
-    hypotheses = evidence.weigh([nominal, *fits], left, rivals=len(wanted), prior=_prior(setup))
+    plain = [nominal, *fits]
+    weighted, final, counted = search, plain, left
+    if search.problem.kind == "lti" and not left.at_the_floor:
+        weighted = under_coloured_noise(search, best)
+        final = weighted.refit_all(plain)
+        counted = innovations(weighted.problem, min(final, key=lambda f: f.cost))
+    hypotheses = evidence.weigh(plain, counted, rivals=len(wanted), prior=_prior(setup), finals=final)
+    # disturbances are no account of what the nominal model lacks: it is shown as plainly fitted
+    hypotheses = [h if h.fitted.added else replace(h, final=nominal) for h in hypotheses]
     return Explanation(
         setup=replace(setup, problem=search.problem, whole=replace(setup.whole, noise=search.problem.noise)),
         nominal=nominal,
         hypotheses=tuple(hypotheses),
         left=left,
         before=before,
+        weighted=weighted.problem,
+        counted=counted,
         speed_steps=steps_shown(search.problem, setup.problem, best),
         complete=complete or at_once >= MOST_EFFECTS,
         strained=tuple(f for f in strained if f.cost < best.cost),

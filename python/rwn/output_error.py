@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -107,6 +107,9 @@ class OutputError:
     )  # of initial current, speed, position in the parameter vector
     order: int = 0  # of a transfer function
     own: tuple[_core.OwnEffect, ...] = ()  # a user's effects
+    persistence: Mapping[str, float] = field(
+        default_factory=dict
+    )  # correlation of a signal's error with the one before; `noise` is then that of what is new in each
     colour: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
     def parameters_for(self, target: Target, vector: Array, active: Sequence[int]) -> Array:  # noqa: ARG002
@@ -175,7 +178,7 @@ class OutputError:
             target.compared_speed, target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS],
             target.speed_is_difference, self.angle_per_position, target.input_before, target.followed,
             target.angle_from_speed, target.restart_every, target.restart_speed, target.restart_position,
-            self.order, self.own,
+            self.order, self.own, [self.persistence.get(s, 0.0) for s in SIGNALS],
         )  # fmt: skip
         return CountedNormal(
             chi2=chi2, gradient=gradient, curvature=curvature, count=count, finite=status == "ok"

@@ -34,7 +34,7 @@ def proved(
     nothing is proved where it finds none.
     """
     if heldout:
-        return _rows(found, found.nominal, chosen.fitted, heldout, model, seed=seed)
+        return _rows(found, found.nominal, chosen.final, heldout, model, seed=seed)
 
     def fold(case: Fold) -> tuple[HeldoutRow, ...] | None:
         problem, target, first = case
@@ -45,7 +45,8 @@ def proved(
             return _rows(other[0], other[0].nominal, other[1], [target], model, seed=seed, first=first)
         search = Search.of(found.setup, problem=problem)
         nominal = search.refit(found.nominal, problem)
-        fitted = search.refit(chosen.fitted, problem) if chosen.fitted.added else chosen.fitted
+        weighted = replace(found.weighted, targets=problem.targets)
+        fitted = search.refit(chosen.final, weighted) if chosen.fitted.added else chosen.final
         return _rows(found, nominal, fitted, [target], model, seed=seed, first=first)
 
     parts = side_by_side(fold, _folds(found))

@@ -146,7 +146,7 @@ def _kept(found: Explanation, model: Model, heat: _Heat, *, orthogonal: bool) ->
     setup = _knowing(found.setup, known)
     this = candidate(setup.nominal, (effect.name,), setup.scales, motor=motor)
     fitted = Fitted(added=(effect.name,), candidate=this, minimum=fit(setup.problem, this, max_iterations=20))
-    hypothesis = Hypothesis(fitted=fitted, score=0.0, probability=0.0, misfit=0.0)
+    hypothesis = Hypothesis(fitted=fitted, final=fitted, score=0.0, probability=0.0, misfit=0.0)
     return StandIn(place=place, found=replace(found, setup=setup), chosen=hypothesis, model=known)
 
 

@@ -1,6 +1,7 @@
 // Normal equations of the free-run output error, J'J and J'r, without handing the Jacobian around.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Measurements {
   std::span<const double> current, speed, position;                        // (n)
   double current_weight = 1.0, speed_weight = 1.0, position_weight = 1.0;  // 1 / standard deviation
   SpeedMeasurement speed_measurement = SpeedMeasurement::instantaneous;
+  /// Correlation of an error of current, speed and position with the one a sample before: errors count as what they are
+  /// beyond that share of it (Cochrane, Orcutt 1949), and the weights belong to that part.
+  std::array<double, 3> persistence{};
 };
 
 struct NormalEquations {
