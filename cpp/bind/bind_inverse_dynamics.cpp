@@ -8,12 +8,9 @@ void bind_inverse_dynamics(py::module_& m) {
       "inverse_dynamics",
       [](const Array& parameters, const std::vector<int>& active, double angle_per_position, const Array& time,
          const Array& position, const Array& speed, const Array& acceleration, const std::vector<OwnEffect>& own) {
-        const auto view = [](const Array& a) {
-          return std::span<const double>{a.data(), static_cast<std::size_t>(a.size())};
-        };
         Array torque(time.size());
         inverse_dynamics(view(parameters), active, angle_per_position, view(time), view(position), view(speed),
-                         view(acceleration), {torque.mutable_data(), static_cast<std::size_t>(torque.size())}, own);
+                         view(acceleration), view(torque), own);
         return torque;
       },
       "parameters"_a.noconvert(), "active"_a, "angle_per_position"_a, "time"_a.noconvert(), "position"_a.noconvert(),

@@ -4,15 +4,13 @@
 namespace rwn::bind {
 namespace {
 
-std::span<const double> view(const Array& a) { return {a.data(), static_cast<std::size_t>(a.size())}; }
-
 Array matrix(const std::vector<double>& values, py::ssize_t rows) {
   Array a({rows, rows});
   std::copy(values.begin(), values.end(), a.mutable_data());
   return a;
 }
 
-py::tuple run(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
+py::tuple sums(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
               const std::vector<int>& active, const std::vector<int>& by, const Array& current, const Array& speed,
               const Array& position, const std::array<double, 3>& weights, bool speed_is_difference,
               double angle_per_position, double input_before, const Array& angle, bool angle_from_speed,
@@ -63,7 +61,7 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
 }  // namespace
 
 void bind_normal_equations(py::module_& m) {
-  m.def("normal_equations", &run, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(),
+  m.def("normal_equations", &sums, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(),
         "active"_a, "by"_a, "current"_a.noconvert(), "speed"_a.noconvert(), "position"_a.noconvert(), "weights"_a,
         "speed_is_difference"_a = false, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
         "angle_from_speed"_a = false, "restart_every"_a = 0, "restart_speed"_a = Array(0),

@@ -24,8 +24,8 @@ std::array<double, plant_sample_width> row_of(const PlantSample& s) {
   return {s.current, s.speed, s.position, s.sensed_current, s.sensed_speed, s.temperature_rise};
 }
 
-py::array_t<double> run(const std::map<std::string, double>& values, const Array& voltage, double sample_time, int substeps,
-                        double fineness) {
+py::array_t<double> sampled(const std::map<std::string, double>& values, const Array& voltage, double sample_time,
+                            int substeps, double fineness) {
   const py::ssize_t n = voltage.size();
   const double* v = voltage.data();
   py::array_t<double> out({n, static_cast<py::ssize_t>(plant_sample_width)});
@@ -50,7 +50,7 @@ void bind_plant(py::module_& m) {
     for (const auto& known : plant_parameter_names()) names.emplace_back(known.name);
     return names;
   });
-  m.def("plant_run", &run, "parameters"_a, "voltage"_a.noconvert(), "sample_time"_a, "substeps"_a, "fineness"_a,
+  m.def("plant_run", &sampled, "parameters"_a, "voltage"_a.noconvert(), "sample_time"_a, "substeps"_a, "fineness"_a,
         "Rows of (current, speed, position, sensed current, sensed speed, temperature rise), one per voltage.");
   py::class_<Plant>(m, "Plant", "The blind trials' motor, one sample at a time.")
       .def(py::init([](const std::map<std::string, double>& values, double sample_time, double voltage_scale, int substeps,

@@ -5,8 +5,6 @@
 namespace rwn::bind {
 namespace {
 
-std::span<const double> view(const Array& a) { return {a.data(), static_cast<std::size_t>(a.size())}; }
-std::span<double> view(Array& a) { return {a.mutable_data(), static_cast<std::size_t>(a.size())}; }
 
 py::dict describe(const Parameter& p) {
   py::dict d;
