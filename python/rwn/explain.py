@@ -82,7 +82,7 @@ def explain(
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
     layer = _varied(fits)
-    complete = left.at_the_floor or not layer
+    complete, paired = left.at_the_floor or not layer, False
     for size in range(2, at_once + 1):
         if complete:
             break
@@ -92,12 +92,13 @@ def explain(
         complete = gained < WORTH * left.variance
         if complete:
             break
-        fits += more
+        fits, paired = [*fits, *more], True
         best = min(fits, key=lambda f: f.cost)
         left = evidence.statistics(search.problem, best)
         layer = sorted(more, key=lambda f: f.cost)[:2]
         complete = left.at_the_floor or _at_its_floor(search, best)
-    search, nominal, fits = _settled(search, nominal, fits, setup)
+    if paired:
+        search, nominal, fits = _settled(search, nominal, fits, setup)
     fits = with_simpler(search, nominal, fits)
     strained = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, setup))]

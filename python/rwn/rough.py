@@ -36,7 +36,10 @@ def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int
     for _ in range(turns if rough(this) else 0):
         values = best.values
         for relative in SECANTS:
-            values = _by_secants(problem, this.starting_at(values), relative)
+            found = _by_secants(problem, this.starting_at(values), relative)
+            values = found.values
+            if found.cost > (1.0 - GAIN) * found.first:
+                break  # the bowl is left, and what remains are ripples
         again = fit(problem, this.starting_at(values), max_iterations=ITERATIONS)
         gained = again.cost < (1.0 - GAIN) * best.cost
         best = min(best, again, key=lambda m: m.cost)
@@ -45,7 +48,7 @@ def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int
     return best
 
 
-def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Array:
+def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Minimum:
     """Where Levenberg-Marquardt ends with the slopes of secants over `relative` steps in place of derivatives."""
 
     best = np.inf
@@ -73,11 +76,10 @@ def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Array
 
     samples = sum(t.signal(s).size for t in problem.targets for s in t.recorded)
     with _overflowing():
-        found = minimise(
+        return minimise(
             evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * samples,
             prior_scale=problem.colour,
         )  # fmt: skip
-    return found.values
 
 
 def _overflowing() -> np.errstate:
