@@ -24,7 +24,8 @@ Progress = Callable[[str, float], None]
 
 MOST_EFFECTS = 3  # at once
 WORTH = 0.2  # share of what is left that another effect has to remove
-FAR_OFF = 100.0  # squared error in units of the noise, from which short windows are tried too
+FAR_OFF = 100.0  # squared error in units of the noise, from which short windows are tried too,
+LOST = 0.2  # where the error of some signal is more than this share of its own spread
 PATIENCE = 4  # in short windows, where the misfit is large and the first steps of a fit are short
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
 HALF_A_TURN = 0.5  # travel in revolutions, from which a torque of the angle is more than a load and a spring
@@ -147,8 +148,13 @@ def _at_its_floor(search: Search, best: Fitted) -> bool:
 
 def _far_off(search: Search, best: Fitted) -> bool:
     """Whether free run has lost the motion, so that its error no longer says where the fit should go."""
-    turning = all(t.angle.size and not t.restart_every for t in search.problem.targets)
-    return turning and search.problem.kind != "lti" and evidence.statistics(search.problem, best).variance > FAR_OFF
+    problem = search.problem
+    turning = all(t.angle.size and not t.restart_every for t in problem.targets)
+    if not turning or problem.kind == "lti" or evidence.statistics(problem, best).variance <= FAR_OFF:
+        return False
+    errors = evidence.join(problem, problem.residuals(best.vector, best.candidate.active))
+    signals = evidence.join(problem, [{s: t.signal(s) for s in t.recorded} for t in problem.targets])
+    return any(np.sqrt(np.nanmean(errors[s] ** 2)) > LOST * np.nanstd(signals[s]) for s in errors)
 
 
 def _by_windows(search: Search, nominal: Fitted, wanted: Sequence[str]) -> list[Fitted]:

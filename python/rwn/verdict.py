@@ -1,6 +1,6 @@
 """From explanations to a verdict: which one is chosen, whether it is enough, and how far it may be the whole truth.
 
-docs/method-details.md tells what the constants were set on; only trials of test seeds that nobody has looked into judge them.
+docs/method-details.md tells what the constants were set on; only trials of unseen test seeds judge them.
 """
 
 from __future__ import annotations
