@@ -7,11 +7,9 @@ The persistence is that of a plain fit: estimated anew from fit to fit it runs t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rwn import evidence
 from rwn.evidence import Statistics
@@ -19,7 +17,6 @@ from rwn.fitted import Fitted
 from rwn.output_error import OutputError
 from rwn.search import Search
 
-Array = NDArray[np.float64]
 MOST = 0.99  # persistence that is believed
 
 
@@ -27,13 +24,13 @@ def under_coloured_noise(search: Search, fitted: Fitted) -> Search:
     """`search` weighted by what is new in each error that a plain fit leaves."""
     problem = search.problem
     persistence, noise = dict(problem.persistence), dict(problem.noise)
-    for signal, errors in _errors(problem, fitted):
-        before, after = np.concatenate([e[:-1] for e in errors]), np.concatenate([e[1:] for e in errors])
-        both = np.isfinite(before) & np.isfinite(after)
-        before, after = before[both], after[both]
+    residuals = problem.residuals(fitted.vector, fitted.candidate.active)
+    for signal in residuals[0]:
+        pairs = np.concatenate([np.stack([r[signal][:-1], r[signal][1:]]) for r in residuals], axis=1)
+        before, after = pairs[:, np.isfinite(pairs).all(axis=0)]
         share = float(np.clip(before @ after / max(float(before @ before), 1e-300), 0.0, MOST))
         persistence[signal] = share
-        noise[signal] = max(float(np.std(after - share * before)), 1e-12)
+        noise[signal] = max(float(np.sqrt(np.mean((after - share * before) ** 2))), 1e-12)
     return replace(search, problem=replace(problem, persistence=persistence, noise=noise, colour=1.0))
 
 
@@ -44,9 +41,3 @@ def innovations(problem: OutputError, fitted: Fitted) -> Statistics:
         for residual in problem.residuals(fitted.vector, fitted.candidate.active)
     ]
     return evidence.statistics_of(evidence.join(problem, news))
-
-
-def _errors(problem: OutputError, fitted: Fitted) -> Iterator[tuple[str, list[Array]]]:
-    residuals = problem.residuals(fitted.vector, fitted.candidate.active)
-    for signal in problem.noise:
-        yield signal, [r[signal] for r in residuals if signal in r]
