@@ -1,7 +1,8 @@
 """Time of a whole diagnosis with every effect tried; at most 20 s for 20 000 samples on two cores is asked.
 
-Makes blind trials of a development seed with 20 000 training samples each and diagnoses them one after the other,
-without held-out recordings, on two threads. Run on an idle machine: python bench/bench_diagnose.py [COUNT]
+Makes blind trials of a development seed with 20 000 training samples each, and three with a backlash, which none of
+these has, and diagnoses them one after the other, without held-out recordings, on two threads. Run on an idle machine:
+python bench/bench_diagnose.py [COUNT]
 """
 
 from __future__ import annotations
@@ -17,12 +18,17 @@ import rwn
 from rwn.trials import scene
 from rwn.trials.adapter import train_files
 from rwn.trials.dossier import write_trial
-from rwn.trials.plan import plans
+from rwn.trials.plan import Plan, plans
 from rwn.trials.trial import make_trial
 
 SEED, COUNT = 77, 20
 SAMPLES = (19_500, 20_500)
 ASKED = 20.0  # [s]
+BACKLASH = (
+    Plan(seed=91, index=1, mode="offset", effects=("backlash",), visibility=10.0),
+    Plan(seed=91, index=6, mode="offset", effects=("backlash",), visibility=30.0),
+    Plan(seed=91, index=5, mode="double", effects=("backlash", "quadratic-drag"), visibility=10.0),
+)
 
 
 def main() -> None:
@@ -31,9 +37,9 @@ def main() -> None:
     times = []
     print(f"{'concealed':<46}{'found':<46}{'samples':>8}{'time':>9}")
     with tempfile.TemporaryDirectory() as folder:
-        for plan in plans(SEED, count):
+        for plan in (*plans(SEED, count), *BACKLASH):
             trial = make_trial(plan)
-            place = Path(folder) / plan.name
+            place = Path(folder) / f"{plan.seed}-{plan.name}"
             write_trial(place, trial)
             model = rwn.read_model(place / "model.toml")
             recordings = [rwn.read_recording(f, layout=model.recording) for f in train_files(place)]
@@ -44,7 +50,7 @@ def main() -> None:
             concealed = " + ".join(e["name"] for e in trial.answer["effects"]) or "nothing"
             print(f"{concealed:<46}{names:<46}{sum(map(len, recordings)):8}{times[-1]:7.1f} s", flush=True)
     late = sum(t > ASKED for t in times)
-    print(f"median {np.median(times):.1f} s, longest {max(times):.1f} s; {late} of {count} over {ASKED:.0f} s")
+    print(f"median {np.median(times):.1f} s, longest {max(times):.1f} s; {late} of {len(times)} over {ASKED:.0f} s")
 
 
 if __name__ == "__main__":

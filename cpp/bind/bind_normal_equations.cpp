@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "bind.hpp"
 #include "rwn/normal_equations.hpp"
 

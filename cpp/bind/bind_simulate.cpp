@@ -5,7 +5,6 @@
 namespace rwn::bind {
 namespace {
 
-
 py::dict describe(const Parameter& p) {
   py::dict d;
   std::vector<double> scan(p.scan.begin(), p.scan.end());

@@ -7,6 +7,7 @@ The persistence is that of a plain fit: estimated anew from fit to fit it runs t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +19,20 @@ from rwn.output_error import OutputError
 from rwn.search import Search
 
 MOST = 0.99  # persistence that is believed
+
+
+def final_fits(
+    search: Search, fits: Sequence[Fitted], left: Statistics
+) -> tuple[OutputError, Sequence[Fitted], Statistics]:
+    """The problem, fits and rest that count in the end: as they are, of a transfer function under coloured noise.
+
+    `left`: statistics of the best of the plain `fits`, which may leave nothing but noise.
+    """
+    if search.problem.kind != "lti" or left.at_the_floor:
+        return search.problem, fits, left
+    weighted = under_coloured_noise(search, min(fits, key=lambda f: f.cost))
+    finals = weighted.refit_all(fits)
+    return weighted.problem, finals, innovations(weighted.problem, min(finals, key=lambda f: f.cost))
 
 
 def under_coloured_noise(search: Search, fitted: Fitted) -> Search:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rwn import evidence
-from rwn.coloured_noise import innovations, under_coloured_noise
+from rwn.coloured_noise import final_fits
 from rwn.evidence import Hypothesis, Statistics
 from rwn.fitted import Fitted
 from rwn.output_error import OutputError
@@ -64,12 +64,7 @@ def explain(
     at_once: int = MOST_EFFECTS,
 ) -> Explanation:  # fmt: skip
     """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most."""
-    search = Search.of(setup)
-    search = with_noise(search, search.fit_nominal())
-    nominal = search.fit_nominal()
-    within = tempered(search, nominal)
-    if within is not search:
-        search, nominal = within, within.fit_nominal()
+    search, nominal = _begun(setup)
     wanted = [n for n in names or setup.nominal.table if _applies(n, setup)]
     progress("trying every effect", 0.1)
     fits = search.explain(nominal, wanted)
@@ -105,13 +100,8 @@ def explain(
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, setup))]
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
-    plain = [nominal, *fits]
-    weighted, final, counted = search, plain, left
-    if search.problem.kind == "lti" and not left.at_the_floor:
-        weighted = under_coloured_noise(search, best)
-        final = weighted.refit_all(plain)
-        counted = innovations(weighted.problem, min(final, key=lambda f: f.cost))
-    hypotheses = evidence.weigh(plain, counted, rivals=len(wanted), prior=_prior(setup), finals=final)
+    weighted, finals, counted = final_fits(search, [nominal, *fits], left)
+    hypotheses = evidence.weigh([nominal, *fits], counted, rivals=len(wanted), prior=_prior(setup), finals=finals)
     # disturbances are no account of what the nominal model lacks: it is shown as plainly fitted
     hypotheses = [h if h.fitted.added else replace(h, final=nominal) for h in hypotheses]
     return Explanation(
@@ -120,12 +110,21 @@ def explain(
         hypotheses=tuple(hypotheses),
         left=left,
         before=before,
-        weighted=weighted.problem,
+        weighted=weighted,
         counted=counted,
         speed_steps=steps_shown(search.problem, setup.problem, best),
         complete=complete or at_once >= MOST_EFFECTS,
         strained=tuple(f for f in strained if f.cost < best.cost),
     )
+
+
+def _begun(setup: Setup) -> tuple[Search, Fitted]:
+    """The search, weighted by the noise that the refitted nominal model leaves, and that model."""
+    search = Search.of(setup)
+    search = with_noise(search, search.fit_nominal())
+    nominal = search.fit_nominal()
+    within = tempered(search, nominal)
+    return (search, nominal) if within is search else (within, within.fit_nominal())
 
 
 def _settled(
@@ -150,9 +149,11 @@ def _far_off(search: Search, best: Fitted) -> bool:
     """Whether free run has lost the motion, so that its error no longer says where the fit should go."""
     problem = search.problem
     turning = all(t.angle.size and not t.restart_every for t in problem.targets)
-    if not turning or problem.kind == "lti" or evidence.statistics(problem, best).variance <= FAR_OFF:
+    if not turning or problem.kind == "lti":
         return False
     errors = evidence.join(problem, problem.residuals(best.vector, best.candidate.active))
+    if evidence.statistics_of(errors).variance <= FAR_OFF:
+        return False
     signals = evidence.join(problem, [{s: t.signal(s) for s in t.recorded} for t in problem.targets])
     return any(np.sqrt(np.nanmean(errors[s] ** 2)) > LOST * np.nanstd(signals[s]) for s in errors)
 

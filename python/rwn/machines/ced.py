@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from rwn.explain import explain
+from rwn.fitted import Fitted
 from rwn.machines.machine import Error, Machine, Outcome, Say, cut, data_file, error_of, judged, nominal_model
 from rwn.model import Model
 from rwn.prepare import prepare, proof_target
@@ -44,26 +45,34 @@ def _amplitude(whole: Recording, wanted: float, published: str, say: Say) -> Out
     few = WINDOWS[1]
     short = judged(f"CED, {whole.name}, window {few}", "", _window(model, few), [train], [test], say)
     errors.append(_error(short, test, few, wanted, published))
-    return replace(outcome, errors=tuple(errors), notes=(_within(model, train),))
+    return replace(outcome, errors=tuple(errors), notes=_lasting(model, train, test))
 
 
-def _within(model: Model, train: Recording) -> str:
-    """What errors that last change on samples that belong to the fitted ones: the first three quarters fitted anew."""
+def _lasting(model: Model, train: Recording, test: Recording) -> tuple[str, ...]:
+    """What it changes that errors last: on the test, and where three quarters of the fitted samples are fitted."""
     part = 3 * train.time.size // 4
+    inner, rest = cut(train, 0, part), cut(train, part)
+    cases = [(inner, rest, WINDOWS[0]), *((train, test, window) for window in WINDOWS)]
+    return tuple(
+        f"fitted to {fitted.time.size} samples, state from {window}: {plain:.4f} on the {judge.time.size} that follow "
+        f"where errors count as independent, {final:.4f} where they count as lasting"
+        for fitted, judge, window in cases
+        for plain, final in [_plain_and_final(_window(model, window), fitted, judge)]
+    )
+
+
+def _plain_and_final(model: Model, fitted: Recording, judge: Recording) -> tuple[float, float]:
+    """Error on `judge` of the model with its sensor, plainly fitted and under coloured noise."""
     found = explain(
-        prepare([cut(train, 0, part)], model), progress=lambda *_: None, names=["sensor-rectification"], at_once=1
+        prepare([fitted], model), progress=lambda *_: None, names=["sensor-rectification"], at_once=1
     )
-    named = next(h for h in found.hypotheses if h.fitted.added)
-    target = proof_target(cut(train, part), model)
-    errors = []
-    for fitted in (named.fitted, named.final):
-        out = found.setup.whole.simulate(target, fitted.vector, fitted.candidate.active)
-        left = target.speed - out.signals["speed"]
-        errors.append(float(np.sqrt(np.mean(left[target.judged_from :] ** 2))))
-    return (
-        f"fitted to the first {part} samples, it leaves {errors[0]:.3f} of the {train.time.size - part} that follow "
-        f"where errors count as independent, and {errors[1]:.3f} where they count as lasting"
-    )
+    named, target = next(h for h in found.hypotheses if h.fitted.added), proof_target(judge, model)
+
+    def error(fit: Fitted) -> float:
+        seen = found.setup.whole.simulate(target, fit.vector, fit.candidate.active).signals["speed"]
+        return float(np.sqrt(np.mean((target.speed - seen)[target.judged_from :] ** 2)))
+
+    return error(named.fitted), error(named.final)
 
 
 def _window(model: Model, samples: int) -> Model:
