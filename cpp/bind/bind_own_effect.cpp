@@ -25,7 +25,7 @@ OwnEffect make(const std::string& term, const std::vector<Step>& steps, int para
   for (const auto& [operation, number, place] : steps) {
     program.push_back({find<Operation>(operation_names, operation), number, place});
   }
-  return {find<Term>(term_names, term), std::move(program), parameters};
+  return {find<Term>(term_names, term), program, parameters};
 }
 
 /// Value of the formula and its derivatives by the own parameters, at one state.
@@ -49,8 +49,7 @@ std::pair<double, std::array<double, max_own_parameters>> evaluate_formula(
   std::array<S, max_own_parameters> p;
   for (std::size_t k = 0; k < p.size(); ++k) p[k] = S::variable(parameters[k], static_cast<int>(k));
   std::array<S, formula_depth> stack;
-  const auto length = static_cast<int>(effect.program.size());
-  const S y = evaluate(effect.program.data(), length, static_cast<const S*>(p.data()), motor, x, stack.data());
+  const S y = evaluate(effect.formula.plain(), static_cast<const S*>(p.data()), motor, x, stack.data());
   std::array<double, max_own_parameters> slopes;
   for (std::size_t k = 0; k < slopes.size(); ++k) slopes[k] = y.d[static_cast<int>(k)];
   return {y.v, slopes};

@@ -1,6 +1,6 @@
 #include "rwn/kernels/conventional_network.hpp"
 
-#include "pack.hpp"
+#include "rwn/pack.hpp"
 #include "rwn/wavelets.hpp"
 
 namespace rwn::RWN_ISA {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pack.hpp"
+#include "rwn/pack.hpp"
 
 namespace rwn::RWN_ISA {
 namespace {

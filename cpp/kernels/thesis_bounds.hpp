@@ -1,7 +1,7 @@
 // The `thesis` learning rates at one sample (eq. 4.35-4.124, E.1-E.24), inside the training loop.
 #pragma once
 
-#include "pack.hpp"
+#include "rwn/pack.hpp"
 #include "rwn/kernels/structured_step.hpp"
 #include "rwn/plant_gain.hpp"
 

@@ -1,7 +1,7 @@
 // From the index of a wavelet in rwn::Wavelets to its own type, once per call of a kernel.
 #pragma once
 
-#include "pack.hpp"
+#include "rwn/pack.hpp"
 #include "rwn/wavelets.hpp"
 
 namespace rwn::RWN_ISA {

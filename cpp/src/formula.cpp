@@ -22,7 +22,10 @@ int places(Operation operation, int parameters) {
   }
 }
 
-int taken(Operation operation) { return pushes(operation) ? 0 : takes_two(operation) ? 2 : 1; }
+int taken(Operation operation) {
+  if (pushes(operation) || operation == Operation::wavelet_sum) return 0;
+  return takes_two(operation) ? 2 : 1;
+}
 
 constexpr int nothing = -1, several = -2;  // what a value depends on, other than one variable
 
@@ -34,15 +37,19 @@ struct Value {
   int on = nothing;
 };
 
-int source(const Instruction& step) {
+int source(const Instruction& step, std::span<const WaveletSum> sums) {
+  if (step.operation == Operation::wavelet_sum) {
+    const WaveletSum& sum = sums[static_cast<std::size_t>(step.place)];
+    return sum.numeric() ? sum.over : several;
+  }
   return step.operation == Operation::number ? nothing : step.operation == Operation::variable ? step.place : several;
 }
 
 /// What every step leaves on top of the stack.
-std::vector<Value> values_of(std::span<const Instruction> program) {
+std::vector<Value> values_of(std::span<const Instruction> program, std::span<const WaveletSum> sums) {
   std::vector<Value> values, stack;
   for (std::size_t k = 0; k < program.size(); ++k) {
-    Value value{k, pushes(program[k].operation) ? source(program[k]) : nothing};
+    Value value{k, taken(program[k].operation) == 0 ? source(program[k], sums) : nothing};
     for (int n = taken(program[k].operation); n > 0; --n) {
       value = {stack.back().begin, joined(stack.back().on, value.on)};
       stack.pop_back();
@@ -59,7 +66,7 @@ void check_formula(std::span<const Instruction> program, int parameters) {
   int depth = 0;
   for (const Instruction& step : program) {
     require(step.place >= 0 && step.place < places(step.operation, parameters), "formula: no such value");
-    require(step.operation != Operation::curve, "formula: curves are found, not given");
+    require(step.operation < Operation::curve, "formula: curves and sums are found, not given");
     require(depth >= taken(step.operation), "formula: an operation lacks its values");
     depth += 1 - taken(step.operation);
     require(depth <= formula_depth, "formula: too deep for the stack");
@@ -67,8 +74,12 @@ void check_formula(std::span<const Instruction> program, int parameters) {
   require(depth == 1, "formula: a program leaves one value");
 }
 
-std::vector<Instruction> with_curves(std::span<const Instruction> program) {
-  const std::vector<Value> values = values_of(program);
+Formula::Formula(std::span<const Instruction> program) : steps(with_sums(program, sums)) {
+  steps = with_curves(steps, sums);
+}
+
+std::vector<Instruction> with_curves(std::span<const Instruction> program, std::span<const WaveletSum> sums) {
+  const std::vector<Value> values = values_of(program, sums);
   std::vector<Instruction> reversed;
   for (std::size_t k = program.size(); k-- > 0;) {
     reversed.push_back(program[k]);

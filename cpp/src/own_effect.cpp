@@ -3,23 +3,30 @@
 #include <stdexcept>
 
 namespace rwn {
+namespace {
 
-OwnEffect::OwnEffect(Term t, std::vector<Instruction> steps, int count)
-    : term(t), program(std::move(steps)), parameters(count) {
+std::span<const Instruction> checked(std::span<const Instruction> program, int parameters) {
   if (parameters > max_own_parameters) throw std::invalid_argument("own effect: too many parameters");
   check_formula(program, parameters);
-  program = with_curves(program);
+  return program;
 }
+
+/// Whether a step brings the motion in, other than the direction of sliding.
+bool moves(const Instruction& step) {
+  const bool variable = step.operation == Operation::variable && step.place != static_cast<int>(Variable::direction);
+  return variable || step.operation == Operation::wavelet_sum;
+}
+
+}  // namespace
+
+OwnEffect::OwnEffect(Term t, std::span<const Instruction> program, int count)
+    : term(t), formula(checked(program, count)), parameters(count) {}
 
 bool OwnEffect::varies() const {
   if (!is_torque(term)) return !is_sensor(term) && term != Term::input;
-  return std::any_of(program.begin(), program.end(), [](const Instruction& step) {
-    return step.operation == Operation::variable && step.place != static_cast<int>(Variable::direction);
-  });
+  return std::any_of(formula.steps.begin(), formula.steps.end(), moves);
 }
 
-OwnProgram OwnEffect::plain() const {
-  return {term, program.data(), static_cast<int>(program.size()), parameters, varies()};
-}
+OwnProgram OwnEffect::plain() const { return {term, formula.plain(), parameters, varies()}; }
 
 }  // namespace rwn

@@ -3,22 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "allocations.hpp"
+#include "formulas.hpp"
 #include "rwn/inverse_dynamics.hpp"
 #include "rwn/simulate.hpp"
 
 namespace rwn {
 namespace {
-
-Instruction number(double x) { return {Operation::number, x}; }
-Instruction variable(Variable v) { return {Operation::variable, 0.0, static_cast<int>(v)}; }
-Instruction own(int k) { return {Operation::parameter, 0.0, k}; }
-Instruction op(Operation o) { return {o}; }
 
 /// A 24 V motor under a chirp, with own effects.
 struct Case {
@@ -79,17 +74,6 @@ Trajectory run(const Case& c) {
   return r;
 }
 
-/// -k w |w|
-std::vector<Instruction> drag() {
-  return {own(0),
-          op(Operation::negate),
-          variable(Variable::speed),
-          op(Operation::multiply),
-          variable(Variable::speed),
-          op(Operation::abs),
-          op(Operation::multiply)};
-}
-
 /// p0 tanh(v / p1) for a variable v, plus `level`.
 std::vector<Instruction> step_over(Variable v, double level) {
   return {own(0),        variable(v),       own(1), op(Operation::divide), op(Operation::tanh), op(Operation::multiply),
@@ -123,18 +107,9 @@ void expect_slopes(const Case& c) {
   }
 }
 
-TEST(OwnEffect, ProgramsThatDoNotWorkOutAreRefused) {
-  const auto refused = [](std::vector<Instruction> program) {
-    EXPECT_THROW(OwnEffect(Term::torque, std::move(program), 1), std::invalid_argument);
-  };
-  refused({});
-  refused({number(1.0), number(2.0)});
-  refused({op(Operation::add)});
-  refused({own(1)});
-  refused({own(-1)});
-  refused({variable(static_cast<Variable>(7))});
-  refused(std::vector<Instruction>(formula_depth + 1, number(1.0)));
-  EXPECT_THROW(OwnEffect(Term::torque, {number(1.0)}, max_own_parameters + 1), std::invalid_argument);
+TEST(OwnEffect, TooManyParametersAreRefused) {
+  const std::vector<Instruction> one{number(1.0)};
+  EXPECT_THROW(OwnEffect(Term::torque, one, max_own_parameters + 1), std::invalid_argument);
 }
 
 TEST(OwnEffect, AFormulaOfABuiltInEffectRunsAsThatOne) {
@@ -174,63 +149,12 @@ TEST(OwnEffect, SlopesOfEveryTermAgreeWithCentralDifferences) {
   expect(Term::position, Variable::position, 1.0, 2.0, 0.0);
 }
 
-/// p0 hat((v - 0.2) / 30) + p1 hat(sin(v / 40) / 0.7)
-std::vector<Instruction> two_wavelets(Variable v) {
-  return {own(0),
-          variable(v),
-          number(0.2),
-          op(Operation::subtract),
-          number(30.0),
-          op(Operation::divide),
-          op(Operation::mexican_hat),
-          op(Operation::multiply),
-          own(1),
-          variable(v),
-          number(40.0),
-          op(Operation::divide),
-          op(Operation::sin),
-          number(0.7),
-          op(Operation::divide),
-          op(Operation::mexican_hat),
-          op(Operation::multiply),
-          op(Operation::add)};
-}
-
 TEST(OwnEffect, SlopesOfWavelets) {
   for (Variable v : {Variable::speed, Variable::position}) {
     Case c;
     c.add(Term::torque, two_wavelets(v), {0.02, -0.03});
     expect_slopes(c);
   }
-}
-
-TEST(OwnEffect, CurvesAreAnnouncedAndChangeNothing) {
-  using S = Dual<4, struct Plain>;
-  const auto value = [](const std::vector<Instruction>& program) {
-    const std::array<S, 2> p{S::variable(0.5, 0), S::variable(2.0, 1)};
-    Motion<S> x;
-    x.speed = S::variable(11.0, 2);
-    x.current = S::variable(0.7, 3);
-    std::array<S, formula_depth> stack;
-    return evaluate(program.data(), static_cast<int>(program.size()), p.data(), Motor<S>{}, x, stack.data());
-  };
-  const auto curves = [](const std::vector<Instruction>& program) {
-    return std::count_if(program.begin(), program.end(), [](auto& step) { return step.operation == Operation::curve; });
-  };
-  auto mixed = two_wavelets(Variable::speed);  // beside a product of two variables, which is no curve
-  for (Instruction step : {variable(Variable::speed), variable(Variable::current), op(Operation::multiply)}) {
-    mixed.push_back(step);
-  }
-  mixed.push_back(op(Operation::add));
-  const auto announced = with_curves(mixed);
-  EXPECT_EQ(curves(announced), 2);
-  EXPECT_EQ(announced.size(), mixed.size() + 2);
-  const S a = value(mixed), b = value(announced);
-  EXPECT_DOUBLE_EQ(a.v, b.v);
-  for (int k = 0; k < 4; ++k) EXPECT_NEAR(a.d[k], b.d[k], 1e-15);
-  EXPECT_EQ(curves(with_curves(drag())), 1);  // |w|: the other w stands beside a parameter
-  EXPECT_EQ(curves(with_curves(std::vector<Instruction>{number(1.0)})), 0);
-  EXPECT_THROW(OwnEffect(Term::torque, announced, 2), std::invalid_argument);
 }
 
 TEST(OwnEffect, FrictionOfItsOwnHoldsAtStandstill) {

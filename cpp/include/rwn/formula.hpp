@@ -9,11 +9,12 @@
 #include "rwn/drive.hpp"
 #include "rwn/dual.hpp"
 #include "rwn/room.hpp"
+#include "rwn/wavelet_sum.hpp"
 
 namespace rwn {
 
-/// What a step of a program does. The first four push a value, the others act on the top of the stack; the last is no
-/// word of users, see `with_curves`.
+/// What a step of a program does. The first four push a value, the others act on the top of the stack; the last two are
+/// no words of users, see `Formula`.
 enum class Operation {
   number,
   variable,
@@ -38,7 +39,8 @@ enum class Operation {
   min,
   max,
   mexican_hat,
-  curve
+  curve,
+  wavelet_sum
 };
 inline constexpr std::string_view operation_names[] = {
     "number", "variable", "nominal", "parameter", "negate", "add",  "subtract",   "multiply",
@@ -51,7 +53,8 @@ inline constexpr std::string_view variable_names[] = {"time",     "input",     "
                                                       "position", "direction", "drive_torque"};
 
 /// One step: `number` is what it pushes, `place` the variable, nominal parameter or own parameter that it pushes. A
-/// `curve` announces that the next `number` steps depend on the variable `place` alone.
+/// `curve` announces that the next `number` steps depend on the variable `place` alone; a `wavelet_sum` pushes the sum
+/// of that place.
 struct Instruction {
   Operation operation = Operation::number;
   double number = 0.0;
@@ -64,8 +67,30 @@ inline constexpr int formula_depth = 32;  // most values that are on the stack a
 /// does not exist. Throws std::invalid_argument.
 void check_formula(std::span<const Instruction> program, int parameters);
 
-/// The same program with its curves announced: they need one derivative, however many the result has.
-std::vector<Instruction> with_curves(std::span<const Instruction> program);
+/// A checked program in plain pointers, for kernels.
+struct Program {
+  const Instruction* steps = nullptr;
+  int length = 0;
+  const WaveletSum* sums = nullptr;
+};
+
+/// A checked program made quick: sums of wavelets are single steps, and what depends on one variable is announced as a
+/// curve, which needs one derivative however many the result has.
+struct Formula {
+  std::vector<WaveletSum> sums;
+  std::vector<Instruction> steps;
+
+  explicit Formula(std::span<const Instruction> program);
+
+  /// Points into this.
+  Program plain() const { return {steps.data(), static_cast<int>(steps.size()), sums.data()}; }
+};
+
+/// `program` with sums of wavelets over one variable as single steps, which are put into `sums`.
+std::vector<Instruction> with_sums(std::span<const Instruction> program, std::vector<WaveletSum>& sums);
+
+/// `program`, whose sums are `sums`, with its curves announced.
+std::vector<Instruction> with_curves(std::span<const Instruction> program, std::span<const WaveletSum> sums = {});
 
 template <class S>
 double direction_of(const Motion<S>& x) {
@@ -95,17 +120,17 @@ S variable_of(Variable v, const Motion<S>& x) {
   return S(0.0);
 }
 
-template <class S>
-S push(const Instruction& step, const S* p, const Motor<S>& motor, const Motion<S>& x) {
+template <class S, class P>
+S push(const Instruction& step, const P* p, const Motor<P>& motor, const Motion<S>& x) {
   switch (step.operation) {
     case Operation::number:
       return S(step.number);
     case Operation::variable:
       return variable_of(static_cast<Variable>(step.place), x);
     case Operation::nominal:
-      return motor[static_cast<std::size_t>(step.place)];
+      return as_scalar<S>(motor[static_cast<std::size_t>(step.place)]);
     default:
-      return p[step.place];
+      return as_scalar<S>(p[step.place]);
   }
 }
 
@@ -207,9 +232,9 @@ bool apply_number(Operation operation, S& a, double b) {
 }
 
 /// Value of a checked program whose values `push` puts on the stack, which has room for `formula_depth`.
-/// `curve_of`: value of the curve that begins at a step.
-template <class S, class Push, class CurveOf>
-S run(const Instruction* program, int length, S* stack, const Push& push, const CurveOf& curve_of) {
+/// `curve_of`: value of the curve that begins at a step; `sum_of`: of a sum of wavelets.
+template <class S, class Push, class CurveOf, class SumOf>
+S run(const Instruction* program, int length, S* stack, const Push& push, const CurveOf& curve_of, const SumOf& sum_of) {
   S* top = stack;  // one past the last
   for (int k = 0; k < length; ++k) {
     const Instruction& step = program[k];
@@ -219,6 +244,8 @@ S run(const Instruction* program, int length, S* stack, const Push& push, const 
     } else if (step.operation == Operation::curve) {
       *top++ = curve_of(program + k);
       k += static_cast<int>(step.number);
+    } else if (step.operation == Operation::wavelet_sum) {
+      *top++ = sum_of(step);
     } else if (pushes(step.operation)) {
       *top++ = push(step);
     } else if (takes_two(step.operation)) {
@@ -233,25 +260,30 @@ S run(const Instruction* program, int length, S* stack, const Push& push, const 
 
 /// Value of a curve at x, with the slopes of x times its own.
 template <int N, class Isa>
-Dual<N, Isa> curve_at(const Instruction* curve, const Dual<N, Isa>& x) {
+Dual<N, Isa> curve_at(const Instruction* curve, const WaveletSum* sums, const Dual<N, Isa>& x) {
   using One = Dual<(N > 0), Isa>;
   Room<One, formula_depth> stack;
   const One at = One::variable(x.v, 0);
   const auto push = [&](const Instruction& step) { return step.operation == Operation::number ? One(step.number) : at; };
   const auto none = [](const Instruction*) { return One(0.0); };
-  const One y = run(curve + 1, static_cast<int>(curve->number), stack.numbers, push, none);
+  const auto sum_of = [&](const Instruction& step) { return sum_at(sums[step.place], at, &at); };
+  const One y = run(curve + 1, static_cast<int>(curve->number), stack.numbers, push, none, sum_of);
   if constexpr (N == 0) return y;
   return x.chain(y.v, y.d[0]);
 }
 
-/// Value of a checked program; `stack` has room for `formula_depth`. p: the effect's own parameters.
-template <class S>
-S evaluate(const Instruction* program, int length, const S* p, const Motor<S>& motor, const Motion<S>& x, S* stack) {
+/// Value of a checked program; `stack` has room for `formula_depth`. p: the effect's own parameters; those and the motor's
+/// count by their values where they are of another kind than the motion.
+template <class S, class P>
+S evaluate(const Program& program, const P* p, const Motor<P>& motor, const Motion<S>& x, S* stack) {
+  const auto over = [&](int place) { return variable_of(static_cast<Variable>(place), x); };
   const auto pushed = [&](const Instruction& step) { return push(step, p, motor, x); };
-  const auto curve_of = [&](const Instruction* curve) {
-    return curve_at(curve, variable_of(static_cast<Variable>(curve->place), x));
+  const auto curve_of = [&](const Instruction* curve) { return curve_at(curve, program.sums, over(curve->place)); };
+  const auto sum_of = [&](const Instruction& step) {
+    const WaveletSum& sum = program.sums[step.place];
+    return sum_at(sum, over(sum.over), p);
   };
-  return run(program, length, stack, pushed, curve_of);
+  return run(program.steps, program.length, stack, pushed, curve_of, sum_of);
 }
 
 }  // namespace rwn

@@ -23,8 +23,7 @@ inline constexpr std::string_view term_names[] = {"torque",     "friction", "loa
 /// A definition in plain pointers, for kernels.
 struct OwnProgram {
   Term term = Term::torque;
-  const Instruction* program = nullptr;
-  int length = 0;
+  Program program;
   int parameters = 0;
   bool varies = true;  // within a step, other than with the direction of sliding
 };
@@ -32,11 +31,11 @@ struct OwnProgram {
 /// A definition as a task carries it.
 struct OwnEffect {
   Term term = Term::torque;
-  std::vector<Instruction> program;
+  Formula formula;
   int parameters = 0;
 
   /// Throws std::invalid_argument for a program that `check_formula` refuses, or too many parameters.
-  OwnEffect(Term t, std::vector<Instruction> steps, int count);
+  OwnEffect(Term t, std::span<const Instruction> program, int count);
 
   /// Whether it changes within a step, other than with the direction of sliding.
   bool varies() const;
@@ -73,7 +72,7 @@ class ActiveOwnEffect {
 
   /// The formula's value; where it has none, one that changes nothing, and the run is marked as failed.
   S value(const S* p, const Motor<S>& motor, const Motion<S>& x) const {
-    S y = evaluate(program_.program, program_.length, p, motor, x, stack_);
+    S y = evaluate(program_.program, p, motor, x, stack_);
     y.clear_wild_slopes();
     if (std::isfinite(value_of(y))) return y;
     *failed_ = true;
@@ -94,7 +93,6 @@ class ActiveOwnEffect {
       }
       case Term::drop:
         t.drop += value(p, motor, x);
-        t.drop_slope += partials(p, motor, x).d[0];
         return;
       case Term::resistance:
         t.resistance *= value(p, motor, x);
@@ -109,6 +107,9 @@ class ActiveOwnEffect {
         return;
     }
   }
+
+  /// Change of a voltage drop with the current.
+  double drop_slope(const S* p, const Motor<S>& motor, const Motion<S>& x) const { return partials(p, motor, x).d[0]; }
 
   /// What is recorded in place of one true signal of `y`, as the sensors before this one show it.
   void sense(const S* p, const Motor<S>& motor, Motion<S> x, Reading<S>& y) const {
@@ -158,13 +159,8 @@ class ActiveOwnEffect {
     at.angle = x.angle_per_position * Partials::variable(value_of(x.angle) / x.angle_per_position, 2);
     at.angle_per_position = x.angle_per_position;
     at.drive_torque = value_of(x.drive_torque);
-    Motor<Partials> values;
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = value_of(motor[k]);
-    Room<Partials, max_own_parameters> own;
     Room<Partials, formula_depth> stack;
-    for (int k = 0; k < program_.parameters; ++k) own.numbers[k] = value_of(p[k]);
-    const Partials* known = own.numbers;
-    return evaluate(program_.program, program_.length, known, values, at, stack.numbers);
+    return evaluate(program_.program, p, motor, at, stack.numbers);
   }
 
   OwnProgram program_;

@@ -24,8 +24,7 @@ class Stepper {
   int step_count(const State& s, double h) {
     start_known_ = equations_.rates();
     if (!start_known_) return 1;
-    t0_ = {};
-    f0_ = equations_.nonlinear(s, s.memory.data(), s.position, 0, t0_);
+    start(s, 0);
     return equations_.step_count(s, h, f0_, t0_);
   }
 
@@ -57,24 +56,22 @@ class Stepper {
 
   State nonlinear_step(const State& s, const S& h) {
     const bool stick = equations_.dry() && s.direction == 0.0;
-    const int level = equations_.choose_level(s);
-    const auto& o = operators_.over(h, level, stick);
-    const S& start = s.position;
-    const S* memory = s.memory.data();  // as of the start of the step
-    if (!start_known_ || level != 0) {
-      t0_ = {};
-      f0_ = equations_.nonlinear(s, memory, start, level, t0_);
-    }
+    if (!start_known_) start(s, 0);
     start_known_ = false;
+    const int level = equations_.choose_level(s, t0_);
+    if (level != 0) start(s, level);
+    const auto& o = operators_.over(h, level, stick);
+    const S& position = s.position;
+    const S* memory = s.memory.data();  // as of the start of the step
     Terms<S> ta, tb, tc;
     const Moving a = stage(s, o.eh, s.x, o.p1h, f0_, 0.5 * h, s.x[w], t0_);
-    const Vector fa = equations_.nonlinear(a, memory, start, level, ta);
+    const Vector fa = equations_.nonlinear(a, memory, position, level, ta);
     const Moving b = stage(s, o.eh, s.x, o.p1h, fa, 0.5 * h, a.x[w], ta);
-    const Vector fb = equations_.nonlinear(b, memory, start, level, tb);
+    const Vector fb = equations_.nonlinear(b, memory, position, level, tb);
     Vector mixed = fb;
     for (std::size_t j = 0; j < n; ++j) mixed[j] = 2.0 * fb[j] - f0_[j];
     const Moving c = stage(s, o.eh, a.x, o.p1h, mixed, h, b.x[w], tb);
-    const Vector fc = equations_.nonlinear(c, memory, start, level, tc);
+    const Vector fc = equations_.nonlinear(c, memory, position, level, tc);
 
     State next = s;
     next.x = Vector{};
@@ -93,6 +90,12 @@ class Stepper {
     }
     if (equations_.finishes()) equations_.finish(s, next, h);
     return next;
+  }
+
+  /// The terms at the start of a step.
+  void start(const State& s, int level) {
+    t0_ = {};
+    f0_ = equations_.nonlinear(s, s.memory.data(), s.position, level, t0_);
   }
 
   Moving stage(const Moving& s, const Matrix& e, const Vector& from, const Matrix& p1, const Vector& f, const S& h,

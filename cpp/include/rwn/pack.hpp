@@ -4,6 +4,10 @@
 
 #include "rwn/vectors.hpp"
 
+#ifndef RWN_ISA
+#define RWN_ISA core  // files outside cpp/kernels, which are compiled once
+#endif
+
 namespace rwn::RWN_ISA {
 
 inline constexpr int width = RWN_VECTOR_WIDTH;
