@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +57,9 @@ class Normal:
     finite: bool = True
 
 
-Evaluate = Callable[[Array], Normal]
+N = TypeVar("N", bound=Normal)
+Evaluate = Callable[[Array], N]
+Derive = Callable[[Array, N], N]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,11 +78,13 @@ class Minimum:
     iterations: int
 
 
-class _Search:
+class _Search(Generic[N]):
     """The problem in search coordinates."""
 
-    def __init__(self, evaluate: Evaluate, unknowns: tuple[Unknown, ...], prior_scale: float) -> None:
-        self.evaluate, self.unknowns = evaluate, unknowns
+    def __init__(
+        self, evaluate: Evaluate[N], derive: Derive[N] | None, unknowns: tuple[Unknown, ...], prior_scale: float
+    ) -> None:
+        self.evaluate, self.derive, self.unknowns = evaluate, derive, unknowns
         self.logarithmic = np.array([u.logarithmic for u in unknowns], dtype=bool)
         self.lower = np.array([u.coordinate(u.lower) for u in unknowns])
         self.upper = np.array([u.coordinate(u.upper) for u in unknowns])
@@ -91,19 +96,25 @@ class _Search:
     def values(self, z: Array) -> Array:
         return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, z, 0.0)), z)
 
-    def at(self, z: Array) -> tuple[float, Array, Array, Normal]:
-        """Cost, -gradient/2 and curvature in search coordinates."""
+    def at(self, z: Array) -> tuple[float, N]:
+        """Cost in search coordinates, and what it is made of."""
         values = self.values(z)
         normal = self.evaluate(values)
         large = float(np.max(np.abs(normal.curvature), initial=0.0))
         if not normal.finite or not np.isfinite(normal.chi2) or large > 1e150:
-            return np.inf, np.zeros_like(z), np.eye(z.size), normal
-        slope = np.where(self.logarithmic, values, 1.0)
+            return np.inf, normal
         off = z - self.prior
-        cost = normal.chi2 + float(np.sum(self.weight * off**2) + z @ self.tie @ z)
-        gradient = normal.gradient * slope - self.weight * off - self.tie @ z
+        return normal.chi2 + float(np.sum(self.weight * off**2) + z @ self.tie @ z), normal
+
+    def slopes(self, z: Array, normal: N) -> tuple[Array, Array, N]:
+        """-gradient/2 and curvature of the cost in search coordinates."""
+        values = self.values(z)
+        if self.derive is not None:
+            normal = self.derive(values, normal)
+        slope = np.where(self.logarithmic, values, 1.0)
+        gradient = normal.gradient * slope - self.weight * (z - self.prior) - self.tie @ z
         curvature = normal.curvature * np.outer(slope, slope) + np.diag(self.weight) + self.tie
-        return cost, gradient, curvature, normal
+        return gradient, curvature, normal
 
     def information(self, z: Array, normal: Normal) -> Array:
         slope = np.where(self.logarithmic, self.values(z), 1.0)
@@ -132,7 +143,7 @@ def _prior_weight(u: Unknown) -> float:
 
 
 def minimise(
-    evaluate: Evaluate,
+    evaluate: Evaluate[N],
     start: Array,
     unknowns: tuple[Unknown, ...],
     *,
@@ -140,20 +151,23 @@ def minimise(
     tolerance: float = 1e-2,
     damping: float = 1e-3,
     prior_scale: float = 1.0,
+    derive: Derive[N] | None = None,
 ) -> Minimum:
     """Levenberg-Marquardt (Nielsen's damping) from `start` (p values) within the unknowns' bounds.
 
     Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: what
-    priors are multiplied by: the independent samples that a coloured residual is short of.
+    priors are multiplied by: the independent samples that a coloured residual is short of. `derive`: where derivatives
+    are dear, what adds gradient and curvature to the normal equations of a step that is taken.
     """
-    search = _Search(evaluate, unknowns, prior_scale)
+    search = _Search(evaluate, derive, unknowns, prior_scale)
     z = np.array(
         [u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in zip(unknowns, start, strict=True)]
     )
     z = np.clip(z, search.lower, search.upper)
-    cost, gradient, curvature, normal = search.at(z)
+    cost, normal = search.at(z)
     if not np.isfinite(cost):
         return _minimum(search, z, normal, cost, cost, FitStatus.DIVERGED, 0)
+    gradient, curvature, normal = search.slopes(z, normal)
     first = cost
     growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
     for count in range(1, max_iterations + 1):  # noqa: B007 - reported
@@ -169,11 +183,11 @@ def minimise(
         if promised < tolerance * unit:
             status = FitStatus.CONVERGED
             break
-        trial = search.at(z + step)
-        gain = (cost - trial[0]) / promised if np.isfinite(trial[0]) else -1.0
+        reached, there = search.at(z + step)
+        gain = (cost - reached) / promised if np.isfinite(reached) else -1.0
         if gain > 1e-4:
-            z = z + step
-            cost, gradient, curvature, normal = trial
+            z, cost = z + step, reached
+            gradient, curvature, normal = search.slopes(z, there)
             damping *= max(1.0 / 5.0, 1.0 - (2.0 * gain - 1.0) ** 3)
             growth, misses = 2.0, 0
         else:
@@ -188,7 +202,7 @@ def _size(normal: Normal) -> int:
     return int(getattr(normal, "count", 0)) or 1
 
 
-def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
+def _step(search: _Search[N], z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
     """Damped Gauss-Newton step; parameters that would leave their range go to its end, the others answer to that."""
     free = ~(((z <= search.lower) & (gradient < 0)) | ((z >= search.upper) & (gradient > 0)))
     step = np.zeros_like(z)
@@ -211,13 +225,13 @@ def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping:
     return step
 
 
-def _reach(search: _Search) -> Array:
+def _reach(search: _Search[N]) -> Array:
     """No parameter moves by more than a factor of 3, or a third of its range, at once."""
     return np.where(search.logarithmic, 1.1, np.maximum((search.upper - search.lower) / 3.0, 1e-300))
 
 
 def _minimum(
-    search: _Search, z: Array, normal: Normal, cost: float, first: float, status: FitStatus, count: int
+    search: _Search[N], z: Array, normal: Normal, cost: float, first: float, status: FitStatus, count: int
 ) -> Minimum:
     return Minimum(
         values=search.values(z),

@@ -6,6 +6,8 @@ the ripples go down it, coarse to fine (graduated optimisation: Blake, Zisserman
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,8 +22,14 @@ SECANTS = (0.2, 0.06, 0.02)  # relative steps, coarse to fine
 STEPS = 6  # along each of them
 ITERATIONS = 12  # with derivatives
 GAIN = 2e-3  # least relative gain in cost that is worth another turn, or step
-LOST = 1.5  # squared error in units of the best, from which a step is taken back and needs no slopes
 NEAR_ZERO = 0.02  # of its range or its prior: what a parameter near zero is stepped by, as if it were that large
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Point(CountedNormal):
+    """A point of a search with its error, from which derivatives are made where they are needed."""
+
+    error: Array
 
 
 def rough(this: Candidate, *names: str) -> list[int]:
@@ -51,8 +59,6 @@ def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int
 def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Minimum:
     """Where Levenberg-Marquardt ends with the slopes of secants over `relative` steps in place of derivatives."""
 
-    best = np.inf
-
     def slope(values: Array, k: int) -> Array | float:
         low, high = _sides(this.unknowns[k], float(values[k]), relative)
         if high <= low:
@@ -60,25 +66,25 @@ def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Minim
         below, above = (_weighted(problem, this, _with(values, k, v)) for v in (low, high))
         return (below - above) / (high - low)  # the error is recorded minus simulated
 
-    def evaluate(values: Array) -> CountedNormal:
-        nonlocal best
-        error = _weighted(problem, this, values)
+    def evaluate(values: Array) -> _Point:
+        error, p = _weighted(problem, this, values), values.size
         chi2 = float(error @ error)
-        slopes = np.zeros((error.size, values.size))
-        if chi2 < LOST * best:
-            for k, column in enumerate(side_by_side(lambda k: slope(values, k), range(values.size))):
-                slopes[:, k] = column
-        best = min(best, chi2)
-        return CountedNormal(
-            chi2=chi2, gradient=slopes.T @ error, curvature=slopes.T @ slopes, count=error.size,
-            finite=bool(np.isfinite(chi2)),
+        return _Point(
+            chi2=chi2, gradient=np.zeros(p), curvature=np.zeros((p, p)), count=error.size,
+            finite=bool(np.isfinite(chi2)), error=error,
         )  # fmt: skip
+
+    def derive(values: Array, point: _Point) -> _Point:
+        slopes = np.zeros((point.count, values.size))
+        for k, column in enumerate(side_by_side(lambda k: slope(values, k), range(values.size))):
+            slopes[:, k] = column
+        return replace(point, gradient=slopes.T @ point.error, curvature=slopes.T @ slopes)
 
     samples = sum(t.signal(s).size for t in problem.targets for s in t.recorded)
     with _overflowing():
         return minimise(
             evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * samples,
-            prior_scale=problem.colour,
+            prior_scale=problem.colour, derive=derive,
         )  # fmt: skip
 
 
