@@ -101,9 +101,12 @@ def fit(
     def evaluate(values: Array) -> CountedNormal:
         return problem.normal(this.with_values(values), this.active, this.by)
 
+    def probe(values: Array) -> CountedNormal:
+        return problem.normal(this.with_values(values), this.active, ())
+
     return minimise(
         evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance,
-        prior_scale=problem.colour,
+        prior_scale=problem.colour, probe=probe,
     )  # fmt: skip
 
 

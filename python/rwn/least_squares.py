@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
+LEAST = 1e-4  # of what a step promises, that it has to keep to be taken
+
+
 class FitStatus(Enum):
     """How a fit ended; the value says what to do."""
 
@@ -59,7 +62,6 @@ class Normal:
 
 N = TypeVar("N", bound=Normal)
 Evaluate = Callable[[Array], N]
-Derive = Callable[[Array, N], N]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,9 +84,9 @@ class _Search(Generic[N]):
     """The problem in search coordinates."""
 
     def __init__(
-        self, evaluate: Evaluate[N], derive: Derive[N] | None, unknowns: tuple[Unknown, ...], prior_scale: float
+        self, evaluate: Evaluate[N], probe: Evaluate[N] | None, unknowns: tuple[Unknown, ...], prior_scale: float
     ) -> None:
-        self.evaluate, self.derive, self.unknowns = evaluate, derive, unknowns
+        self.evaluate, self.probe, self.unknowns = evaluate, probe, unknowns
         self.logarithmic = np.array([u.logarithmic for u in unknowns], dtype=bool)
         self.lower = np.array([u.coordinate(u.lower) for u in unknowns])
         self.upper = np.array([u.coordinate(u.upper) for u in unknowns])
@@ -98,23 +100,28 @@ class _Search(Generic[N]):
 
     def at(self, z: Array) -> tuple[float, N]:
         """Cost in search coordinates, and what it is made of."""
-        values = self.values(z)
-        normal = self.evaluate(values)
+        return self._priced(z, self.evaluate(self.values(z)))
+
+    def at_if_below(self, z: Array, bar: float) -> tuple[float, N]:
+        """The same, by the error alone where the cost is above `bar`."""
+        if self.probe is None:
+            return self.at(z)
+        probed = self._priced(z, self.probe(self.values(z)))
+        return self.at(z) if probed[0] < bar else probed
+
+    def _priced(self, z: Array, normal: N) -> tuple[float, N]:
         large = float(np.max(np.abs(normal.curvature), initial=0.0))
         if not normal.finite or not np.isfinite(normal.chi2) or large > 1e150:
             return np.inf, normal
         off = z - self.prior
         return normal.chi2 + float(np.sum(self.weight * off**2) + z @ self.tie @ z), normal
 
-    def slopes(self, z: Array, normal: N) -> tuple[Array, Array, N]:
+    def slopes(self, z: Array, normal: N) -> tuple[Array, Array]:
         """-gradient/2 and curvature of the cost in search coordinates."""
-        values = self.values(z)
-        if self.derive is not None:
-            normal = self.derive(values, normal)
-        slope = np.where(self.logarithmic, values, 1.0)
+        slope = np.where(self.logarithmic, self.values(z), 1.0)
         gradient = normal.gradient * slope - self.weight * (z - self.prior) - self.tie @ z
         curvature = normal.curvature * np.outer(slope, slope) + np.diag(self.weight) + self.tie
-        return gradient, curvature, normal
+        return gradient, curvature
 
     def information(self, z: Array, normal: Normal) -> Array:
         slope = np.where(self.logarithmic, self.values(z), 1.0)
@@ -151,15 +158,16 @@ def minimise(
     tolerance: float = 1e-2,
     damping: float = 1e-3,
     prior_scale: float = 1.0,
-    derive: Derive[N] | None = None,
+    probe: Evaluate[N] | None = None,
+    doubt: int = 1,
 ) -> Minimum:
     """Levenberg-Marquardt (Nielsen's damping) from `start` (p values) within the unknowns' bounds.
 
     Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: what
-    priors are multiplied by: the independent samples that a coloured residual is short of. `derive`: where derivatives
-    are dear, what adds gradient and curvature to the normal equations of a step that is taken.
+    priors are multiplied by: the independent samples that a coloured residual is short of. `probe` gives the error
+    without derivatives: it decides on a step after `doubt` that were not taken, and `evaluate` follows if that one is.
     """
-    search = _Search(evaluate, derive, unknowns, prior_scale)
+    search = _Search(evaluate, probe, unknowns, prior_scale)
     z = np.array(
         [u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in zip(unknowns, start, strict=True)]
     )
@@ -167,7 +175,7 @@ def minimise(
     cost, normal = search.at(z)
     if not np.isfinite(cost):
         return _minimum(search, z, normal, cost, cost, FitStatus.DIVERGED, 0)
-    gradient, curvature, normal = search.slopes(z, normal)
+    gradient, curvature = search.slopes(z, normal)
     first = cost
     growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
     for count in range(1, max_iterations + 1):  # noqa: B007 - reported
@@ -183,11 +191,12 @@ def minimise(
         if promised < tolerance * unit:
             status = FitStatus.CONVERGED
             break
-        reached, there = search.at(z + step)
-        gain = (cost - reached) / promised if np.isfinite(reached) else -1.0
-        if gain > 1e-4:
-            z, cost = z + step, reached
-            gradient, curvature, normal = search.slopes(z, there)
+        least = cost - LEAST * promised
+        reached, there = search.at(z + step) if misses < doubt else search.at_if_below(z + step, least)
+        if reached < least:
+            gain = (cost - reached) / promised
+            z, cost, normal = z + step, reached, there
+            gradient, curvature = search.slopes(z, normal)
             damping *= max(1.0 / 5.0, 1.0 - (2.0 * gain - 1.0) ** 3)
             growth, misses = 2.0, 0
         else:

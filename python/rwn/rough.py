@@ -6,8 +6,6 @@ the ripples go down it, coarse to fine (graduated optimisation: Blake, Zisserman
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,13 +21,6 @@ STEPS = 6  # along each of them
 ITERATIONS = 12  # with derivatives
 GAIN = 2e-3  # least relative gain in cost that is worth another turn, or step
 NEAR_ZERO = 0.02  # of its range or its prior: what a parameter near zero is stepped by, as if it were that large
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Point(CountedNormal):
-    """A point of a search with its error, from which derivatives are made where they are needed."""
-
-    error: Array
 
 
 def rough(this: Candidate, *names: str) -> list[int]:
@@ -66,26 +57,31 @@ def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Minim
         below, above = (_weighted(problem, this, _with(values, k, v)) for v in (low, high))
         return (below - above) / (high - low)  # the error is recorded minus simulated
 
-    def evaluate(values: Array) -> _Point:
-        error, p = _weighted(problem, this, values), values.size
-        chi2 = float(error @ error)
-        return _Point(
-            chi2=chi2, gradient=np.zeros(p), curvature=np.zeros((p, p)), count=error.size,
-            finite=bool(np.isfinite(chi2)), error=error,
-        )  # fmt: skip
+    def probe(values: Array) -> CountedNormal:
+        error = _weighted(problem, this, values)
+        return _normal(error, np.empty((error.size, 0)))
 
-    def derive(values: Array, point: _Point) -> _Point:
-        slopes = np.zeros((point.count, values.size))
+    def evaluate(values: Array) -> CountedNormal:
+        error = _weighted(problem, this, values)
+        slopes = np.zeros((error.size, values.size))
         for k, column in enumerate(side_by_side(lambda k: slope(values, k), range(values.size))):
             slopes[:, k] = column
-        return replace(point, gradient=slopes.T @ point.error, curvature=slopes.T @ slopes)
+        return _normal(error, slopes)
 
     samples = sum(t.signal(s).size for t in problem.targets for s in t.recorded)
     with _overflowing():
         return minimise(
             evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * samples,
-            prior_scale=problem.colour, derive=derive,
+            prior_scale=problem.colour, probe=probe, doubt=0,
         )  # fmt: skip
+
+
+def _normal(error: Array, slopes: Array) -> CountedNormal:
+    chi2 = float(error @ error)
+    return CountedNormal(
+        chi2=chi2, gradient=slopes.T @ error, curvature=slopes.T @ slopes, count=error.size,
+        finite=bool(np.isfinite(chi2)),
+    )  # fmt: skip
 
 
 def _overflowing() -> np.errstate:
