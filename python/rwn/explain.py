@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,7 +31,16 @@ PATIENCE = 4  # in short windows, where the misfit is large and the first steps 
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
 HALF_A_TURN = 0.5  # travel in revolutions, from which a torque of the angle is more than a load and a spring
 WHOLE = 0.99  # share of the time from which a window is none
+OFFSET = "constant-load"
 BRIEF = 10  # samples that a load acts for at least
+
+
+class Settled(NamedTuple):
+    """The nominal model and explanations under the noise that the best of them makes probable."""
+
+    search: Search
+    nominal: Fitted
+    fits: list[Fitted]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +54,7 @@ class Explanation:
     before: Statistics  # residual of the refitted nominal
     weighted: OutputError  # the problem of the final fits: that of `setup`, or the same under coloured noise
     counted: Statistics  # what is left there: `left`, or what is new in each error
+    alone: Settled  # every effect by itself
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     strained: tuple[Fitted, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
     complete: bool = True  # more effects at once would not have been tried either, had they been allowed
@@ -60,20 +71,16 @@ class Explanation:
 
 
 def explain(
-    setup: Setup, *, progress: Progress, names: Sequence[str] | None = None,
-    at_once: int = MOST_EFFECTS,
+    setup: Setup, *, progress: Progress, names: Sequence[str] | None = None, at_once: int = MOST_EFFECTS,
+    after: Explanation | None = None,
 ) -> Explanation:  # fmt: skip
-    """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most."""
-    search, nominal = _begun(setup)
+    """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most.
+
+    `after`: an explanation of the same recordings by one effect, to go on from.
+    """
     wanted = [n for n in names or setup.nominal.table if _applies(n, setup)]
-    progress("trying every effect", 0.1)
-    fits = search.explain(nominal, wanted)
-    if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
-        offset = next(f for f in search.explain(nominal, ["constant-load"]))
-        fits = distinct([*fits, *search.explain(offset, wanted)])
-    if _far_off(search, min([nominal, *fits], key=lambda f: f.cost)):
-        fits = distinct([*fits, *_by_windows(search, nominal, wanted)])
-    search, nominal, fits = _settled(search, nominal, fits, setup)
+    alone = after.alone if after else _each_alone(setup, wanted, progress)
+    search, nominal, fits = alone.search, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
     before = evidence.statistics(search.problem, nominal)
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
@@ -112,6 +119,7 @@ def explain(
         before=before,
         weighted=weighted,
         counted=counted,
+        alone=alone,
         speed_steps=steps_shown(search.problem, setup.problem, best),
         complete=complete or at_once >= MOST_EFFECTS,
         strained=tuple(f for f in strained if f.cost < best.cost),
@@ -127,13 +135,28 @@ def _begun(setup: Setup) -> tuple[Search, Fitted]:
     return (search, nominal) if within is search else (within, within.fit_nominal())
 
 
-def _settled(
-    search: Search, nominal: Fitted, fits: list[Fitted], setup: Setup
-) -> tuple[Search, Fitted, list[Fitted]]:
+def _each_alone(setup: Setup, wanted: Sequence[str], progress: Progress) -> Settled:
+    """The nominal model and every single effect."""
+    search, nominal = _begun(setup)
+    progress("trying every effect", 0.1)
+    fits = search.explain(nominal, wanted)
+    if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
+        offset = next(f for f in search.explain(nominal, [OFFSET]))
+        fits = distinct([*fits, *search.explain(offset, wanted)])
+    if _far_off(search, min([nominal, *fits], key=lambda f: f.cost)):
+        fits = distinct([*fits, *_by_windows(search, nominal, wanted)])
+    return _settled(search, nominal, fits, setup)
+
+
+def _made_of(fitted: Fitted, wanted: Sequence[str]) -> bool:
+    return all(name in wanted or name == OFFSET for name in fitted.added)
+
+
+def _settled(search: Search, nominal: Fitted, fits: list[Fitted], setup: Setup) -> Settled:
     """The fits under the noise, along the angle and to the speed that the best of them makes probable."""
     search = replace(search, problem=as_shown(search.problem, setup.problem))
     tracked = retracked(*_reweighted(search, nominal, fits))
-    return unrounded_fits(*polished(*tracked), setup.problem)
+    return Settled(*unrounded_fits(*polished(*tracked), setup.problem))
 
 
 def _at_its_floor(search: Search, best: Fitted) -> bool:
@@ -222,7 +245,7 @@ def _revolutions(setup: Setup) -> float:
 
 def _prior(setup: Setup) -> dict[str, float]:
     """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis."""
-    return {"constant-load": np.log(len(setup.nominal.table)) + 1.0 if setup.problem.kind == "axis" else -5.0}
+    return {OFFSET: np.log(len(setup.nominal.table)) + 1.0 if setup.problem.kind == "axis" else -5.0}
 
 
 def with_noise(search: Search, fitted: Fitted) -> Search:

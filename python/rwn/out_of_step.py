@@ -22,6 +22,7 @@ from rwn.output_error import OutputError
 from rwn.prepare import Setup, prepare
 from rwn.recording import Recording
 from rwn.search import Search
+from rwn.threads import side_by_side
 from rwn.wrong_scale import gears
 
 Array = NDArray[np.float64]
@@ -91,15 +92,17 @@ def sharpened(
 ) -> tuple[Mistake, float]:
     """The mistake with the delay at which what was found beneath it fits best, and what that leaves."""
     noise, base = doubt.mistake.levels(doubt.noise), beneath.closest
-    best, least = doubt.mistake, _left(beneath.setup, base, noise)
-    for off in NEAR if doubt.mistake.delay else ():
-        tried = _shift(doubt.mistake.signals, doubt.mistake.delay + off, doubt.mistake.step)
-        setup = prepare(without(recordings, tried), model)
+
+    def moved(mistake: Mistake) -> float:
+        setup = prepare(without(recordings, mistake), model)
         problem = replace(setup.problem, noise=noise)
-        left = _left(setup, Search.of(setup, problem=problem).refit(base, problem), noise)
-        if tried.delay and left < least:
-            best, least = tried, left
-    return best, least
+        return _left(setup, Search.of(setup, problem=problem).refit(base, problem), noise)
+
+    near = [doubt.mistake.delay + off for off in NEAR] if doubt.mistake.delay else []
+    tried = [_shift(doubt.mistake.signals, delay, doubt.mistake.step) for delay in near if delay]
+    left = [_left(beneath.setup, base, noise), *side_by_side(moved, tried)]
+    best = int(np.argmin(left))
+    return [doubt.mistake, *tried][best], left[best]
 
 
 def _refitted(setup: Setup, noise: Mapping[str, float]) -> Fitted:

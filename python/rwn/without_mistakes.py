@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from typing import Protocol
 
 from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
 from rwn.gear_ratio import gear_ratio
@@ -13,10 +14,17 @@ from rwn.prepare import prepare
 from rwn.recording import Recording
 from rwn.wrong_scale import wrong_scale
 
-Explain = Callable[[Sequence[Recording], int, Sequence[str] | None], Explanation]  # by so many effects, of these names
-
 MOST_SCALES = 2  # wrong at a time
 WRONG = 0.01  # relative error of a gear ratio, from which what is beneath it is explained anew
+
+
+class Explain(Protocol):
+    """See `explain`; of recordings in place of what is prepared."""
+
+    def __call__(
+        self, of: Sequence[Recording], at_once: int = ..., *, names: Sequence[str] | None = ...,
+        after: Explanation | None = ...,
+    ) -> Explanation: ...  # fmt: skip
 
 
 def explained(
@@ -25,9 +33,10 @@ def explained(
     """Mistakes of the recordings, and what explains these when they are undone."""
 
     def explanation(
-        of: Sequence[Recording], at_once: int = MOST_EFFECTS, names: Sequence[str] | None = None
-    ) -> Explanation:
-        return explain(prepare(of, model), progress=say, at_once=at_once, names=names)
+        of: Sequence[Recording], at_once: int = MOST_EFFECTS, *, names: Sequence[str] | None = None,
+        after: Explanation | None = None,
+    ) -> Explanation:  # fmt: skip
+        return explain(prepare(of, model), progress=say, at_once=at_once, names=names, after=after)
 
     if model.kind == "lti":  # its gain is in no unit that could be doubted
         return [], explanation(recordings)
@@ -35,10 +44,10 @@ def explained(
     made, right = _scaled(recordings, model)
     doubt = suspected(right, model)
     say("refitting the nominal model", 0.05)
-    mistake, found = _settled(doubt, right, model, explanation) if doubt else (None, None)
+    mistake, singly = _settled(doubt, right, model, explanation) if doubt else (None, None)
     if mistake:
         made, right = [*made, mistake], without(right, mistake)
-    found = found or explanation(right)
+    found = singly if singly and singly.complete else explanation(right, after=singly)
     gear = next((m for m in made if m.name == GEAR), None)
     return _geared(gear, made, recordings, model, found, explanation) if gear else (made, found)
 
@@ -54,7 +63,7 @@ def _geared(
     fitted = gear_ratio(gear, recordings, model, found)
     if abs(fitted.factor / gear.factor - 1.0) < WRONG:
         return list(made), found
-    return [*others, fitted], explanation(without(recordings, fitted), MOST_EFFECTS, None)
+    return [*others, fitted], explanation(without(recordings, fitted))
 
 
 def _settled(
@@ -62,24 +71,23 @@ def _settled(
 ) -> tuple[Mistake | None, Explanation | None]:
     """The suspected mistake if it explains more, alone or beside one effect, than as many effects do by themselves.
 
-    If it does not, what explains the recordings as they are, where one effect is found to do.
+    Beside it what single effects explain of the recordings without it, or as they are; None where that is not known.
     """
     mistake, left, beneath = doubt.mistake, doubt.after, None
-    alone = explanation(right, 1, None)
+    alone = explanation(right, 1)
     physics = unexplained(doubt, alone)
-    nothing = None, alone if alone.complete else None
     if physics <= LITTLE:
-        return nothing
+        return None, alone
     if left > LITTLE:
-        beneath = explanation(without(right, mistake), 1, None)
+        beneath = explanation(without(right, mistake), 1)
         mistake, left = sharpened(doubt, right, model, beneath)
     if not believed(doubt, left=left, physics=physics):
-        return nothing
+        return None, alone
     if beneath and left > CLEAR * doubt.before:
-        pairs = explanation(right, 2, rivals(alone, beneath))
+        pairs = explanation(right, 2, names=rivals(alone, beneath), after=alone)
         if not believed(doubt, left=left, physics=unexplained(doubt, pairs)):
-            return nothing
-    return mistake, None
+            return None, alone
+    return mistake, beneath if mistake is doubt.mistake else None
 
 
 def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
