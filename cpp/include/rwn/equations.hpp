@@ -78,7 +78,7 @@ class Equations {
   Matrix system_matrix(int level, bool stick) const {
     Matrix a{};
     if constexpr (kind == Kind::dc) {
-      a[0] = -(std::ldexp(1.0, level) * motor_[resistance] * inverse_inductance_);
+      a[0] = -(times(level) * motor_[resistance] * inverse_inductance_);
       a[1] = -(motor_[back_emf_constant] * inverse_inductance_);
       if (!stick) a[2] = motor_[torque_constant] * inverse_inertia_;
     }
@@ -128,7 +128,7 @@ class Equations {
       const S back_emf = motor_[back_emf_constant] * s.x[1];
       S rate = (input_ - motor_[resistance] * t.resistance * s.x[0] - back_emf * t.flux - t.drop) * inverse_inductance_;
       if (value_of(t.inductance) != 1.0) rate /= t.inductance;
-      f[0] = rate + (std::ldexp(1.0, level) * motor_[resistance] * s.x[0] + back_emf) * inverse_inductance_;
+      f[0] = rate + (times(level) * motor_[resistance] * s.x[0] + back_emf) * inverse_inductance_;
     }
     if (s.direction == 0.0 && dry_) {
       f[w] = S(0.0);
@@ -201,6 +201,9 @@ class Equations {
   struct Constants {
     S torque{}, friction{}, acceleration{};
   };
+
+  /// 2^level; the level is 0 nearly always.
+  static double times(int level) { return level == 0 ? 1.0 : std::ldexp(1.0, level); }
 
   /// Whether the equation of the winding is another than R, L and Ke make it.
   bool electrical() const { return kind == Kind::dc && winds_; }

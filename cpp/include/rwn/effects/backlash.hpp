@@ -46,7 +46,6 @@ struct Backlash {
   template <class S>
   static void apply(const S* p, const Motor<S>& m, const Motion<S>& x, Terms<S>& t) {
     const S& load = p[1];
-    const S reduced = load * (m[inertia] - load) / m[inertia];
     const S& twist = x.hidden[0];
     const S& load_speed = x.hidden[1];
     const S half = 0.5 * p[0];
@@ -55,6 +54,7 @@ struct Backlash {
       const S bend = value_of(twist) > 0.0 ? twist - half : twist + half;
       // the damping grows over the first touch, so that the force, and its derivatives, are continuous
       const S grip = bend / (bend + (value_of(bend) > 0.0 ? touch : -touch) * half);
+      const S reduced = load * (m[inertia] - load) / m[inertia];
       torque = reduced * p[2] * (p[2] * bend + 2.0 * p[3] * grip * (x.speed - load_speed));
       if (value_of(torque) * value_of(bend) < 0.0) torque = S(0.0);  // it never pulls
     }
