@@ -154,6 +154,18 @@ def test_explanations_are_reported_best_first(setup: Setup) -> None:
     assert not any(h.fitted.limits_met for h in found.hypotheses)
 
 
+def test_an_explanation_goes_on_from_single_effects(setup: Setup) -> None:
+    names = ["quadratic-drag", "input-delay"]  # neither is what is missing
+    at_once = explain(setup, progress=_silent, names=names)
+    alone = explain(setup, progress=_silent, names=names, at_once=1)
+    assert not alone.complete
+    further = explain(setup, progress=_silent, names=names, after=alone)
+    assert [h.fitted.added for h in further.hypotheses] == [h.fitted.added for h in at_once.hypotheses]
+    assert [h.score for h in further.hypotheses] == [h.score for h in at_once.hypotheses]
+    fewer = explain(setup, progress=_silent, names=names[:1], after=alone)
+    assert {n for h in fewer.hypotheses for n in h.fitted.added} <= set(names[:1])
+
+
 def test_priors_give_way_where_nothing_but_noise_is_left() -> None:
     """A data sheet that is wrong by nine standard deviations, and a fit that weak priors leave at the noise."""
     motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,

@@ -63,10 +63,25 @@ def _without_units(text: str) -> OwnEffect:
     return effect
 
 
+# sums of wavelets, which the core takes at once: over a variable and over sines of it, weights numbers and parameters
+NETWORK = (
+    "x * mexican_hat((speed / 4 + 0.3) / 0.4) - 2 * y * mexican_hat((0.2 - speed) / 1.7) + mexican_hat(speed) / 3 "
+    "- x * mexican_hat(sin(0.5 * speed - 0.3) / 0.7) + 0.4 * mexican_hat(sin(2 - 0.5 * speed) / 0.7)"
+)
+
+
+def test_sums_of_wavelets_against_numpy() -> None:
+    effect = _without_units(NETWORK)
+    for speed in np.linspace(-12.0, 12.0, 101):
+        values = {"x": 1.3, "y": -0.7, "speed": float(speed)}
+        assert _run(effect, values)[0] == pytest.approx(float(effect.formula.evaluate(values)), rel=1e-13, abs=1e-15)
+
+
 @pytest.mark.parametrize(
     "text",
     ["x * speed * abs(y)", "x ^ y", "y ^ x ^ 0.5", "tan(x) + atan(y * x)", "min(x, y) * max(x, 2 * y)", "x / y - y / x",
-     "mexican_hat(x * y - 0.4)", "sqrt(x) * log(y)", "exp(-(x / y)^2) + tanh(x - y)", "sign(x) * x + sin(y) * cos(x)"],
+     "mexican_hat(x * y - 0.4)", NETWORK, f"y * ({NETWORK}) - x * speed",
+     "sqrt(x) * log(y)", "exp(-(x / y)^2) + tanh(x - y)", "sign(x) * x + sin(y) * cos(x)"],
 )  # fmt: skip
 def test_slopes_against_central_differences(text: str) -> None:
     effect = _without_units(text)

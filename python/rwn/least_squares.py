@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
-from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,8 +59,7 @@ class Normal:
     finite: bool = True
 
 
-N = TypeVar("N", bound=Normal)
-Evaluate = Callable[[Array], N]
+Evaluate = Callable[[Array], Normal]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,11 +78,11 @@ class Minimum:
     iterations: int
 
 
-class _Search(Generic[N]):
+class _Search:
     """The problem in search coordinates."""
 
     def __init__(
-        self, evaluate: Evaluate[N], probe: Evaluate[N] | None, unknowns: tuple[Unknown, ...], prior_scale: float
+        self, evaluate: Evaluate, probe: Evaluate | None, unknowns: tuple[Unknown, ...], prior_scale: float
     ) -> None:
         self.evaluate, self.probe, self.unknowns = evaluate, probe, unknowns
         self.logarithmic = np.array([u.logarithmic for u in unknowns], dtype=bool)
@@ -98,25 +96,25 @@ class _Search(Generic[N]):
     def values(self, z: Array) -> Array:
         return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, z, 0.0)), z)
 
-    def at(self, z: Array) -> tuple[float, N]:
+    def at(self, z: Array) -> tuple[float, Normal]:
         """Cost in search coordinates, and what it is made of."""
         return self._priced(z, self.evaluate(self.values(z)))
 
-    def at_if_below(self, z: Array, bar: float) -> tuple[float, N]:
+    def at_if_below(self, z: Array, bar: float) -> tuple[float, Normal]:
         """The same, by the error alone where the cost is above `bar`."""
         if self.probe is None:
             return self.at(z)
         probed = self._priced(z, self.probe(self.values(z)))
         return self.at(z) if probed[0] < bar else probed
 
-    def _priced(self, z: Array, normal: N) -> tuple[float, N]:
+    def _priced(self, z: Array, normal: Normal) -> tuple[float, Normal]:
         large = float(np.max(np.abs(normal.curvature), initial=0.0))
         if not normal.finite or not np.isfinite(normal.chi2) or large > 1e150:
             return np.inf, normal
         off = z - self.prior
         return normal.chi2 + float(np.sum(self.weight * off**2) + z @ self.tie @ z), normal
 
-    def slopes(self, z: Array, normal: N) -> tuple[Array, Array]:
+    def slopes(self, z: Array, normal: Normal) -> tuple[Array, Array]:
         """-gradient/2 and curvature of the cost in search coordinates."""
         slope = np.where(self.logarithmic, self.values(z), 1.0)
         gradient = normal.gradient * slope - self.weight * (z - self.prior) - self.tie @ z
@@ -150,7 +148,7 @@ def _prior_weight(u: Unknown) -> float:
 
 
 def minimise(
-    evaluate: Evaluate[N],
+    evaluate: Evaluate,
     start: Array,
     unknowns: tuple[Unknown, ...],
     *,
@@ -158,7 +156,7 @@ def minimise(
     tolerance: float = 1e-2,
     damping: float = 1e-3,
     prior_scale: float = 1.0,
-    probe: Evaluate[N] | None = None,
+    probe: Evaluate | None = None,
     doubt: int = 1,
 ) -> Minimum:
     """Levenberg-Marquardt (Nielsen's damping) from `start` (p values) within the unknowns' bounds.
@@ -211,7 +209,7 @@ def _size(normal: Normal) -> int:
     return int(getattr(normal, "count", 0)) or 1
 
 
-def _step(search: _Search[N], z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
+def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
     """Damped Gauss-Newton step; parameters that would leave their range go to its end, the others answer to that."""
     free = ~(((z <= search.lower) & (gradient < 0)) | ((z >= search.upper) & (gradient > 0)))
     step = np.zeros_like(z)
@@ -234,13 +232,13 @@ def _step(search: _Search[N], z: Array, gradient: Array, curvature: Array, dampi
     return step
 
 
-def _reach(search: _Search[N]) -> Array:
+def _reach(search: _Search) -> Array:
     """No parameter moves by more than a factor of 3, or a third of its range, at once."""
     return np.where(search.logarithmic, 1.1, np.maximum((search.upper - search.lower) / 3.0, 1e-300))
 
 
 def _minimum(
-    search: _Search[N], z: Array, normal: Normal, cost: float, first: float, status: FitStatus, count: int
+    search: _Search, z: Array, normal: Normal, cost: float, first: float, status: FitStatus, count: int
 ) -> Minimum:
     return Minimum(
         values=search.values(z),

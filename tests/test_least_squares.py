@@ -1,0 +1,55 @@
+"""Levenberg-Marquardt on a small problem of its own."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.least_squares import FitStatus, Minimum, Normal, Unknown, minimise
+
+UNKNOWNS = tuple(Unknown(name=name, unit="", index=k, lower=-5.0, upper=5.0) for k, name in enumerate("xy"))
+
+
+def _rosenbrock(values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Error and its derivatives; a bent valley, on whose way many steps are not taken."""
+    x, y = values
+    return np.array([-(1.0 - x), -10.0 * (y - x * x)]), np.array([[-1.0, 0.0], [-20.0 * x, 10.0]])
+
+
+def _found(*, probed: bool, doubt: int = 1) -> tuple[Minimum, Counter[str]]:
+    calls: Counter[str] = Counter()
+
+    def evaluate(values: NDArray[np.float64]) -> Normal:
+        calls["evaluate"] += 1
+        error, slopes = _rosenbrock(values)
+        return Normal(chi2=float(error @ error), gradient=slopes.T @ error, curvature=slopes.T @ slopes)
+
+    def probe(values: NDArray[np.float64]) -> Normal:
+        calls["probe"] += 1
+        error, _ = _rosenbrock(values)
+        return Normal(chi2=float(error @ error), gradient=np.empty(0), curvature=np.empty((0, 0)))
+
+    start = np.array([-1.9, 2.0])
+    found = minimise(evaluate, start, UNKNOWNS, tolerance=1e-12, probe=probe if probed else None, doubt=doubt)
+    return found, calls
+
+
+def test_the_minimum_is_found() -> None:
+    found, _ = _found(probed=False)
+    assert found.status is FitStatus.CONVERGED
+    np.testing.assert_allclose(found.values, [1.0, 1.0], atol=1e-5)
+    assert found.cost < 1e-9 < found.first
+
+
+def test_a_probe_saves_derivatives_and_changes_no_step() -> None:
+    plain, without = _found(probed=False)
+    taken = []
+    for doubt in (1, 0):
+        found, calls = _found(probed=True, doubt=doubt)
+        np.testing.assert_array_equal(found.values, plain.values)
+        assert found.iterations == plain.iterations
+        assert calls["evaluate"] < without["evaluate"]
+        taken.append(calls["evaluate"])
+    assert taken[1] <= taken[0]  # with every step in doubt derivatives are made of those that are taken, and no others
