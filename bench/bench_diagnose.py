@@ -1,6 +1,6 @@
 """Time of a whole diagnosis with every effect tried; at most 20 s for 20 000 samples on two cores is asked.
 
-Makes blind trials of a development seed with 20 000 training samples each, and three with a backlash, which none of
+Makes blind trials of a development seed with 20 000 training samples each, and five with a backlash, which none of
 these has, and diagnoses them one after the other, without held-out recordings, on two threads. Run on an idle machine:
 python bench/bench_diagnose.py [COUNT]
 """
@@ -27,7 +27,9 @@ ASKED = 20.0  # [s]
 BACKLASH = (
     Plan(seed=91, index=1, mode="offset", effects=("backlash",), visibility=10.0),
     Plan(seed=91, index=6, mode="offset", effects=("backlash",), visibility=30.0),
+    Plan(seed=91, index=3, mode="plain", effects=("backlash",), visibility=30.0),
     Plan(seed=91, index=5, mode="double", effects=("backlash", "quadratic-drag"), visibility=10.0),
+    Plan(seed=91, index=4, mode="double", effects=("backlash", "speed-sensor-lag"), visibility=10.0),
 )
 
 

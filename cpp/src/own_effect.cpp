@@ -1,5 +1,6 @@
 #include "rwn/own_effect.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace rwn {

@@ -90,7 +90,11 @@ class Equations {
   /// remainder stable; `t` are the terms at s.
   int choose_level(const State& s, const Terms<S>& t) const {
     if (!electrical()) return 0;
-    const double slope = t.drop_slope + own_drop_slope(s);
+    double slope = t.drop_slope;
+    for (int k = 0; k < count_; ++k) {
+      const auto& e = effects_[k];
+      if (e.own != nullptr) slope += e.own->drop_slope(e.p, motor_, motion_of(s, s.position));
+    }
     const double ratio = (value_of(t.resistance) + slope / value_of(motor_[resistance])) / value_of(t.inductance);
     return ratio > 1.3 ? std::min(12, static_cast<int>(std::ceil(std::log2(ratio)))) : 0;
   }
@@ -209,16 +213,6 @@ class Equations {
   bool electrical() const { return kind == Kind::dc && winds_; }
 
   static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
-
-  double own_drop_slope(const State& s) const {
-    double slope = 0.0;
-    for (int k = 0; k < count_; ++k) {
-      const auto& e = effects_[k];
-      if (e.own == nullptr || e.own->term() != Term::drop) continue;
-      slope += e.own->drop_slope(e.p, motor_, motion_of(s, s.position));
-    }
-    return slope;
-  }
 
   /// Where its equation is not linear, the winding's transient within the interval has to be followed: how fast it is.
   double winding_rate(const Terms<S>& t, double h) const {

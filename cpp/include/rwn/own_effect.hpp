@@ -108,8 +108,10 @@ class ActiveOwnEffect {
     }
   }
 
-  /// Change of a voltage drop with the current.
-  double drop_slope(const S* p, const Motor<S>& motor, const Motion<S>& x) const { return partials(p, motor, x).d[0]; }
+  /// Change of the voltage drop with the current; 0 where it is another term.
+  double drop_slope(const S* p, const Motor<S>& motor, const Motion<S>& x) const {
+    return term() == Term::drop ? partials(p, motor, x).d[0] : 0.0;
+  }
 
   /// What is recorded in place of one true signal of `y`, as the sensors before this one show it.
   void sense(const S* p, const Motor<S>& motor, Motion<S> x, Reading<S>& y) const {
