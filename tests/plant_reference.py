@@ -2,6 +2,7 @@
 
 Dry friction only for motion in one direction: sticking is judged by closed forms in cpp/tests/plant_test.cpp.
 """
+# ruff: noqa: ARG005  (hooks all have the same arguments, most use few)
 
 from __future__ import annotations
 
@@ -39,6 +40,24 @@ class Machine:
     extras: int = 0
     coupling: Callable[..., float] = zero  # braking torque that depends on the extra states
     motor_inertia: float | None = None
+
+
+def two_masses(motor: dict[str, float], load: float, stiffness: float, damping: float, gap: float = 0.0) -> Machine:
+    """A shaft to a load, which bears 0.3 of the viscous friction; the extra states are the load's speed and angle."""
+    drag = 0.3 * motor["viscous_friction"]
+
+    def torque(w: float, th: float, wl: float, thl: float) -> float:
+        twist = th - thl
+        bend = twist - min(max(twist, -gap / 2), gap / 2)
+        push = stiffness * bend + damping * (w - wl)
+        return 0.0 if gap > 0.0 and push * bend <= 0.0 else push
+
+    return Machine(
+        motor_inertia=motor["inertia"] - load,
+        extras=2,
+        extra=lambda t, i, w, th, wl, thl: ((torque(w, th, wl, thl) - drag * wl) / load, wl),
+        coupling=lambda t, i, w, th, wl, thl: torque(w, th, wl, thl) - drag * w,
+    )
 
 
 def run(motor: dict[str, float], machine: Machine, voltage: Array, rate: float) -> Array:

@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 
 import plant_reference as judge
-from plant_reference import Machine
+from plant_reference import Machine, two_masses
 from rwn.trials.dossier import read_columns
 from rwn.trials.effects import EFFECTS
-from rwn.trials.effects.torque import LOAD_VISCOUS_SHARE
 from rwn.trials.motors import MOTORS, plant_of
 from rwn.trials.plant import Trace, simulate
 
@@ -32,26 +31,6 @@ BOTH_WAYS = np.round(
     5.0 * np.sin(2.0 * np.pi * 9.0 * TIME) + 2.0 * np.sin(2.0 * np.pi * 41.0 * TIME + 0.4), 5
 )
 FORWARD = np.round(6.0 + 2.0 * np.sin(2.0 * np.pi * 30.0 * TIME), 5)  # never turns back
-
-
-def shaft(load: float, stiffness: float, damping: float, gap: float = 0.0) -> Machine:
-    """Two masses; the extra states are the load's speed and angle."""
-
-    def torque(w: float, th: float, wl: float, thl: float) -> float:
-        twist = th - thl
-        bend = twist - min(max(twist, -gap / 2), gap / 2)
-        push = stiffness * bend + damping * (w - wl)
-        return 0.0 if gap > 0.0 and push * bend <= 0.0 else push
-
-    return Machine(
-        motor_inertia=J - load,
-        extras=2,
-        extra=lambda t, i, w, th, wl, thl: (
-            (torque(w, th, wl, thl) - LOAD_VISCOUS_SHARE * B * wl) / load,
-            wl,
-        ),
-        coupling=lambda t, i, w, th, wl, thl: torque(w, th, wl, thl) - LOAD_VISCOUS_SHARE * B * w,
-    )
 
 
 def dry(level: Callable[[float, float, float], float]) -> Machine:
@@ -121,12 +100,12 @@ EQUATIONS = {
     "backlash": (
         {"gap": 0.05, "load_inertia": 0.5 * J, "contact_rate": 900.0, "contact_damping": 0.4},
         BOTH_WAYS,
-        shaft(0.5 * J, 0.25 * J * 900.0**2, 2.0 * 0.4 * 0.25 * J * 900.0, 0.05),
+        two_masses(NOMINAL, 0.5 * J, 0.25 * J * 900.0**2, 2.0 * 0.4 * 0.25 * J * 900.0, 0.05),
     ),
     "shaft-compliance": (
         {"stiffness": 0.5, "damping": 2e-4, "load_inertia": 0.4 * J},
         BOTH_WAYS,
-        shaft(0.4 * J, 0.5, 2e-4),
+        two_masses(NOMINAL, 0.4 * J, 0.5, 2e-4),
     ),
     "brush-voltage-drop": (
         {"voltage_drop": 0.8, "transition_current": 0.1},

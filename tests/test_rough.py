@@ -37,7 +37,7 @@ def _start(search: Search, name: str, values: dict[str, float]) -> tuple[OutputE
 
 
 def test_turns_without_derivatives_reach_what_derivatives_do_not(search: Search) -> None:
-    problem, this = _start(search, "backlash", {**PLAY, "gap": 0.06, "contact_rate": 1500.0})
+    problem, this = _start(search, "backlash", {**PLAY, "gap": 0.15, "contact_rate": 3000.0})
     stopped = fit(problem, this)
     found = settled(problem, this, stopped, turns=3)
     k = [u.name for u in this.unknowns].index("backlash.gap")

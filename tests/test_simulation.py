@@ -18,7 +18,6 @@ TYPICAL = {
 }  # fmt: skip
 STEP, PARTS = 6e-4, 8
 EXACT = 1e-4
-LESS_EXACT = {"backlash": 2e-3}  # a contact met a little late
 JUMPS = ("sensor-quantization",)
 
 
@@ -47,4 +46,16 @@ def test_a_long_step_is_as_exact_as_short_ones(name: str) -> None:
     coarse, fine = _run(effect, 1), _run(effect, PARTS)
     for a, b in zip(coarse, fine, strict=True):
         error = float(np.sqrt(np.mean((a - b) ** 2)) / np.sqrt(np.mean(b**2)))
-        assert error < LESS_EXACT.get(name, EXACT), f"{name}: {error:.2g}"
+        assert error < EXACT, f"{name}: {error:.2g}"
+
+
+def test_a_sensor_keeps_its_memory_where_friction_of_no_size_stops_the_motor() -> None:
+    motor = {k: v for k, v in MOTOR.items() if k != "coulomb_friction"}
+    effects = {"speed-sensor-lag": {"time_constant": 5e-4},
+               "asymmetric-friction": {"coulomb_torque_plus": 0.0, "coulomb_torque_minus": 0.0}}  # fmt: skip
+    voltage = np.repeat([5.0, -5.0, 0.0, 5.0], 50)
+    seen = rwn.Recording(name="lag.csv", time=STEP * np.arange(voltage.size), signals={"voltage": voltage})
+    speed = rwn.simulate(Model(kind="dc", parameters=motor, effects=effects), seen).signals["speed"]
+    plain = rwn.simulate(Model(kind="dc", parameters=motor), seen).signals["speed"]
+    assert np.all(np.isfinite(speed))
+    assert np.max(np.abs(speed - plain)) < 0.5 * np.max(np.abs(plain))

@@ -48,7 +48,7 @@ py::dict describe_effect() {
   d["source"] = std::string(E::info.source);
   d["parameters"] = describe_all(E::parameters);
   d["turns"] = requires { E::turns; };
-  d["states"] = functions_of<double, E>().hiddens;
+  d["second_mass"] = functions_of<double, E>().joint != nullptr;
   return d;
 }
 

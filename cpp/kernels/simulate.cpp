@@ -11,8 +11,12 @@ template <int N>
 int run(Kind kind, const SimulationSlice& slice) {
   if constexpr (N % RWN_VECTOR_WIDTH == 0) {
     using S = Dual<N, Tag>;
-    if (kind == Kind::dc) return Simulation<S, N, Kind::dc>(slice).run();
     if (kind == Kind::lti) return Simulation<S, N, Kind::lti>(slice).run();
+    if (slice.masses == 2) {
+      if (kind == Kind::dc) return Simulation<S, N, Kind::dc, 2>(slice).run();
+      return Simulation<S, N, Kind::axis, 2>(slice).run();
+    }
+    if (kind == Kind::dc) return Simulation<S, N, Kind::dc>(slice).run();
     return Simulation<S, N, Kind::axis>(slice).run();
   }
   return 0;  // never called: narrower vectors hold so many without a rest

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "rwn/active_effects.hpp"
@@ -33,6 +34,7 @@ class AlongMotion {
       }
       const auto& call = all_effect_functions<Real>[static_cast<std::size_t>(effect)];
       effects_.push_back({call, values.data() + first_parameter(effect), memory});
+      if (call.joint != nullptr) joint_ = call.joint(effects_.back().p, motor_);
       memory += call.memories;
     }
   }
@@ -42,12 +44,15 @@ class AlongMotion {
   /// What the effects add at motion `x`.
   Terms<Real> terms(Motion<Real> x) {
     Terms<Real> t;
-    x.hidden = hidden_.data();
     failed_ = false;
     for (const auto& effect : effects_) {
       x.memory = memory_.data() + effect.memory;
       if (effect.own != nullptr) effect.own->apply(effect.p, motor_, x, t);
       if (effect.call.apply != nullptr) effect.call.apply(effect.p, motor_, x, t);
+    }
+    if (joint_) {
+      t.inertia -= joint_->load_inertia;
+      t.torque += load_drag() * x.speed - joint_->torque(twist_, x.speed - load_speed_);
     }
     if (failed_) t.torque = std::numeric_limits<double>::quiet_NaN();
     return t;
@@ -55,7 +60,7 @@ class AlongMotion {
 
   /// Takes the states over an interval of length h from motion `x` to motion `next`.
   void follow(const Motion<Real>& x, Motion<Real> next, double h) {
-    move_hidden(x, next, h);
+    if (joint_) move_load(x, next, h);
     next.travel = next.position - x.position;
     for (const auto& effect : effects_) {
       if (effect.call.finish == nullptr) continue;
@@ -66,35 +71,25 @@ class AlongMotion {
  private:
   static constexpr int most_steps = 64;
 
-  /// Differential states by the midpoint rule, the motion taken as even between the samples.
-  void move_hidden(const Motion<Real>& x, const Motion<Real>& next, double h) {
-    double rate = 0.0;
-    bool any = false;
-    for (const auto& effect : effects_) {
-      if (effect.call.hiddens == 0) continue;
-      any = true;
-      if (effect.call.rate != nullptr) rate = std::max(rate, effect.call.rate(effect.p, motor_, x, 0.0, h));
-    }
-    if (!any) return;
+  Real load_drag() const { return load_viscous_share * motor_[viscous_friction]; }
+
+  /// Twist and speed of a second mass by the midpoint rule, the speed taken as even between the samples.
+  void move_load(const Motion<Real>& x, const Motion<Real>& next, double h) {
+    const double reduced = joint_->load_inertia.v * (1.0 - joint_->load_inertia.v / motor_[inertia].v);
+    const double rate = std::sqrt(joint_->stiffness.v / reduced) + joint_->damping.v / reduced;
     const int steps = std::clamp(static_cast<int>(std::ceil(h * rate / 0.3)), 1, most_steps);
     const double part = h / steps;
     for (int k = 0; k < steps; ++k) {
-      const auto before = hidden_;
-      advance(before, terms(between(x, next, (k + 0.0) / steps)), 0.5 * part);
-      advance(before, terms(between(x, next, (k + 0.5) / steps)), part);
+      const Real twist = twist_, load_speed = load_speed_;
+      const auto advance = [&](double share, double length) {
+        const Real turning = x.speed + share * (next.speed - x.speed) - load_speed_;
+        const Real torque = joint_->torque(twist_, turning) - load_drag() * load_speed_;
+        twist_ = twist + length * turning;
+        load_speed_ = load_speed + length * torque / joint_->load_inertia;
+      };
+      advance((k + 0.0) / steps, 0.5 * part);
+      advance((k + 0.5) / steps, part);
     }
-  }
-
-  void advance(const std::array<Real, 2>& from, const Terms<Real>& t, double h) {
-    for (std::size_t k = 0; k < hidden_.size(); ++k) hidden_[k] = from[k] + h * t.hidden_rate[k];
-  }
-
-  static Motion<Real> between(const Motion<Real>& a, const Motion<Real>& b, double share) {
-    Motion<Real> x = a;
-    x.speed += share * (b.speed - a.speed);
-    x.position += share * (b.position - a.position);
-    x.angle += share * (b.angle - a.angle);
-    return x;
   }
 
   const Motor<Real>& motor_;
@@ -103,7 +98,8 @@ class AlongMotion {
   std::vector<ActiveOwnEffect<Real>> own_;
   std::vector<ActiveEffect<Real>> effects_;
   std::array<Real, max_memories> memory_{};
-  std::array<Real, 2> hidden_{};
+  std::optional<Joint<Real>> joint_;
+  Real twist_, load_speed_;  // of a second mass [rad, rad/s]
 };
 
 bool replaces_friction(std::span<const int> active) {

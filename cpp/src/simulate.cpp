@@ -61,6 +61,12 @@ std::array<OwnProgram, max_own_effects> programs_of(std::span<const OwnEffect> o
   return found;
 }
 
+int joint_count(std::span<const int> active) {
+  return static_cast<int>(std::count_if(active.begin(), active.end(), [](int effect) {
+    return effect < effect_count && all_effect_functions<double>[static_cast<std::size_t>(effect)].joint != nullptr;
+  }));
+}
+
 void check(const SimulationTask& task, const SimulationOutput& output) {
   const std::size_t n = task.time.size();
   require(n >= 2, "simulate: at least two samples are needed");
@@ -74,11 +80,7 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
   require(task.kind != Kind::lti || (task.order >= 1 && task.order <= max_order), "simulate: order out of range");
   require(task.active.size() <= max_active_effects, "simulate: too many effects at once");
   check_own(task);
-  int states = 0;
-  for (int effect : task.active) {
-    if (effect < effect_count) states += all_effect_functions<double>[static_cast<std::size_t>(effect)].hiddens;
-  }
-  require(states <= max_hiddens, "simulate: two effects bring a second mass");
+  require(joint_count(task.active) <= 1, "simulate: two effects bring a second mass");
   for (int index : task.by) require(index >= 0 && index < parameter_count(), "simulate: no such parameter");
   for (const auto& signal : {output.current, output.speed, output.position}) {
     require(signal.empty() || signal.size() == n, "simulate: an output differs in length from time");
@@ -166,6 +168,7 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         pointer(output.d_speed),
                         pointer(output.d_position),
                         columns,
+                        1 + joint_count(task.active),
                         task.order,
                         first_coefficient(),
                         programs.data(),

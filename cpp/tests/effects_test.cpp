@@ -23,9 +23,7 @@ double friction_of() {
   Motion<double> x;
   x.current = x.speed = x.position = x.angle = x.drive_torque = 0.5;
   std::array<double, max_memories> memory{};
-  std::array<double, 2> hidden{};
   x.memory = memory.data();
-  x.hidden = hidden.data();
   Terms<double> t;
   if constexpr (requires { E::template apply<double>; }) E::apply(p.data(), small_motor(), x, t);
   return t.friction;

@@ -50,7 +50,7 @@ class Effect:
     index: int  # in the C++ table; a user's own effects count on behind it
     first: int  # position of its first parameter in the parameter vector
     turns: bool = False  # whether it depends on the angle
-    states: int = 0  # differential states of its own, for which there is room once
+    second_mass: bool = False  # whether it brings one; there is room for one
     own: bool = False  # defined by the user
 
     @property

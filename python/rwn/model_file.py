@@ -217,7 +217,7 @@ def _effects(
                     fix=f"add {key} = ...",
                 )
         found[name] = {k: _number(v, _si(entries[k].unit), f"{place} {k}") for k, v in values.items()}
-    second = [name for name in found if getattr(table[name], "states", 0)]
+    second = [name for name in found if getattr(table[name], "second_mass", False)]
     if len(second) > 1:
         raise InputError(
             f"{' and '.join(second)} each bring a second mass",

@@ -287,7 +287,7 @@ def _promising(rows: Sequence[Row], base_cost: float, least: int = 6, most: int 
 
 def _has_room(this: Candidate, name: str) -> bool:
     """One effect at most can bring a second mass."""
-    return not this.table[name].states or not any(this.table[other].states for other in this.effects)
+    return not this.table[name].second_mass or not any(this.table[other].second_mass for other in this.effects)
 
 
 def _bent(base: Fitted) -> bool:

@@ -19,6 +19,7 @@ template <class S>
 struct EffectFunctions {
   void (*apply)(const S*, const Motor<S>&, const Motion<S>&, Terms<S>&) = nullptr;
   double (*rate)(const S*, const Motor<S>&, const Motion<S>&, double, double) = nullptr;
+  Joint<S> (*joint)(const S*, const Motor<S>&) = nullptr;
   S (*actuate)(const S*, const S&) = nullptr;
   S (*delay)(const S*) = nullptr;
   std::array<S, max_breaks> (*breaks)(const S*) = nullptr;
@@ -30,7 +31,6 @@ struct EffectFunctions {
   bool electrical = false;  // changes how fast the winding is
   bool replaces = false;    // takes over the nominal dry friction
   int memories = 0;
-  int hiddens = 0;
 };
 
 template <class S, class E>
@@ -51,7 +51,7 @@ constexpr EffectFunctions<S> functions_of() {
   f.electrical = E::info.site == Site::voltage || E::info.site == Site::flux;
   if constexpr (requires { E::dry; }) f.dry = E::dry;
   if constexpr (requires { E::memories; }) f.memories = E::memories;
-  if constexpr (requires { E::hiddens; }) f.hiddens = E::hiddens;
+  if constexpr (requires { E::template joint<S>; }) f.joint = &E::template joint<S>;
   for (const Parameter& p : E::parameters) f.replaces = f.replaces || p.replaces == coulomb_friction;
   return f;
 }

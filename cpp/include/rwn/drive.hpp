@@ -67,11 +67,7 @@ struct Motion {
   S drive_torque{};                 // Kt kappa i, or the driving torque of an axis [N m]
   S travel{};                       // position minus position at the start of the step
   const S* memory = nullptr;        // this effect's own memory, as of the start of the step
-  const S* hidden = nullptr;        // this effect's own differential states
 };
-
-/// Differential states that there is room for: twist and speed of one second mass.
-inline constexpr int max_hiddens = 2;
 
 /// What the active effects add to the motor equations at one instant.
 template <class S>
@@ -84,7 +80,6 @@ struct Terms {
   S flux{1.0};           // ratio kappa of Kt and Ke
   S inertia{0.0};        // J2 [kg m^2]
   S inertia_slope{0.0};  // dJ2/dtheta
-  std::array<S, max_hiddens> hidden_rate{};
   double drop_slope = 0.0;  // d drop / d i: keeps the integrator stable [ohm]
 };
 

@@ -2,16 +2,16 @@
 //
 //   info                              name, site, equation, meaning, source
 //   parameters                        std::array<Parameter, n>
-//   apply(p, motor, motion, terms)    its share of the motor equations
 // and, where it needs them,
+//   apply(p, motor, motion, terms)    its share of the motor equations
 //   turns                             true: depends on the angle
 //   varies                            false: terms change only with direction and at `breaks` (default true)
 //   rate(p, motor, motion, acceleration, h)   fastest rate of change it brings over the next h [1/s]: sets the step
+//   joint(p, motor)                   what couples the motor to the second mass that it brings
 //   actuate(p, input)                 maps the commanded input to what acts
 //   delay(p)                          input delay [s]
 //   breaks(p)                         instants at which its terms jump [s]
 //   memories, finish(p, motor, h, before, after, memory)     states that follow the motion, updated after each step
-//   hiddens, hidden_count via terms.hidden_rate              states with their own differential equation
 //   sense(p, reading, memory)         maps the true signals to what is recorded
 // p points to the effect's parameters. All functions are templates on the scalar, which carries the derivatives.
 #pragma once
@@ -20,6 +20,7 @@
 
 #include "rwn/drive.hpp"
 #include "rwn/dual.hpp"
+#include "rwn/joint.hpp"
 
 namespace rwn {
 

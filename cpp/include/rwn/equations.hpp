@@ -4,85 +4,88 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rwn/active_effects.hpp"
-#include "rwn/exponential.hpp"
-#include "rwn/memory.hpp"
+#include "rwn/effect_terms.hpp"
+#include "rwn/second_mass.hpp"
 
 namespace rwn {
 
-/// What moves within a step.
-template <class S, Kind kind>
-struct MovingState {
-  static constexpr int n = kind == Kind::dc ? 2 : 1;
-  SmallVector<S, n> x{};  // current (dc only), speed
-  S position{};
-  std::array<S, max_hiddens> hidden{};
-  double direction = 0.0;  // of sliding; 0 sticks
-};
-
-/// The same with what effects remember from step to step.
-template <class S, Kind kind>
-struct DriveState : MovingState<S, kind> {
-  Memory<S> memory{};
-};
-
-template <class S, Kind kind>
+template <class S, Kind kind, int masses>
 class Equations {
  public:
-  using Moving = MovingState<S, kind>;
-  using State = DriveState<S, kind>;
+  using Moving = MovingState<S, kind, masses>;
+  using State = DriveState<S, kind, masses>;
   static constexpr int n = State::n;
-  static constexpr std::size_t w = n - 1;  // index of speed in x
+  static constexpr std::size_t w = State::w;
   using Vector = SmallVector<S, n>;
   using Matrix = SmallMatrix<S, n>;
 
   Equations(const Motor<S>& motor, const ActiveEffect<S>* effects, int count, double angle_per_position)
-      : motor_(motor), effects_(effects), count_(count), angle_per_position_(angle_per_position) {
+      : motor_(motor), effects_(motor, effects, count, angle_per_position) {
     bool replaced = false;
-    for (int k = 0; k < count_; ++k) {
-      const auto& call = effects_[k].call;
+    for (int k = 0; k < count; ++k) {
+      const auto& call = effects[k].call;
       varies_ = varies_ || call.varies;
       dry_ = dry_ || call.dry;
       winds_ = winds_ || (call.electrical && call.varies);
-      rates_ = rates_ || electrical() || call.rate != nullptr || (effects_[k].own != nullptr && call.varies);
+      rates_ = rates_ || electrical() || call.rate != nullptr || (effects[k].own != nullptr && call.varies);
       timed_ = timed_ || call.breaks != nullptr;
       replaced = replaced || call.replaces;
-      hiddens_ = hiddens_ || call.hiddens > 0;
       finishes_ = finishes_ || call.finish != nullptr;
+      if constexpr (masses == 2) {
+        if (call.joint != nullptr) second_ = SecondMass<S, kind>(call.joint(effects[k].p, motor_), motor_);
+      }
     }
     base_friction_ = replaced ? S(0.0) : motor_[coulomb_friction];
     dry_ = dry_ || (!replaced && is_used(motor_[coulomb_friction]));
     pendulum_ = is_used(motor_[pendulum_torque]);
     varies_ = varies_ || pendulum_;
-    inverse_inertia_ = 1.0 / motor_[inertia];
+    inertia_ = motor_[inertia];
+    viscous_ = motor_[viscous_friction];
+    if constexpr (masses == 2) {
+      inertia_ = second_.motor_inertia();
+      viscous_ = second_.motor_viscous(motor_);
+    }
+    inverse_inertia_ = 1.0 / inertia_;
     if constexpr (kind == Kind::dc) inverse_inductance_ = 1.0 / motor_[inductance];
   }
 
   bool varies() const { return varies_; }      // within a step, other than with the direction of sliding
   bool rates() const { return rates_; }        // something asks for short steps
   bool dry() const { return dry_; }            // there is friction that holds
-  bool hiddens() const { return hiddens_; }    // effects have differential states
   bool finishes() const { return finishes_; }  // effects have memories that follow the motion
+
+  /// A gap opens and closes.
+  bool plays() const {
+    if constexpr (masses == 2) return second_.play();
+    return false;
+  }
 
   /// Input and time (middle of the interval) of what is integrated next.
   void begin(const S& input, double time) {
-    input_ = input;
-    time_ = time;
+    effects_.begin(input, time);
     if (timed_) constants_known_ = {};
   }
 
   /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
-  void follow(const S& offset) { offset_ = offset; }
+  void follow(const S& offset) { effects_.follow(offset); }
 
-  /// A of the linear part, the winding linearised at R 2^level; a stuck shaft has no equation of motion.
-  Matrix system_matrix(int level, bool stick) const {
+  /// The mass behind a joint, where there are two.
+  const auto& second() const { return second_; }
+
+  Regime regime(const Moving& s, int level) const {
+    return {.level = level, .stick = dry_ && s.direction == 0.0, .closed = masses == 2 && s.contact != 0.0};
+  }
+
+  /// A of the linear part.
+  Matrix system_matrix(const Regime& regime) const {
     Matrix a{};
     if constexpr (kind == Kind::dc) {
-      a[0] = -(times(level) * motor_[resistance] * inverse_inductance_);
+      a[0] = -(times(regime.level) * motor_[resistance] * inverse_inductance_);
       a[1] = -(motor_[back_emf_constant] * inverse_inductance_);
-      if (!stick) a[2] = motor_[torque_constant] * inverse_inertia_;
+      if (!regime.stick) a[n] = motor_[torque_constant] * inverse_inertia_;
     }
-    if (!stick) a[n * n - 1] = -(motor_[viscous_friction] * inverse_inertia_);
+    if (!regime.stick) a[w * n + w] = -(viscous_ * inverse_inertia_);
+    if constexpr (masses == 2) second_.couple(a, regime);
     return a;
   }
 
@@ -90,11 +93,7 @@ class Equations {
   /// remainder stable; `t` are the terms at s.
   int choose_level(const State& s, const Terms<S>& t) const {
     if (!electrical()) return 0;
-    double slope = t.drop_slope;
-    for (int k = 0; k < count_; ++k) {
-      const auto& e = effects_[k];
-      if (e.own != nullptr) slope += e.own->drop_slope(e.p, motor_, motion_of(s, s.position));
-    }
+    const double slope = t.drop_slope + effects_.own_drop_slope(s);
     const double ratio = (value_of(t.resistance) + slope / value_of(motor_[resistance])) / value_of(t.inductance);
     return ratio > 1.3 ? std::min(12, static_cast<int>(std::ceil(std::log2(ratio)))) : 0;
   }
@@ -102,35 +101,28 @@ class Equations {
   /// Steps that the fastest effect asks for over h, where `f` and `t` are those of its start (level 0).
   int step_count(const State& s, double h, const Vector& f, const Terms<S>& t) const {
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
-    double rate = winding_rate(t, h);
-    Motion<S> x = motion_of(s, s.position);
-    for (int k = 0; k < count_; ++k) {
-      if (effects_[k].call.rate != nullptr) {
-        x.memory = s.memory.data() + effects_[k].memory;
-        rate = std::max(rate, effects_[k].call.rate(effects_[k].p, motor_, x, acceleration, h));
-      } else if (effects_[k].own != nullptr && effects_[k].call.varies) {
-        rate = std::max(rate, effects_[k].own->rate(effects_[k].p, motor_, x, acceleration, h));
-      }
-    }
+    const double rate = std::max(winding_rate(t, h), effects_.rate(s, acceleration, h));
     return std::clamp(static_cast<int>(std::ceil(h * rate / angle_of_a_step)), 1, 16);
   }
 
   /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`, which is fresh.
   Vector nonlinear(const Moving& s, const S* memory, const S& start, int level, Terms<S>& t) const {
     put_terms(t, s, memory, start);
-    Vector f;
+    Vector f{};
+    if constexpr (masses == 2) f[State::load_speed] = second_.constant_torque(s) * second_.inverse_load();
     if (!winds_ && value_of(t.inertia) == 0.0 && value_of(t.inertia_slope) == 0.0) {  // torques alone are added
-      if constexpr (kind == Kind::dc) f[0] = input_ * inverse_inductance_;
+      if constexpr (kind == Kind::dc) f[0] = input() * inverse_inductance_;
       if (s.direction == 0.0 && dry_) return f;
       S torque = t.torque;
-      if constexpr (kind == Kind::axis) torque += input_;
+      if constexpr (kind == Kind::axis) torque += input();
       if (dry_) torque -= s.direction * t.friction;
+      if constexpr (masses == 2) torque -= second_.constant_torque(s);
       f[w] = torque * inverse_inertia_;
       return f;
     }
     if constexpr (kind == Kind::dc) {
       const S back_emf = motor_[back_emf_constant] * s.x[1];
-      S rate = (input_ - motor_[resistance] * t.resistance * s.x[0] - back_emf * t.flux - t.drop) * inverse_inductance_;
+      S rate = (input() - motor_[resistance] * t.resistance * s.x[0] - back_emf * t.flux - t.drop) * inverse_inductance_;
       if (value_of(t.inductance) != 1.0) rate /= t.inductance;
       f[0] = rate + (times(level) * motor_[resistance] * s.x[0] + back_emf) * inverse_inductance_;
     }
@@ -138,11 +130,12 @@ class Equations {
       f[w] = S(0.0);
       return f;
     }
-    S torque = drive_torque(s, t) + t.torque - motor_[viscous_friction] * s.x[w];
+    S torque = drive_torque(s, t) + t.torque - viscous_ * s.x[w];
+    if constexpr (masses == 2) torque -= second_.torque(s);
     if (dry_) torque -= s.direction * t.friction;
     if (value_of(t.inertia_slope) != 0.0) torque -= 0.5 * t.inertia_slope * s.x[w] * s.x[w];
     const S linear_rate = linear_acceleration(s);
-    f[w] = value_of(t.inertia) == 0.0 ? torque * inverse_inertia_ : torque / (motor_[inertia] + t.inertia);
+    f[w] = value_of(t.inertia) == 0.0 ? torque * inverse_inertia_ : torque / (inertia_ + t.inertia);
     f[w] -= linear_rate;
     return f;
   }
@@ -150,12 +143,17 @@ class Equations {
   /// The same where no effect varies within a step: the terms depend on direction alone.
   Vector constant_part(const State& s) {
     const bool stick = dry_ && s.direction == 0.0;
-    Vector f;
+    Vector f{};
     f[w] = stick ? S(0.0) : constants(s, s.direction).acceleration;
+    if constexpr (masses == 2) {
+      const S torque = second_.constant_torque(s);
+      f[State::load_speed] = torque * second_.inverse_load();
+      if (!stick) f[w] -= torque * inverse_inertia_;
+    }
     if constexpr (kind == Kind::dc) {
-      f[0] = input_ * inverse_inductance_;
+      f[0] = input() * inverse_inductance_;
     } else if (!stick) {
-      f[w] += input_ * inverse_inertia_;
+      f[w] += input() * inverse_inertia_;
     }
     return f;
   }
@@ -168,15 +166,18 @@ class Equations {
 
   /// Torque on the shaft beyond the friction level in `direction`, were it to slide that way.
   S excess_torque(const State& s, double direction) {
+    S load(0.0);
+    if constexpr (masses == 2) load = second_.torque(s);
     if (!varies_) {
       const Constants& c = constants(s, direction);
-      if constexpr (kind == Kind::dc) return direction * (motor_[torque_constant] * s.x[0] + c.torque) - c.friction;
-      return direction * (input_ + c.torque) - c.friction;
+      if constexpr (kind == Kind::dc) load -= motor_[torque_constant] * s.x[0];
+      if constexpr (kind == Kind::axis) load -= input();
+      return direction * (c.torque - load) - c.friction;
     }
     State sliding = s;
     sliding.direction = direction;
     const Terms<S> t = terms_of(sliding, s.position);
-    return direction * (drive_torque(sliding, t) + t.torque) - t.friction;
+    return direction * (drive_torque(sliding, t) + t.torque - load) - t.friction;
   }
 
   /// Sliding direction that the torque on a standing shaft leads to; 0 while friction holds.
@@ -187,16 +188,13 @@ class Equations {
     return 0.0;
   }
 
-  /// Lets the memories of effects follow a step of length h.
-  void finish(const State& before, State& after, const S& h) const {
-    const Motion<S> x0 = motion_of(before, before.position);
-    const Motion<S> x1 = motion_of(after, before.position);
-    for (int k = 0; k < count_; ++k) {
-      if (effects_[k].call.finish != nullptr) {
-        effects_[k].call.finish(effects_[k].p, motor_, h, x0, x1, after.memory.data() + effects_[k].memory);
-      }
-    }
+  /// Torque by which friction holds a shaft beyond what pulls at it.
+  double holding(const State& s) {
+    return -std::max(value_of(excess_torque(s, 1.0)), value_of(excess_torque(s, -1.0)));
   }
+
+  /// Lets the memories of effects follow a step of length h.
+  void finish(const State& before, State& after, const S& h) const { effects_.finish(before, after, h); }
 
  private:
   static constexpr double angle_of_a_step = 0.7;  // of the fastest rate
@@ -223,20 +221,7 @@ class Equations {
     return 0.0;
   }
 
-  Motion<S> motion_of(const Moving& s, const S& start) const {
-    return {.time = time_,
-            .direction = s.direction,
-            .input = input_,
-            .current = kind == Kind::dc ? s.x[0] : S(0.0),
-            .speed = s.x[w],
-            .position = s.position,
-            .angle = angle_per_position_ * (s.position + offset_),
-            .angle_per_position = angle_per_position_,
-            .drive_torque = kind == Kind::dc ? motor_[torque_constant] * s.x[0] : input_,
-            .travel = s.position - start,
-            .memory = nullptr,
-            .hidden = s.hidden.data()};
-  }
+  const S& input() const { return effects_.input(); }
 
   Terms<S> terms_of(const State& s, const S& start) const {
     Terms<S> t;
@@ -246,13 +231,7 @@ class Equations {
 
   void put_terms(Terms<S>& t, const Moving& s, const S* memory, const S& start) const {
     t.friction = base_friction_;
-    Motion<S> x = motion_of(s, start);
-    for (int k = 0; k < count_; ++k) {
-      if (effects_[k].own != nullptr) effects_[k].own->apply(effects_[k].p, motor_, x, t);
-      if (effects_[k].call.apply == nullptr) continue;
-      x.memory = memory + effects_[k].memory;
-      effects_[k].call.apply(effects_[k].p, motor_, x, t);
-    }
+    effects_.add(t, s, memory, start);
     if (pendulum_) {
       using std::sin;
       t.torque -= motor_[pendulum_torque] * sin(s.position);
@@ -274,25 +253,25 @@ class Equations {
 
   S drive_torque(const Moving& s, const Terms<S>& t) const {
     if constexpr (kind == Kind::dc) return motor_[torque_constant] * t.flux * s.x[0];
-    return input_ * t.flux;
+    return input() * t.flux;
   }
 
   S linear_acceleration(const Moving& s) const {
-    S torque = -(motor_[viscous_friction] * s.x[w]);
+    S torque = -(viscous_ * s.x[w]);
+    if constexpr (masses == 2) {
+      if (s.contact != 0.0) torque -= second_.spring(s);
+    }
     if constexpr (kind == Kind::dc) torque += motor_[torque_constant] * s.x[0];
     return torque * inverse_inertia_;
   }
 
   const Motor<S>& motor_;
-  const ActiveEffect<S>* effects_;
-  int count_;
-  double angle_per_position_;
-  bool varies_ = false, dry_ = false, hiddens_ = false, finishes_ = false, pendulum_ = false, winds_ = false,
-       rates_ = false, timed_ = false;
-  S base_friction_{}, inverse_inertia_{}, inverse_inductance_{};
-  S input_{};
-  double time_ = 0.0;
-  S offset_{};
+  EffectTerms<S, kind, masses> effects_;
+  bool varies_ = false, dry_ = false, finishes_ = false, pendulum_ = false, winds_ = false, rates_ = false,
+       timed_ = false;
+  S base_friction_{}, inertia_{}, inverse_inertia_{}, inverse_inductance_{};
+  S viscous_{};  // of the motor alone
+  [[no_unique_address]] std::conditional_t<masses == 2, SecondMass<S, kind>, NoSecondMass> second_{};
   std::array<Constants, 3> constants_{};  // sliding back, standing, sliding forth
   std::array<bool, 3> constants_known_{};
 };

@@ -1,102 +1,150 @@
-// The matrices by which a step of given length moves the state, made once for each length that comes back.
+// By what a step of given length moves the state: matrices, made once for each length that comes back, or a series along
+// the way for a length that does not.
 #pragma once
 
+#include <utility>
+
 #include "rwn/equations.hpp"
+#include "rwn/flow.hpp"
 
 namespace rwn {
 
-template <class S, Kind kind>
+/// What a length is used for: parts of the interval between samples come back, the rest after an event does not, and of
+/// an instant that is searched values alone are wanted.
+enum class Use { intervals, rests, search };
+
+template <class S, Kind kind, int masses>
 class Operators {
  public:
-  using Matrix = typename Equations<S, kind>::Matrix;
-  static constexpr int n = Equations<S, kind>::n;
+  using Matrix = typename Equations<S, kind, masses>::Matrix;
+  using Vector = typename Equations<S, kind, masses>::Vector;
+  static constexpr int n = Equations<S, kind, masses>::n;
+
+  /// The linear part, and its values.
+  struct System {
+    Regime regime{.level = -1};
+    Matrix a{};
+    SmallMatrix<double, n> value{};
+  };
 
   struct Step {
-    S h{-1.0};
-    int level = -1;
-    bool stick = false;
+    double h = -1.0;
+    Regime regime{};
     Matrix e{}, p1{}, p2{};                // whole step: e^{Ah}, h phi1, h^2 phi2 (p2 of linear steps only)
     Matrix eh{}, p1h{}, f1{}, f2{}, f3{};  // half step and Cox-Matthews weights (nonlinear steps only)
+
+    /// x after half the step with f.
+    Vector half(const Vector& x, const Vector& f) const {
+      Vector y{};
+      add_product<S, n>(y, eh, x);
+      add_product<S, n>(y, p1h, f);
+      return y;
+    }
+
+    /// x after the step with f at its start, `middle` twice the mean of f halfway, and `last` at its end.
+    Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
+      Vector y{};
+      add_product<S, n>(y, e, x);
+      add_product<S, n>(y, f1, f);
+      add_product<S, n>(y, f2, middle);
+      add_product<S, n>(y, f3, last);
+      return y;
+    }
   };
 
-  explicit Operators(const Equations<S, kind>& equations) : equations_(equations) {}
+  /// The same along the way, in scalar T: S, or values alone.
+  template <class T>
+  struct Passage {
+    SmallMatrix<T, n> a;
+    double h;
 
-  /// Those of constant lengths are kept, and the last few that carry derivatives: a late command divides every sample
-  /// alike. Those of instants that are searched are made anew, without derivatives.
-  const Step& over(const S& h, int level, bool stick) {
-    if (searching_) {
-      make<Value>(passing_, h, level, stick);
-      return passing_;
+    Vector half(const Vector& x, const Vector& f) const { return over(0.5 * h, x, {as<T>(f)}); }
+
+    Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
+      Flow<T, n> force{as<T>(f)};  // the quadratic whose phi functions are the weights of Cox and Matthews
+      for (std::size_t j = 0; j < n; ++j) {
+        const T begin = force.constant[j], half = as_scalar<T>(middle[j]), end = as_scalar<T>(last[j]);
+        force.linear[j] = 2.0 * half - 3.0 * begin - end;
+        force.quadratic[j] = 4.0 * (begin - half + end);
+      }
+      return over(h, x, force);
     }
-    return is_constant(h) ? constant_.over(*this, h, level, stick) : sloped_.over(*this, h, level, stick);
+
+    Vector over(double length, const Vector& x, const Flow<T, n>& force) const {
+      SmallVector<T, n> y = as<T>(x), way{};
+      flow<T, n>(a, length, force, y, way);
+      return as<S>(y);
+    }
+  };
+
+  explicit Operators(const Equations<S, kind, masses>& equations) : equations_(equations) {}
+
+  const System& system(const Regime& regime) {
+    for (const System& s : systems_) {
+      if (s.regime == regime) return s;
+    }
+    System& slot = next_of(systems_, next_system_);
+    slot = {.regime = regime, .a = equations_.system_matrix(regime)};
+    for (std::size_t k = 0; k < slot.a.size(); ++k) slot.value[k] = value_of(slot.a[k]);
+    return slot;
   }
 
-  /// While an instant is searched nothing is worth keeping, and values alone are wanted.
-  void search(bool on) { searching_ = on; }
+  const Step& over(double h, const Regime& regime) {
+    for (const Step& o : steps_) {
+      if (std::abs(o.h - h) <= 1e-9 * h && o.regime == regime) return o;
+    }
+    Step& slot = next_of(steps_, next_step_);
+    make(slot, h, regime);
+    return slot;
+  }
+
+  template <class T>
+  Passage<T> along(double h, const Regime& regime) {
+    return {as<T>(system(regime).a), h};
+  }
+
+  template <class T, class From, std::size_t size>
+  static std::array<T, size> as(const std::array<From, size>& from) {
+    std::array<T, size> a;
+    for (std::size_t k = 0; k < size; ++k) a[k] = as_scalar<T>(from[k]);
+    return a;
+  }
 
  private:
-  using Value = typename S::Value;
+  /// The oldest of the last few.
+  template <class List>
+  static auto& next_of(List& list, std::size_t& next) {
+    return list[std::exchange(next, (next + 1) % list.size())];
+  }
 
-  /// The last few that were made.
-  template <std::size_t size>
-  struct Kept {
-    std::array<Step, size> steps{};
-    std::size_t next = 0;
-
-    const Step& over(const Operators& maker, const S& h, int level, bool stick) {
-      const double length = value_of(h);
-      for (const Step& o : steps) {
-        const bool as_long = std::abs(value_of(o.h) - length) <= 1e-9 * length;
-        if (as_long && o.level == level && o.stick == stick && same_slopes(o.h, h)) return o;
-      }
-      Step& slot = steps[next];
-      next = (next + 1) % size;
-      maker.template make<S>(slot, h, level, stick);
-      return slot;
-    }
-  };
-
-  template <class T>
-  static SmallMatrix<T, n> scaled(SmallMatrix<T, n> a, const T& h) {
-    for (T& entry : a) entry *= h;
+  static Matrix scaled(Matrix a, double h) {
+    for (S& entry : a) entry *= h;
     return a;
   }
 
-  template <class T, class From>
-  static SmallMatrix<T, n> as(const From& from) {
-    SmallMatrix<T, n> a;
-    for (std::size_t k = 0; k < a.size(); ++k) a[k] = as_scalar<T>(from[k]);
-    return a;
-  }
-
-  /// Computed in scalar T: S, or values alone.
-  template <class T>
-  void make(Step& o, const S& length, int level, bool stick) const {
-    const SmallMatrix<T, n> a = as<T>(equations_.system_matrix(level, stick));
-    const T h = as_scalar<T>(length);
-    const PhiFunctions<T, n> f = phi_functions<T, n>(scaled<T>(a, h));
-    o.h = length;
-    o.level = level;
-    o.stick = stick;
-    o.e = as<S>(f.p0);
-    o.p1 = as<S>(scaled<T>(f.p1, h));
+  void make(Step& o, double h, const Regime& regime) {
+    const Matrix a = system(regime).a;
+    const PhiFunctions<S, n> f = phi_functions<S, n>(scaled(a, h));
+    o.h = h;
+    o.regime = regime;
+    o.e = f.p0;
+    o.p1 = scaled(f.p1, h);
     if (!equations_.varies()) {
-      o.p2 = as<S>(scaled<T>(f.p2, h * h));
+      o.p2 = scaled(f.p2, h * h);
       return;
     }
-    const PhiFunctions<T, n> half = phi_functions<T, n>(scaled<T>(a, 0.5 * h));
-    o.eh = as<S>(half.p0);
-    o.p1h = as<S>(scaled<T>(half.p1, 0.5 * h));
-    o.f1 = as<S>(scaled<T>(combine<T, n>(1.0, combine<T, n>(1.0, f.p1, -3.0, f.p2), 4.0, f.p3), h));
-    o.f2 = as<S>(scaled<T>(combine<T, n>(2.0, f.p2, -4.0, f.p3), h));
-    o.f3 = as<S>(scaled<T>(combine<T, n>(-1.0, f.p2, 4.0, f.p3), h));
+    const PhiFunctions<S, n> half = phi_functions<S, n>(scaled(a, 0.5 * h));
+    o.eh = half.p0;
+    o.p1h = scaled(half.p1, 0.5 * h);
+    o.f1 = scaled(combine<S, n>(1.0, combine<S, n>(1.0, f.p1, -3.0, f.p2), 4.0, f.p3), h);
+    o.f2 = scaled(combine<S, n>(2.0, f.p2, -4.0, f.p3), h);
+    o.f3 = scaled(combine<S, n>(-1.0, f.p2, 4.0, f.p3), h);
   }
 
-  const Equations<S, kind>& equations_;
-  Kept<6> constant_{};
-  Kept<4> sloped_{};
-  Step passing_{};
-  bool searching_ = false;
+  const Equations<S, kind, masses>& equations_;
+  std::array<System, 6> systems_{};
+  std::array<Step, 8> steps_{};
+  std::size_t next_system_ = 0, next_step_ = 0;
 };
 
 }  // namespace rwn

@@ -29,6 +29,7 @@ struct SimulationSlice {
   const double* restart_position;
   double *current, *speed, *position, *d_current, *d_speed, *d_position;
   int columns;             // row length of the derivative arrays
+  int masses;              // 1, or 2 where an effect brings a joint
   int order;               // of a transfer function
   int first_coefficient;   // place of its coefficients among the parameters
   const OwnProgram* own;   // by slot
@@ -36,9 +37,9 @@ struct SimulationSlice {
   bool* formula_failed;    // set where a user's formula gave no finite number
 };
 
-template <class S, int N, Kind kind>
+template <class S, int N, Kind kind, int masses = 1>
 class Simulation {
-  using Plant = std::conditional_t<kind == Kind::lti, TransferFunction<S>, Integrator<S, kind>>;
+  using Plant = std::conditional_t<kind == Kind::lti, TransferFunction<S>, Integrator<S, kind, masses>>;
   using State = typename Plant::State;
   static constexpr std::size_t w = Plant::w;
 
@@ -113,12 +114,16 @@ class Simulation {
   }
 
   State initial(const Plant& plant) const {
-    if constexpr (kind == Kind::lti) return plant.initial();
-    State s;
-    if constexpr (kind == Kind::dc) s.x[0] = motor_[initial_current];
-    s.x[w] = motor_[initial_speed];
-    s.position = motor_[initial_position];
-    return s;
+    if constexpr (kind == Kind::lti) {
+      return plant.initial();
+    } else {
+      State s;
+      if constexpr (kind == Kind::dc) s.x[0] = motor_[initial_current];
+      s.x[w] = motor_[initial_speed];
+      s.position = motor_[initial_position];
+      plant.begin(s);
+      return s;
+    }
   }
 
   /// What of the actuators and sensors has to be done at every sample.
@@ -135,7 +140,6 @@ class Simulation {
       senses_ = senses_ || e.call.sense != nullptr || (e.own != nullptr && is_sensor(e.own->term()));
       Reading<S> first = reading(s);
       if (e.call.begin != nullptr) e.call.begin(e.p, first, s.memory.data() + e.memory);
-      for (int k = 0; k < e.call.hiddens; ++k) s.hidden[1] = s.x[w];  // load at motor speed, no twist
     }
   }
 

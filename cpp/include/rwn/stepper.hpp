@@ -1,52 +1,92 @@
-// One step of the drive equations with constant input, friction sliding or sticking throughout.
+// One step of the drive equations with constant input, friction sliding or sticking and contact as it is throughout.
 //
-// The linear part (i, w) is solved exactly by its matrix exponential, so electrics much faster than the sample time
-// cost nothing; what is nonlinear enters by a fourth-order exponential Runge-Kutta step (Cox, Matthews 2002).
+// The linear part (i, w, and twist and speed of a second mass) is solved exactly by its matrix exponential, so electrics
+// and contacts much faster than the sample time cost nothing; what is nonlinear enters by a fourth-order exponential
+// Runge-Kutta step (Cox, Matthews 2002). Lengths that carry derivatives, those that end at an event or a late command,
+// are steps of their value, moved on along the rates of change there.
 #pragma once
 
 #include "rwn/operators.hpp"
 
 namespace rwn {
 
-template <class S, Kind kind>
+template <class S, Kind kind, int masses>
 class Stepper {
  public:
-  using Moving = MovingState<S, kind>;
-  using State = DriveState<S, kind>;
-  using Vector = typename Equations<S, kind>::Vector;
-  using Matrix = typename Equations<S, kind>::Matrix;
+  using Moving = MovingState<S, kind, masses>;
+  using State = DriveState<S, kind, masses>;
+  using Vector = typename Equations<S, kind, masses>::Vector;
+  using Matrix = typename Equations<S, kind, masses>::Matrix;
+  using Rates = SmallVector<double, State::n>;
   static constexpr int n = State::n;
-  static constexpr std::size_t w = n - 1;
+  static constexpr std::size_t w = State::w;
 
-  explicit Stepper(Equations<S, kind>& equations) : equations_(equations), operators_(equations) {}
+  explicit Stepper(Equations<S, kind, masses>& equations) : equations_(equations), operators_(equations) {}
 
-  /// Steps that the fastest effect asks for over h. What it learns of the start serves the first of them.
+  /// Steps that the fastest effect and the joint ask for over h. What it learns of the start serves the first of them.
   int step_count(const State& s, double h) {
-    start_known_ = equations_.rates();
-    if (!start_known_) return 1;
-    start(s, 0);
-    return equations_.step_count(s, h, f0_, t0_);
+    start_known_ = equations_.rates() || (masses == 2 && equations_.varies());
+    if (start_known_) start(s, 0);
+    const int steps = equations_.rates() ? equations_.step_count(s, h, f0_, t0_) : 1;
+    if constexpr (masses == 2) {
+      const Rates rate = rates(s, equations_.varies() ? f0_ : equations_.constant_part(s));
+      const bool sticks = equations_.dry() && s.direction == 0.0;
+      const double held = sticks ? equations_.holding(s) : 0.0;
+      return std::max(steps, equations_.second().step_count(s, rate, equations_.dry(), held, h));
+    }
+    return steps;
   }
 
-  State step(const State& s, const S& h) { return equations_.varies() ? nonlinear_step(s, h) : linear_step(s, h); }
+  State step(const State& s, const S& h) {
+    if (!equations_.varies()) return linear_step(s, h);
+    if (!start_known_) start(s, 0);
+    start_known_ = false;
+    const int level = equations_.choose_level(s, t0_);
+    if (level != 0) start(s, level);
+    const Regime regime = equations_.regime(s, level);
+    const double length = value_of(h);
+    if (use_ == Use::intervals) return nonlinear_step(s, h, level, operators_.over(length, regime));
+    if (use_ == Use::rests) return nonlinear_step(s, h, level, operators_.template along<S>(length, regime));
+    return nonlinear_step(s, h, level, operators_.template along<Value>(length, regime));
+  }
 
   /// Exact solution over h for constant terms; `x` and `position` may be those of `s`.
   void linear_update(const State& s, const S& h, Vector& x, S& position) {
-    const auto& o = operators_.over(h, 0, equations_.dry() && s.direction == 0.0);
     const Vector f = equations_.constant_part(s);
-    Vector after{};
-    add_product<S, n>(after, o.e, s.x);
-    add_product<S, n>(after, o.p1, f);
-    S travelled = s.position;
-    for (std::size_t j = 0; j < n; ++j) travelled += o.p1[w * n + j] * s.x[j] + o.p2[w * n + j] * f[j];
-    x = after;
-    position = travelled;
+    const Regime regime = equations_.regime(s, 0);
+    if (use_ == Use::intervals) {
+      const auto& o = operators_.over(value_of(h), regime);
+      Vector after{};
+      add_product<S, n>(after, o.e, s.x);
+      add_product<S, n>(after, o.p1, f);
+      S travelled = s.position;
+      for (std::size_t j = 0; j < n; ++j) travelled += o.p1[w * n + j] * s.x[j] + o.p2[w * n + j] * f[j];
+      x = after;
+      position = travelled;
+    } else if (use_ == Use::rests) {
+      go_along<S>(s, value_of(h), regime, f, x, position);
+    } else {
+      go_along<Value>(s, value_of(h), regime, f, x, position);
+    }
+    if (!is_constant(h)) shift(x, position, h - value_of(h), rates(operators_.system(regime).value, x, f));
   }
 
-  /// See `Operators::search`.
-  void search(bool on) { operators_.search(on); }
+  /// `s` a little later, in which its rates of change last.
+  State nudged(const State& s, double later) {
+    Terms<S> t;
+    const Vector f = equations_.varies() ? equations_.nonlinear(s, s.memory.data(), s.position, 0, t)
+                                         : equations_.constant_part(s);
+    State next = s;
+    shift(next.x, next.position, S(later), rates(s, f));
+    return next;
+  }
+
+  /// Sets what the next lengths are for; returns what they were.
+  Use use(Use next) { return std::exchange(use_, next); }
 
  private:
+  using Value = typename S::Value;
+
   State linear_step(const State& s, const S& h) {
     State next = s;
     linear_update(s, h, next.x, next.position);
@@ -54,41 +94,41 @@ class Stepper {
     return next;
   }
 
-  State nonlinear_step(const State& s, const S& h) {
-    const bool stick = equations_.dry() && s.direction == 0.0;
-    if (!start_known_) start(s, 0);
-    start_known_ = false;
-    const int level = equations_.choose_level(s, t0_);
-    if (level != 0) start(s, level);
-    const auto& o = operators_.over(h, level, stick);
+  template <class T>
+  void go_along(const State& s, double h, const Regime& regime, const Vector& f, Vector& x, S& position) {
+    using All = Operators<S, kind, masses>;
+    SmallVector<T, n> y = All::template as<T>(s.x), way{};
+    flow<T, n>(operators_.template along<T>(h, regime).a, h, {All::template as<T>(f)}, y, way);
+    x = All::template as<S>(y);
+    position = s.position + as_scalar<S>(way[w]);
+  }
+
+  /// From the start that is known, by the means of `way`: a Step or a Passage of Operators.
+  template <class Way>
+  State nonlinear_step(const State& s, const S& length, int level, const Way& way) {
+    const double h = value_of(length);
     const S& position = s.position;
     const S* memory = s.memory.data();  // as of the start of the step
     Terms<S> ta, tb, tc;
-    const Moving a = stage(s, o.eh, s.x, o.p1h, f0_, 0.5 * h, s.x[w], t0_);
+    const Moving a = stage(s, way.half(s.x, f0_), 0.5 * h, s.x[w]);
     const Vector fa = equations_.nonlinear(a, memory, position, level, ta);
-    const Moving b = stage(s, o.eh, s.x, o.p1h, fa, 0.5 * h, a.x[w], ta);
-    const Vector fb = equations_.nonlinear(b, memory, position, level, tb);
-    Vector mixed = fb;
-    for (std::size_t j = 0; j < n; ++j) mixed[j] = 2.0 * fb[j] - f0_[j];
-    const Moving c = stage(s, o.eh, a.x, o.p1h, mixed, h, b.x[w], tb);
-    const Vector fc = equations_.nonlinear(c, memory, position, level, tc);
+    const Moving b = stage(s, way.half(s.x, fa), 0.5 * h, a.x[w]);
+    Vector middle = equations_.nonlinear(b, memory, position, level, tb);
+    Vector mixed;
+    for (std::size_t j = 0; j < n; ++j) mixed[j] = 2.0 * middle[j] - f0_[j];
+    const Moving c = stage(s, way.half(a.x, mixed), h, b.x[w]);
+    const Vector last = equations_.nonlinear(c, memory, position, level, tc);
+    for (std::size_t j = 0; j < n; ++j) middle[j] += fa[j];
 
     State next = s;
-    next.x = Vector{};
-    add_product<S, n>(next.x, o.e, s.x);
-    add_product<S, n>(next.x, o.f1, f0_);
-    for (std::size_t j = 0; j < n; ++j) mixed[j] = fa[j] + fb[j];
-    add_product<S, n>(next.x, o.f2, mixed);
-    add_product<S, n>(next.x, o.f3, fc);
-    const S sixth = h / 6.0;
-    next.position += sixth * (s.x[w] + 2.0 * (a.x[w] + b.x[w]) + c.x[w]);
-    if (equations_.hiddens()) {
-      for (std::size_t k = 0; k < next.hidden.size(); ++k) {
-        next.hidden[k] +=
-            sixth * (t0_.hidden_rate[k] + 2.0 * (ta.hidden_rate[k] + tb.hidden_rate[k]) + tc.hidden_rate[k]);
-      }
+    next.x = way.whole(s.x, f0_, middle, last);
+    next.position += (h / 6.0) * (s.x[w] + 2.0 * (a.x[w] + b.x[w]) + c.x[w]);
+    if (!is_constant(length)) {
+      Terms<S> t;
+      const Vector f = equations_.nonlinear(next, memory, position, level, t);
+      shift(next.x, next.position, length - h, rates(operators_.system(equations_.regime(s, level)).value, next.x, f));
     }
-    if (equations_.finishes()) equations_.finish(s, next, h);
+    if (equations_.finishes()) equations_.finish(s, next, length);
     return next;
   }
 
@@ -98,24 +138,39 @@ class Stepper {
     f0_ = equations_.nonlinear(s, s.memory.data(), s.position, level, t0_);
   }
 
-  Moving stage(const Moving& s, const Matrix& e, const Vector& from, const Matrix& p1, const Vector& f, const S& h,
-               const S& speed, const Terms<S>& t) const {
-    Moving r;
-    r.direction = s.direction;
-    add_product<S, n>(r.x, e, from);
-    add_product<S, n>(r.x, p1, f);
-    r.position = s.position + h * speed;
-    if (equations_.hiddens()) {
-      for (std::size_t k = 0; k < r.hidden.size(); ++k) r.hidden[k] = s.hidden[k] + h * t.hidden_rate[k];
-    }
+  static Moving stage(const Moving& s, const Vector& x, double h, const S& speed) {
+    Moving r = s;
+    r.x = x;
+    r.position += h * speed;
     return r;
   }
 
-  Equations<S, kind>& equations_;
-  Operators<S, kind> operators_;
+  /// dx/dt at `s`, where f is what its linear part leaves.
+  Rates rates(const State& s, const Vector& f) {
+    return rates(operators_.system(equations_.regime(s, 0)).value, s.x, f);
+  }
+
+  static Rates rates(const SmallMatrix<double, n>& a, const Vector& x, const Vector& f) {
+    Rates rate{};
+    for (std::size_t i = 0; i < n; ++i) {
+      rate[i] = value_of(f[i]);
+      for (std::size_t j = 0; j < n; ++j) rate[i] += a[i * n + j] * value_of(x[j]);
+    }
+    return rate;
+  }
+
+  /// Moves a state on by `more`, which has derivatives and no length.
+  static void shift(Vector& x, S& position, const S& more, const Rates& rates) {
+    for (std::size_t i = 0; i < n; ++i) x[i] += rates[i] * more;
+    position += value_of(x[w]) * more;
+  }
+
+  Equations<S, kind, masses>& equations_;
+  Operators<S, kind, masses> operators_;
   Vector f0_{};  // at the start of a step, with its terms
   Terms<S> t0_{};
   bool start_known_ = false;
+  Use use_ = Use::intervals;
 };
 
 }  // namespace rwn

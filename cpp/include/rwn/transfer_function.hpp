@@ -32,7 +32,6 @@ class TransferFunction {
   struct State {
     std::array<S, max_order> x{};  // scaled: x_i / rate^{i-1}
     S position{};                  // not modelled
-    std::array<S, max_hiddens> hidden{};
     Memory<S> memory{};
   };
 

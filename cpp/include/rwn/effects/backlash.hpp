@@ -39,34 +39,16 @@ struct Backlash {
                                                    .upper = 2.0,
                                                    .start = 0.4,
                                                    .idealised = true}};
-  static constexpr int hiddens = 2;                  // twist theta - theta_L [rad], load speed [rad/s]
-  static constexpr double load_viscous_share = 0.3;  // of B, on the load side
-  static constexpr double touch = 0.0005;            // part of half the gap over which the contact takes hold
 
   template <class S>
-  static void apply(const S* p, const Motor<S>& m, const Motion<S>& x, Terms<S>& t) {
+  static Joint<S> joint(const S* p, const Motor<S>& m) {
     const S& load = p[1];
-    const S& twist = x.hidden[0];
-    const S& load_speed = x.hidden[1];
-    const S half = 0.5 * p[0];
-    S torque(0.0);
-    if (value_of(twist) > value_of(half) || value_of(twist) < -value_of(half)) {
-      const S bend = value_of(twist) > 0.0 ? twist - half : twist + half;
-      // the damping grows over the first touch, so that the force, and its derivatives, are continuous
-      const S grip = bend / (bend + (value_of(bend) > 0.0 ? touch : -touch) * half);
-      const S reduced = load * (m[inertia] - load) / m[inertia];
-      torque = reduced * p[2] * (p[2] * bend + 2.0 * p[3] * grip * (x.speed - load_speed));
-      if (value_of(torque) * value_of(bend) < 0.0) torque = S(0.0);  // it never pulls
-    }
-    const S share = load_viscous_share * m[viscous_friction];
-    t.inertia -= load;
-    t.torque += share * x.speed - torque;
-    t.hidden_rate[0] = x.speed - load_speed;
-    t.hidden_rate[1] = (torque - share * load_speed) / load;
-  }
-  template <class S>
-  static double rate(const S* p, const Motor<S>&, const Motion<S>&, double, double) {
-    return 2.0 * value_of(p[2]) * (1.1 + value_of(p[3]));  // always: steps that follow the contact roughen the error
+    const S reduced = load * (m[inertia] - load) / m[inertia];
+    return {.stiffness = reduced * p[2] * p[2],
+            .damping = 2.0 * p[3] * reduced * p[2],
+            .load_inertia = load,
+            .half_gap = 0.5 * p[0],
+            .play = true};
   }
 };
 

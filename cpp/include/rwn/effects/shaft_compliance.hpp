@@ -33,24 +33,10 @@ struct ShaftCompliance {
                                                    .start = 0.4,
                                                    .scale = Scale::inertia,
                                                    .scan = {0.25, 0.6}}};
-  static constexpr int hiddens = 2;                  // twist theta - theta_L [rad], load speed [rad/s]
-  static constexpr double load_viscous_share = 0.3;  // of B, on the load side
 
   template <class S>
-  static void apply(const S* p, const Motor<S>& m, const Motion<S>& x, Terms<S>& t) {
-    const S& load = p[2];
-    const S torque = p[0] * x.hidden[0] + p[1] * (x.speed - x.hidden[1]);
-    const S share = load_viscous_share * m[viscous_friction];
-    t.inertia -= load;
-    t.torque += share * x.speed - torque;
-    t.hidden_rate[0] = x.speed - x.hidden[1];
-    t.hidden_rate[1] = (torque - share * x.hidden[1]) / load;
-  }
-  template <class S>
-  static double rate(const S* p, const Motor<S>& m, const Motion<S>&, double, double) {
-    const double load = value_of(p[2]);
-    const double reduced = load * (value_of(m[inertia]) - load) / value_of(m[inertia]);
-    return std::sqrt(value_of(p[0]) / reduced) + value_of(p[1]) / reduced;
+  static Joint<S> joint(const S* p, const Motor<S>&) {
+    return {.stiffness = p[0], .damping = p[1], .load_inertia = p[2]};
   }
 };
 

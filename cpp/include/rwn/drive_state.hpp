@@ -1,0 +1,36 @@
+// The state of a drive of one mass, or of two with a joint between them.
+#pragma once
+
+#include "rwn/drive.hpp"
+#include "rwn/exponential.hpp"
+#include "rwn/memory.hpp"
+
+namespace rwn {
+
+/// What moves within a step.
+template <class S, Kind kind, int masses>
+struct MovingState {
+  static constexpr std::size_t w = kind == Kind::dc ? 1 : 0;         // place of the motor's speed in x
+  static constexpr std::size_t twist = w + 1, load_speed = w + 2;    // places of what a second mass adds
+  static constexpr int n = static_cast<int>(w) + (masses == 2 ? 3 : 1);
+  SmallVector<S, n> x{};  // current (dc only), speed; twist [1/rate of the joint], speed of the load
+  S position{};
+  double direction = 0.0;  // of sliding; 0 sticks
+  double contact = 0.0;    // side on which the joint transmits: 0 while its gap is open, 1 where there is none
+};
+
+/// The same with what effects remember from step to step.
+template <class S, Kind kind, int masses>
+struct DriveState : MovingState<S, kind, masses> {
+  Memory<S> memory{};
+};
+
+/// What the linear part of the equations depends on.
+struct Regime {
+  int level = 0;        // the winding is linearised at R 2^level
+  bool stick = false;   // a stuck shaft has no equation of motion
+  bool closed = false;  // the joint transmits
+  bool operator==(const Regime&) const = default;
+};
+
+}  // namespace rwn
