@@ -72,3 +72,12 @@ def test_no_bounce_is_overlooked_in_long_steps(friction: float, damping: float) 
         speeds.append(rwn.simulate(model, seen).signals["speed"][::parts])
     assert (np.count_nonzero(speeds[0] == 0.0) > 10) == (friction > 0.0), "it has to stick somewhere"
     assert np.max(np.abs(speeds[0] - speeds[1])) < 1e-6 * np.max(np.abs(speeds[1]))
+
+
+@pytest.mark.parametrize("effect", ["backlash", "shaft-compliance"])
+def test_a_load_heavier_than_the_whole_has_no_motion(effect: str) -> None:
+    law = {"gap": 0.2, "contact_rate": 1500.0, "contact_damping_ratio": 0.3} if effect == "backlash" else {
+        "stiffness": 1.0, "damping": 1e-5}  # fmt: skip
+    model = Model(kind="dc", parameters=MOTOR, effects={effect: {**law, "load_inertia": 1.2 * J}})
+    seen = rwn.Recording(name="two.csv", time=np.arange(LEVELS.size) / RATE, signals={"voltage": LEVELS})
+    assert rwn.simulate(model, seen).status == "diverged"

@@ -49,6 +49,9 @@ class Equations {
     if constexpr (kind == Kind::dc) inverse_inductance_ = 1.0 / motor_[inductance];
   }
 
+  /// Something is left of the inertia in front of a joint.
+  bool sound() const { return value_of(inertia_) > 0.0; }
+
   bool varies() const { return varies_; }      // within a step, other than with the direction of sliding
   bool rates() const { return rates_; }        // something asks for short steps
   bool dry() const { return dry_; }            // there is friction that holds

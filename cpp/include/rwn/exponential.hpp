@@ -64,6 +64,7 @@ template <class S, int n>
 PhiFunctions<S, n> phi_functions(SmallMatrix<S, n> z) {
   double size = 0.0;
   for (const S& entry : z) size = std::max(size, std::abs(value_of(entry)));
+  if (!std::isfinite(size)) size = 0.0;  // nothing finite comes of it
   int doublings = 0;
   for (; size * n > 0.5; size *= 0.5) ++doublings;
   for (S& entry : z) entry *= std::ldexp(1.0, -doublings);

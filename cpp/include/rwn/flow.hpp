@@ -12,17 +12,26 @@ struct Flow {
   SmallVector<S, n> constant{}, linear{}, quadratic{};
 };
 
-/// Takes x over h of x' = A x + f(t), and adds the integral of x to `way`.
+/// Greatest row sum.
 template <class S, int n>
-void flow(const SmallMatrix<S, n>& a, double h, const Flow<S, n>& f, SmallVector<S, n>& x, SmallVector<S, n>& way) {
-  constexpr int terms = 17;  // 1 / 18! is far below rounding
+double norm_of(const SmallMatrix<S, n>& a) {
   double norm = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     double row = 0.0;
     for (std::size_t j = 0; j < n; ++j) row += std::abs(value_of(a[i * n + j]));
     norm = std::max(norm, row);
   }
-  const int parts = 1 + static_cast<int>(std::min(norm * h, 1e6));
+  return norm;
+}
+
+/// |A| h from which on the products of matrices are fewer.
+inline constexpr double longest_flow = 16.0;
+
+/// Takes x over h of x' = A x + f(t), and adds the integral of x to `way`; |A| h is at most `longest_flow`.
+template <class S, int n>
+void flow(const SmallMatrix<S, n>& a, double h, const Flow<S, n>& f, SmallVector<S, n>& x, SmallVector<S, n>& way) {
+  constexpr int terms = 17;  // 1 / 18! is far below rounding
+  const int parts = 1 + static_cast<int>(norm_of<S, n>(a) * h);
   const double length = h / parts;
   for (int part = 0; part < parts; ++part) {
     const double at = static_cast<double>(part) / parts;  // where the part begins, of h

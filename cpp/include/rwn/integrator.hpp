@@ -19,6 +19,9 @@ class Integrator {
   /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
   void follow(const S& offset) { equations_.follow(offset); }
 
+  /// False where no motion follows from the equations.
+  bool sound() const { return equations_.sound(); }
+
   /// A second mass starts with the first.
   void begin(State& s) const {
     if constexpr (masses == 2) equations_.second().begin(s);

@@ -25,6 +25,7 @@ class Operators {
     Regime regime{.level = -1};
     Matrix a{};
     SmallMatrix<double, n> value{};
+    double norm = 0.0;
   };
 
   struct Step {
@@ -86,6 +87,7 @@ class Operators {
     System& slot = next_of(systems_, next_system_);
     slot = {.regime = regime, .a = equations_.system_matrix(regime)};
     for (std::size_t k = 0; k < slot.a.size(); ++k) slot.value[k] = value_of(slot.a[k]);
+    slot.norm = norm_of<S, n>(slot.a);
     return slot;
   }
 

@@ -72,6 +72,7 @@ class Simulation {
   /// Number of samples that stayed finite.
   int run() {
     Plant integrator = plant();
+    if (!integrator.sound()) return 0;
     State state = initial(integrator);
     integrator.settle(state);
     prepare(state);

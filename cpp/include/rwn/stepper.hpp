@@ -45,7 +45,7 @@ class Stepper {
     if (level != 0) start(s, level);
     const Regime regime = equations_.regime(s, level);
     const double length = value_of(h);
-    if (use_ == Use::intervals) return nonlinear_step(s, h, level, operators_.over(length, regime));
+    if (!flows(length, regime)) return nonlinear_step(s, h, level, operators_.over(length, regime));
     if (use_ == Use::rests) return nonlinear_step(s, h, level, operators_.template along<S>(length, regime));
     return nonlinear_step(s, h, level, operators_.template along<Value>(length, regime));
   }
@@ -54,7 +54,7 @@ class Stepper {
   void linear_update(const State& s, const S& h, Vector& x, S& position) {
     const Vector f = equations_.constant_part(s);
     const Regime regime = equations_.regime(s, 0);
-    if (use_ == Use::intervals) {
+    if (!flows(value_of(h), regime)) {
       const auto& o = operators_.over(value_of(h), regime);
       Vector after{};
       add_product<S, n>(after, o.e, s.x);
@@ -92,6 +92,11 @@ class Stepper {
     linear_update(s, h, next.x, next.position);
     if (equations_.finishes()) equations_.finish(s, next, h);
     return next;
+  }
+
+  /// Whether a length is gone along a series, not by matrices of its own.
+  bool flows(double h, const Regime& regime) {
+    return use_ != Use::intervals && operators_.system(regime).norm * h < longest_flow;
   }
 
   template <class T>

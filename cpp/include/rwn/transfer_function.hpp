@@ -50,6 +50,7 @@ class TransferFunction {
     return s;
   }
 
+  bool sound() const { return true; }
   void settle(State&) const {}
   void follow(const S&) {}
 
