@@ -10,6 +10,7 @@ template <class S, Kind kind>
 class ContactEvents {
  public:
   using State = DriveState<S, kind, 2>;
+  using Moving = typename State::Moving;
 
   ContactEvents(Equations<S, kind, 2>& equations, EventSearch<S, kind, 2>& search)
       : equations_(equations), search_(search) {}
@@ -20,7 +21,7 @@ class ContactEvents {
   }
 
   /// True where `next`, a step after `s`, has the contact of `s`.
-  bool continues(const State& s, const State& next) const {
+  bool continues(const State& s, const Moving& next) const {
     if (!second().play()) return true;
     return s.contact == 0.0 ? touching(next) == 0.0 : value_of(second().pressing(next, s.contact)) >= 0.0;
   }
@@ -46,7 +47,7 @@ class ContactEvents {
   const SecondMass<S, kind>& second() const { return equations_.second(); }
 
   /// The side on which an open gap would transmit, 0 on none.
-  double touching(const State& s) const {
+  double touching(const Moving& s) const {
     for (const double side : {1.0, -1.0}) {
       if (value_of(touch(s, side)) > 0.0) return side;
     }
@@ -54,7 +55,7 @@ class ContactEvents {
   }
 
   /// Positive where an open gap has closed: the parts overlap and would push.
-  S touch(const State& s, double side) const {
+  S touch(const Moving& s, double side) const {
     const S overlap = second().overlap(s, side), pressing = second().pressing(s, side);
     return value_of(overlap) < value_of(pressing) ? overlap : pressing;
   }

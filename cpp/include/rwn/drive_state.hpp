@@ -22,15 +22,22 @@ struct MovingState {
 /// The same with what effects remember from step to step.
 template <class S, Kind kind, int masses>
 struct DriveState : MovingState<S, kind, masses> {
+  using Moving = MovingState<S, kind, masses>;
   Memory<S> memory{};
 };
 
-/// What the linear part of the equations depends on.
-struct Regime {
-  int level = 0;        // the winding is linearised at R 2^level
-  bool stick = false;   // a stuck shaft has no equation of motion
-  bool closed = false;  // the joint transmits
+/// What the linear part of the equations depends on, in one number, since every step asks for it.
+class Regime {
+ public:
+  Regime() = default;
+  Regime(int level, bool stick, bool closed) : key_(4 * level + 2 * stick + closed) {}
+  int level() const { return key_ / 4; }           // the winding is linearised at R 2^level
+  bool stick() const { return (key_ & 2) != 0; }   // a stuck shaft has no equation of motion
+  bool closed() const { return (key_ & 1) != 0; }  // the joint transmits
   bool operator==(const Regime&) const = default;
+
+ private:
+  int key_ = -1;
 };
 
 }  // namespace rwn

@@ -76,18 +76,18 @@ class Equations {
   const auto& second() const { return second_; }
 
   Regime regime(const Moving& s, int level) const {
-    return {.level = level, .stick = dry_ && s.direction == 0.0, .closed = masses == 2 && s.contact != 0.0};
+    return {level, dry_ && s.direction == 0.0, masses == 2 && s.contact != 0.0};
   }
 
   /// A of the linear part.
   Matrix system_matrix(const Regime& regime) const {
     Matrix a{};
     if constexpr (kind == Kind::dc) {
-      a[0] = -(times(regime.level) * motor_[resistance] * inverse_inductance_);
+      a[0] = -(times(regime.level()) * motor_[resistance] * inverse_inductance_);
       a[1] = -(motor_[back_emf_constant] * inverse_inductance_);
-      if (!regime.stick) a[n] = motor_[torque_constant] * inverse_inertia_;
+      if (!regime.stick()) a[n] = motor_[torque_constant] * inverse_inertia_;
     }
-    if (!regime.stick) a[w * n + w] = -(viscous_ * inverse_inertia_);
+    if (!regime.stick()) a[w * n + w] = -(viscous_ * inverse_inertia_);
     if constexpr (masses == 2) second_.couple(a, regime);
     return a;
   }
@@ -125,7 +125,8 @@ class Equations {
     }
     if constexpr (kind == Kind::dc) {
       const S back_emf = motor_[back_emf_constant] * s.x[1];
-      S rate = (input() - motor_[resistance] * t.resistance * s.x[0] - back_emf * t.flux - t.drop) * inverse_inductance_;
+      S rate = input() - motor_[resistance] * t.resistance * s.x[0] - back_emf * t.flux - t.drop;
+      rate *= inverse_inductance_;
       if (value_of(t.inductance) != 1.0) rate /= t.inductance;
       f[0] = rate + (times(level) * motor_[resistance] * s.x[0] + back_emf) * inverse_inductance_;
     }

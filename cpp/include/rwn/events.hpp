@@ -13,7 +13,7 @@ struct NoContact {
   template <class State>
   void settle(State&) const {}
   template <class State>
-  bool continues(const State&, const State&) const {
+  bool continues(const State&, const typename State::Moving&) const {
     return true;
   }
 };
@@ -33,6 +33,11 @@ class Events {
   /// True where `next`, a step after `s`, goes on as `s` did.
   bool continues(const State& s, const State& next) {
     return contact_.continues(s, next) && friction_.continues(s, next);
+  }
+
+  /// The same of a motion that is not stuck.
+  bool moves_on(const State& s, const typename State::Moving& next) const {
+    return contact_.continues(s, next) && friction_.slides_on(s, next);
   }
 
   /// Puts `s` at the first end, which lies within h, before `beyond`; returns the time that it took.

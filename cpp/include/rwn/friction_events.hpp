@@ -16,8 +16,13 @@ class FrictionEvents {
 
   /// True where `next`, a step after `s`, still slides or sticks as `s` did.
   bool continues(const State& s, const State& next) {
-    if (!equations_.dry()) return true;
-    return s.direction != 0.0 ? s.direction * value_of(next.x[w]) >= 0.0 : equations_.breaking(next) == 0.0;
+    if (s.direction != 0.0 || !equations_.dry()) return slides_on(s, next);
+    return equations_.breaking(next) == 0.0;
+  }
+
+  /// The same where `s` slides, or nothing brakes it.
+  bool slides_on(const State& s, const typename State::Moving& next) const {
+    return s.direction * value_of(next.x[w]) >= 0.0;
   }
 
   /// When the sliding or sticking of `s` ends, before `beyond`, which is h later.

@@ -36,11 +36,8 @@ class Integrator {
   /// Advances `s` over `h` from time `time` with constant input.
   void advance(State& s, const S& h, const S& input, double time) {
     equations_.begin(input, time + 0.5 * value_of(h));
-    if (!dry_ && !play_) {
-      exact_ ? stepper_.linear_update(s, h, s.x, s.position) : advance_smoothly(s, h);
-    } else if (!exact_ || !keeps_on(s, h)) {
-      advance_with_events(s, h);
-    }
+    if (exact_ && keeps_on(s, h)) return;
+    dry_ || play_ ? advance_with_events(s, h) : advance_smoothly(s, h);
   }
 
  private:
@@ -57,11 +54,11 @@ class Integrator {
       if (s.direction == 0.0) return masses == 1 && kind == Kind::axis;
     }
     if constexpr (masses == 2) {
-      if (stepper_.step_count(s, value_of(h)) > 1) return false;
+      if ((dry_ || play_) && stepper_.step_count(s, value_of(h)) > 1) return false;
     }
-    State next = s;
+    typename State::Moving next = s;
     stepper_.linear_update(s, h, next.x, next.position);
-    if (!events_.continues(s, next)) return false;
+    if ((dry_ || play_) && !events_.moves_on(s, next)) return false;
     s.x = next.x;
     s.position = next.position;
     return true;

@@ -1,5 +1,5 @@
-// By what a step of given length moves the state: matrices, made once for each length that comes back, or a series along
-// the way for a length that does not.
+// By what a step of given length moves the state: matrices, made once for each length that comes back, or a series
+// along the way for a length that does not.
 #pragma once
 
 #include <utility>
@@ -22,7 +22,7 @@ class Operators {
 
   /// The linear part, and its values.
   struct System {
-    Regime regime{.level = -1};
+    Regime regime{};
     Matrix a{};
     SmallMatrix<double, n> value{};
     double norm = 0.0;

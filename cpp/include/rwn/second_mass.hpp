@@ -75,11 +75,11 @@ class SecondMass {
     at(a, twist, w) = S(rate_);
     at(a, twist, load_speed) = S(-rate_);
     at(a, load_speed, load_speed) = -(drag_ * inverse_load_);
-    if (!regime.closed) return;
+    if (!regime.closed()) return;
     at(a, load_speed, w) = joint_.damping * inverse_load_;
     at(a, load_speed, twist) = scaled_stiffness_ * inverse_load_;
     at(a, load_speed, load_speed) -= at(a, load_speed, w);
-    if (regime.stick) return;
+    if (regime.stick()) return;
     const S inverse = 1.0 / motor_inertia_;
     at(a, w, load_speed) = joint_.damping * inverse;
     at(a, w, twist) = -(scaled_stiffness_ * inverse);
@@ -101,8 +101,8 @@ class SecondMass {
     const double swing = std::hypot(bending + damping * turning, omega * turning) * std::hypot(1.0, damping / omega);
     if (!std::isfinite(swing)) return 1;
     const bool lasts = !joint_.play || bending + s.contact * value_of(torque(s)) * inverse > swing;
-    const bool goes_on = !dry || (stick ? 2.0 * swing < held * inverse
-                                        : s.direction * value_of(s.x[w]) > (std::abs(rates[w]) + swing) * h + swing / omega);
+    const double change = (std::abs(rates[w]) + swing) * h + swing / omega;  // of the motor's speed, at most
+    const bool goes_on = !dry || (stick ? 2.0 * swing < held * inverse : s.direction * value_of(s.x[w]) > change);
     if (lasts && goes_on) return 1;
     return static_cast<int>(std::min(std::ceil(omega * h / angle_of_a_step), most_steps));
   }

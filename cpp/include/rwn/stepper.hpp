@@ -1,9 +1,9 @@
 // One step of the drive equations with constant input, friction sliding or sticking and contact as it is throughout.
 //
-// The linear part (i, w, and twist and speed of a second mass) is solved exactly by its matrix exponential, so electrics
-// and contacts much faster than the sample time cost nothing; what is nonlinear enters by a fourth-order exponential
-// Runge-Kutta step (Cox, Matthews 2002). Lengths that carry derivatives, those that end at an event or a late command,
-// are steps of their value, moved on along the rates of change there.
+// The linear part (i, w, and twist and speed of a second mass) is solved exactly by its matrix exponential, so
+// electrics and contacts much faster than the sample time cost nothing; what is nonlinear enters by a fourth-order
+// exponential Runge-Kutta step (Cox, Matthews 2002). Lengths that carry derivatives, those that end at an event or a
+// late command, are steps of their value, moved on along the rates of change there.
 #pragma once
 
 #include "rwn/operators.hpp"
@@ -54,21 +54,11 @@ class Stepper {
   void linear_update(const State& s, const S& h, Vector& x, S& position) {
     const Vector f = equations_.constant_part(s);
     const Regime regime = equations_.regime(s, 0);
-    if (!flows(value_of(h), regime)) {
-      const auto& o = operators_.over(value_of(h), regime);
-      Vector after{};
-      add_product<S, n>(after, o.e, s.x);
-      add_product<S, n>(after, o.p1, f);
-      S travelled = s.position;
-      for (std::size_t j = 0; j < n; ++j) travelled += o.p1[w * n + j] * s.x[j] + o.p2[w * n + j] * f[j];
-      x = after;
-      position = travelled;
-    } else if (use_ == Use::rests) {
-      go_along<S>(s, value_of(h), regime, f, x, position);
+    if (use_ != Use::intervals || !is_constant(h)) {
+      linear_rest(s, h, regime, f, x, position);
     } else {
-      go_along<Value>(s, value_of(h), regime, f, x, position);
+      go(operators_.over(value_of(h), regime), s, f, x, position);
     }
-    if (!is_constant(h)) shift(x, position, h - value_of(h), rates(operators_.system(regime).value, x, f));
   }
 
   /// `s` a little later, in which its rates of change last.
@@ -97,6 +87,31 @@ class Stepper {
   /// Whether a length is gone along a series, not by matrices of its own.
   bool flows(double h, const Regime& regime) {
     return use_ != Use::intervals && operators_.system(regime).norm * h < longest_flow;
+  }
+
+  static void go(const typename Operators<S, kind, masses>::Step& o, const State& s, const Vector& f, Vector& x,
+                 S& position) {
+    Vector after{};
+    add_product<S, n>(after, o.e, s.x);
+    add_product<S, n>(after, o.p1, f);
+    S travelled = s.position;
+    for (std::size_t j = 0; j < n; ++j) travelled += o.p1[w * n + j] * s.x[j] + o.p2[w * n + j] * f[j];
+    x = after;
+    position = travelled;
+  }
+
+  /// What is rare is kept out of the common way.
+  [[gnu::noinline]] void linear_rest(const State& s, const S& h, const Regime& regime, const Vector& f, Vector& x,
+                                     S& position) {
+    const double length = value_of(h);
+    if (!flows(length, regime)) {
+      go(operators_.over(length, regime), s, f, x, position);
+    } else if (use_ == Use::rests) {
+      go_along<S>(s, length, regime, f, x, position);
+    } else {
+      go_along<Value>(s, length, regime, f, x, position);
+    }
+    if (!is_constant(h)) shift(x, position, h - length, rates(operators_.system(regime).value, x, f));
   }
 
   template <class T>
