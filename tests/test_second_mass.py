@@ -81,3 +81,14 @@ def test_a_load_heavier_than_the_whole_has_no_motion(effect: str) -> None:
     model = Model(kind="dc", parameters=MOTOR, effects={effect: {**law, "load_inertia": 1.2 * J}})
     seen = rwn.Recording(name="two.csv", time=np.arange(LEVELS.size) / RATE, signals={"voltage": LEVELS})
     assert rwn.simulate(model, seen).status == "diverged"
+
+
+def test_no_time_is_lost_where_a_load_rattles_more_often_than_is_followed() -> None:
+    law = {"gap": 2e-3, "load_inertia": LOAD, "contact_rate": 5000.0, "contact_damping_ratio": 0.01}
+    model = Model(kind="dc", parameters=MOTOR, effects={"backlash": law})
+    ends = []
+    for parts in (1, 40):
+        time = np.arange(40 * parts) * (0.2 / parts)
+        seen = rwn.Recording(name="slow.csv", time=time, signals={"voltage": np.repeat(LEVELS[::3], parts)})
+        ends.append(rwn.simulate(model, seen).signals["position"][::parts])
+    assert np.max(np.abs(ends[0] - ends[1])) < 0.01 * np.max(np.abs(ends[1]))

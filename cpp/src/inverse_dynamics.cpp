@@ -69,7 +69,7 @@ class AlongMotion {
   }
 
  private:
-  static constexpr int most_steps = 64;
+  static constexpr double most_steps = 64.0;
 
   Real load_drag() const { return load_viscous_share * motor_[viscous_friction]; }
 
@@ -77,7 +77,8 @@ class AlongMotion {
   void move_load(const Motion<Real>& x, const Motion<Real>& next, double h) {
     const double reduced = joint_->load_inertia.v * (1.0 - joint_->load_inertia.v / motor_[inertia].v);
     const double rate = std::sqrt(joint_->stiffness.v / reduced) + joint_->damping.v / reduced;
-    const int steps = std::clamp(static_cast<int>(std::ceil(h * rate / 0.3)), 1, most_steps);
+    const double asked = std::ceil(h * rate / 0.3);
+    const int steps = asked > 1.0 ? static_cast<int>(std::min(asked, most_steps)) : 1;
     const double part = h / steps;
     for (int k = 0; k < steps; ++k) {
       const Real twist = twist_, load_speed = load_speed_;

@@ -98,14 +98,15 @@ class Equations {
     if (!electrical()) return 0;
     const double slope = t.drop_slope + effects_.own_drop_slope(s);
     const double ratio = (value_of(t.resistance) + slope / value_of(motor_[resistance])) / value_of(t.inductance);
-    return ratio > 1.3 ? std::min(12, static_cast<int>(std::ceil(std::log2(ratio)))) : 0;
+    return ratio > 1.3 ? static_cast<int>(std::min(12.0, std::ceil(std::log2(ratio)))) : 0;
   }
 
   /// Steps that the fastest effect asks for over h, where `f` and `t` are those of its start (level 0).
   int step_count(const State& s, double h, const Vector& f, const Terms<S>& t) const {
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
     const double rate = std::max(winding_rate(t, h), effects_.rate(s, acceleration, h));
-    return std::clamp(static_cast<int>(std::ceil(h * rate / angle_of_a_step)), 1, 16);
+    const double steps = std::ceil(h * rate / angle_of_a_step);
+    return steps > 1.0 ? static_cast<int>(std::min(16.0, steps)) : 1;
   }
 
   /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`, which is fresh.

@@ -66,10 +66,11 @@ class Integrator {
 
   void advance_with_events(State& s, S left) {
     const double whole = value_of(left);
-    for (int guard = 0; guard < 40 && value_of(left) > 1e-12 * whole; ++guard) {
+    int events = 0;
+    for (; events < most_events && value_of(left) > 1e-12 * whole; ++events) {
       if (dry_ && s.direction == 0.0) s.direction = equations_.breaking(s);
-      if (guard > 0) stepper_.use(Use::rests);
-      const int steps = guard < 39 ? stepper_.step_count(s, value_of(left)) : 1;
+      if (events > 0) stepper_.use(Use::rests);
+      const int steps = stepper_.step_count(s, value_of(left));
       const S h = steps == 1 ? left : left / static_cast<double>(steps);
       for (int k = 0; k < steps; ++k) {
         const State next = stepper_.step(s, h);
@@ -81,8 +82,14 @@ class Integrator {
         left -= h;
       }
     }
+    if (events == most_events && value_of(left) > 0.0) {  // it rattles: what is left of the interval is gone over
+      s = stepper_.step(s, left);
+      settle(s);
+    }
     stepper_.use(Use::intervals);
   }
+
+  static constexpr int most_events = 40;  // between two samples
 
   Equations<S, kind, masses> equations_;
   Stepper<S, kind, masses> stepper_{equations_};
