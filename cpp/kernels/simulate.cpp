@@ -7,19 +7,26 @@ struct Tag {};
 
 namespace {
 
+#ifdef RWN_FEW_WIDTHS
+constexpr int least_width = 16;  // where it has to be compiled soon, not to run fast
+#else
+constexpr int least_width = 1;
+#endif
+
+/// N derivatives, or a few more: two masses are rare, so half as many widths are compiled for them.
+template <int N, Kind kind, int masses>
+int run(const SimulationSlice& slice) {
+  constexpr int step = masses == 2 && least_width < 8 ? 8 : least_width;
+  constexpr int width = (N + step - 1) / step * step;
+  return Simulation<Dual<width, Tag>, width, kind, masses>(slice).run();
+}
+
 template <int N>
 int run(Kind kind, const SimulationSlice& slice) {
   if constexpr (N % RWN_VECTOR_WIDTH == 0) {
-    using S = Dual<N, Tag>;
-    if (kind == Kind::lti) return Simulation<S, N, Kind::lti>(slice).run();
-    if (slice.masses == 2) {
-      constexpr int wide = (N + 7) / 8 * 8;  // two masses are rare: half as many widths are compiled
-      using Wide = Dual<wide, Tag>;
-      if (kind == Kind::dc) return Simulation<Wide, wide, Kind::dc, 2>(slice).run();
-      return Simulation<Wide, wide, Kind::axis, 2>(slice).run();
-    }
-    if (kind == Kind::dc) return Simulation<S, N, Kind::dc>(slice).run();
-    return Simulation<S, N, Kind::axis>(slice).run();
+    if (kind == Kind::lti) return run<N, Kind::lti, 1>(slice);
+    if (slice.masses == 2) return kind == Kind::dc ? run<N, Kind::dc, 2>(slice) : run<N, Kind::axis, 2>(slice);
+    return kind == Kind::dc ? run<N, Kind::dc, 1>(slice) : run<N, Kind::axis, 1>(slice);
   }
   return 0;  // never called: narrower vectors hold so many without a rest
 }
