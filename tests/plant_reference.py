@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from rwn.trials.effects.torque import LOAD_VISCOUS_SHARE
+
 Array = NDArray[np.float64]
 
 
@@ -43,8 +45,8 @@ class Machine:
 
 
 def two_masses(motor: dict[str, float], load: float, stiffness: float, damping: float, gap: float = 0.0) -> Machine:
-    """A shaft to a load, which bears 0.3 of the viscous friction; the extra states are the load's speed and angle."""
-    drag = 0.3 * motor["viscous_friction"]
+    """A shaft to a load, which bears its part of the viscous friction; extra states: speed and angle of the load."""
+    drag = LOAD_VISCOUS_SHARE * motor["viscous_friction"]
 
     def torque(w: float, th: float, wl: float, thl: float) -> float:
         twist = th - thl

@@ -46,6 +46,14 @@ def test_turns_without_derivatives_reach_what_derivatives_do_not(search: Search)
     assert found.cost < stopped.cost
 
 
+def test_derivatives_find_a_gap_from_three_times_its_size(search: Search) -> None:
+    problem, this = _start(search, "backlash", {**PLAY, "gap": 0.06, "contact_rate": 1500.0})
+    found = this.with_values(fit(problem, this).values)
+    for unknown in this.unknowns:
+        if unknown.name.startswith("backlash."):
+            assert found[unknown.index] == pytest.approx(PLAY[unknown.name.removeprefix("backlash.")], rel=0.01)
+
+
 def test_a_smooth_error_is_left_to_derivatives(search: Search) -> None:
     problem, this = _start(search, "coulomb-friction", {"coulomb_torque": 1e-3})
     assert rough(this) == []

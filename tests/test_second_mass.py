@@ -20,9 +20,9 @@ RATE = 500.0  # the closed gap swings once or twice a sample
 LEVELS = np.repeat(np.random.default_rng(4).uniform(-4.0, 4.0, 12), 10)
 
 
-def _simulated(effects: dict[str, dict[str, float]], motor: dict[str, float] = MOTOR) -> Array:
+def _simulated(effects: dict[str, dict[str, float]]) -> Array:
     seen = rwn.Recording(name="two.csv", time=np.arange(LEVELS.size) / RATE, signals={"voltage": LEVELS})
-    done = rwn.simulate(Model(kind="dc", parameters=motor, effects=effects), seen)
+    done = rwn.simulate(Model(kind="dc", parameters=MOTOR, effects=effects), seen)
     assert done.status == "ok"
     return np.column_stack([done.signals[s] for s in ("current", "speed", "position")])
 
@@ -37,6 +37,7 @@ def _expect_the_same(found: Array, judged: Array, limit: float) -> None:
 def test_a_gap_closes_bounces_and_opens_as_its_law_says(rate: float, damping: float) -> None:
     law = {"gap": 0.2, "load_inertia": LOAD, "contact_rate": rate, "contact_damping_ratio": damping}
     machine = judge.two_masses(MOTOR, LOAD, REDUCED * rate**2, 2.0 * damping * REDUCED * rate, 0.2)
+    # scipy does not know where they touch: by steps 100 times as short the simulation itself is exact to 1e-9
     _expect_the_same(_simulated({"backlash": law}), judge.run(MOTOR, machine, LEVELS, RATE), 5e-5)
 
 
@@ -83,7 +84,7 @@ def test_a_load_heavier_than_the_whole_has_no_motion(effect: str) -> None:
     assert rwn.simulate(model, seen).status == "diverged"
 
 
-def test_no_time_is_lost_where_a_load_rattles_more_often_than_is_followed() -> None:
+def test_a_load_that_rattles_far_faster_than_the_samples_keeps_its_mean_motion() -> None:
     law = {"gap": 2e-3, "load_inertia": LOAD, "contact_rate": 5000.0, "contact_damping_ratio": 0.01}
     model = Model(kind="dc", parameters=MOTOR, effects={"backlash": law})
     ends = []

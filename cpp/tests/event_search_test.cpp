@@ -41,7 +41,7 @@ SmallMatrix<S, 3> system() {
 }
 
 TEST(Flow, IsTheExponentialOfItsSystem) {
-  const double h = 0.05;
+  const double h = 0.05, norm = norm_of<Real, 3>(system<Real>());
   SmallMatrix<Real, 3> z = system<Real>();
   for (Real& entry : z) entry *= h;
   const auto phi = phi_functions<Real, 3>(z);
@@ -59,11 +59,11 @@ TEST(Flow, IsTheExponentialOfItsSystem) {
   add(way_expected, phi.p1, start, h);
   add(way_expected, phi.p2, force.constant, h * h);
   add(way_expected, phi.p3, force.linear, h * h);
-  flow<Real, 3>(system<Real>(), h, force, x, way);
+  flow<Real, 3>(system<Real>(), norm, h, force, x, way);
   for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(x[j].v, expected[j].v, 1e-11);
 
   SmallVector<Real, 3> y = start, linear_way{};  // the integral of a quadratic force would take one function more
-  flow<Real, 3>(system<Real>(), h, {force.constant, force.linear}, y, linear_way);
+  flow<Real, 3>(system<Real>(), norm, h, {force.constant, force.linear}, y, linear_way);
   for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(linear_way[j].v, way_expected[j].v, 1e-12);
 }
 
@@ -73,7 +73,7 @@ TEST(Flow, CarriesSlopes) {
     SmallMatrix<Sloped, 3> a = system<Sloped>();
     a[1] = stiffness;
     SmallVector<Sloped, 3> x{1.0, -2.0, 0.5}, way{};
-    flow<Sloped, 3>(a, h, {{3.0, 4.0, -1.0}}, x, way);
+    flow<Sloped, 3>(a, norm_of<Sloped, 3>(a), h, {{3.0, 4.0, -1.0}}, x, way);
     return x[0];
   };
   const double difference = (after(300.0 + step).v - after(300.0 - step).v) / (2.0 * step);

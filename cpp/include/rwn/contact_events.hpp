@@ -23,7 +23,7 @@ class ContactEvents {
   /// True where `next`, a step after `s`, has the contact of `s`.
   bool continues(const State& s, const Moving& next) const {
     if (!second().play()) return true;
-    return s.contact == 0.0 ? touching(next) == 0.0 : value_of(second().pressing(next, s.contact)) >= 0.0;
+    return s.contact == 0.0 ? touching(next) == 0.0 : !(value_of(second().pressing(next, s.contact)) < 0.0);
   }
 
   /// When the contact of `s` begins or ends, before `beyond`, which is h later.
@@ -38,7 +38,7 @@ class ContactEvents {
     const State there = search_.at(s, instant);
     const auto deep = [&](const State& x) { return value_of(depth(x, s, side)); };
     const S duration = search_.shifted(instant, depth(there, s, side), search_.slope(there, instant, deep));
-    search_.go(s, duration);
+    s = search_.at(s, duration);
     s.contact = s.contact == 0.0 ? side : 0.0;
     return duration;
   }

@@ -10,8 +10,8 @@ namespace rwn {
 /// What moves within a step.
 template <class S, Kind kind, int masses>
 struct MovingState {
-  static constexpr std::size_t w = kind == Kind::dc ? 1 : 0;         // place of the motor's speed in x
-  static constexpr std::size_t twist = w + 1, load_speed = w + 2;    // places of what a second mass adds
+  static constexpr std::size_t w = kind == Kind::dc ? 1 : 0;       // place of the motor's speed in x
+  static constexpr std::size_t twist = w + 1, load_speed = w + 2;  // places of what a second mass adds
   static constexpr int n = static_cast<int>(w) + (masses == 2 ? 3 : 1);
   SmallVector<S, n> x{};  // current (dc only), speed; twist [1/rate of the joint], speed of the load
   S position{};

@@ -68,10 +68,10 @@ class EventSearch {
     return (g(stepper_.nudged(there, nudge)) - g(there)) / nudge;
   }
 
-  /// The state at an instant.
-  State at(const State& s, double instant) {
+  /// The state at an instant, with the derivatives of both.
+  State at(const State& s, const S& instant) {
     const Use before = stepper_.use(Use::rests);
-    const State there = stepper_.step(s, S(instant));
+    const State there = stepper_.step(s, instant);
     stepper_.use(before);
     return there;
   }
@@ -81,13 +81,6 @@ class EventSearch {
     S tau(instant);
     if (std::abs(slope) > 1e-300) tau -= (g - value_of(g)) / slope;
     return tau;
-  }
-
-  /// Puts `s` there.
-  void go(State& s, const S& instant) {
-    const Use before = stepper_.use(Use::rests);
-    s = stepper_.step(s, instant);
-    stepper_.use(before);
   }
 
  private:

@@ -54,9 +54,9 @@ class Events {
     const double instant = friction_.instant(s, h, beyond);
     if (instant > search_.at_once(h) || s.direction == 0.0) return friction_.pass(s, instant, beyond);
     s.direction = 0.0;  // could not start: the friction holds after all
-    const State held = search_.at(s, value_of(h));
+    const State held = search_.at(s, h);
     if (!contact_.continues(s, held)) return pass(s, h, held);
-    search_.go(s, h);
+    s = held;
     s.x[w] = S(0.0);
     return h;
   }

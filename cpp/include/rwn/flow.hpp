@@ -27,11 +27,13 @@ double norm_of(const SmallMatrix<S, n>& a) {
 /// |A| h from which on the products of matrices are fewer.
 inline constexpr double longest_flow = 16.0;
 
-/// Takes x over h of x' = A x + f(t), and adds the integral of x to `way`; |A| h is at most `longest_flow`.
+/// Takes x over h of x' = A x + f(t), and adds the integral of x to `way`; `norm` is |A|, and norm h at most
+/// `longest_flow`.
 template <class S, int n>
-void flow(const SmallMatrix<S, n>& a, double h, const Flow<S, n>& f, SmallVector<S, n>& x, SmallVector<S, n>& way) {
+void flow(const SmallMatrix<S, n>& a, double norm, double h, const Flow<S, n>& f, SmallVector<S, n>& x,
+          SmallVector<S, n>& way) {
   constexpr int terms = 17;  // 1 / 18! is far below rounding
-  const int parts = 1 + static_cast<int>(norm_of<S, n>(a) * h);
+  const int parts = 1 + static_cast<int>(norm * h);
   const double length = h / parts;
   for (int part = 0; part < parts; ++part) {
     const double at = static_cast<double>(part) / parts;  // where the part begins, of h

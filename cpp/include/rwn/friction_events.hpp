@@ -22,7 +22,7 @@ class FrictionEvents {
 
   /// The same where `s` slides, or nothing brakes it.
   bool slides_on(const State& s, const typename State::Moving& next) const {
-    return s.direction * value_of(next.x[w]) >= 0.0;
+    return !(s.direction * value_of(next.x[w]) < 0.0);  // what is not finite goes on, to be found by the sample loop
   }
 
   /// When the sliding or sticking of `s` ends, before `beyond`, which is h later.
@@ -44,7 +44,7 @@ class FrictionEvents {
   S stop(State& s, double instant) {
     const State there = search_.at(s, instant);
     const S duration = search_.shifted(instant, there.x[w], equations_.acceleration(there));
-    search_.go(s, duration);
+    s = search_.at(s, duration);
     s.x[w] = S(0.0);
     s.direction = 0.0;
     s.direction = equations_.breaking(s);
@@ -55,7 +55,7 @@ class FrictionEvents {
     const State there = search_.at(s, instant);
     const auto pulling = [&](const State& x) { return value_of(excess(x, direction)); };
     const S duration = search_.shifted(instant, excess(there, direction), search_.slope(there, instant, pulling));
-    search_.go(s, duration);
+    s = search_.at(s, duration);
     s.x[w] = S(0.0);
     s.direction = direction;
     return duration;

@@ -57,7 +57,7 @@ class Operators {
   template <class T>
   struct Passage {
     SmallMatrix<T, n> a;
-    double h;
+    double norm, h;
 
     Vector half(const Vector& x, const Vector& f) const { return over(0.5 * h, x, {as<T>(f)}); }
 
@@ -73,7 +73,7 @@ class Operators {
 
     Vector over(double length, const Vector& x, const Flow<T, n>& force) const {
       SmallVector<T, n> y = as<T>(x), way{};
-      flow<T, n>(a, length, force, y, way);
+      flow<T, n>(a, norm, length, force, y, way);
       return as<S>(y);
     }
   };
@@ -102,7 +102,8 @@ class Operators {
 
   template <class T>
   Passage<T> along(double h, const Regime& regime) {
-    return {as<T>(system(regime).a), h};
+    const System& s = system(regime);
+    return {as<T>(s.a), s.norm, h};
   }
 
   template <class T, class From, std::size_t size>

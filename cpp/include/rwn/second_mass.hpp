@@ -32,9 +32,7 @@ class SecondMass {
     preload_ = joint_.stiffness * joint_.half_gap;
   }
 
-  const Joint<S>& joint() const { return joint_; }
   bool play() const { return joint_.play; }
-  double rate() const { return rate_; }                      // unit of the twist in x, so that all of x is of one size
   const S& motor_inertia() const { return motor_inertia_; }  // without the load
   S motor_viscous(const Motor<S>& motor) const { return motor[viscous_friction] - drag_; }
 
@@ -57,9 +55,6 @@ class SecondMass {
 
   /// How far the gap is overlapped on `side` [rad].
   S overlap(const Moving& s, double side) const { return side / rate_ * s.x[twist] - joint_.half_gap; }
-
-  /// The twist at which contact begins, as x has it.
-  S touching(double side) const { return side * rate_ * joint_.half_gap; }
 
   /// Part of T that the linear equations leave out.
   S constant_torque(const Moving& s) const { return -s.contact * preload_; }
@@ -115,7 +110,7 @@ class SecondMass {
 
   Joint<S> joint_{};
   S motor_inertia_{}, drag_{}, inverse_load_{}, scaled_stiffness_{}, preload_{};
-  double rate_ = 1.0;
+  double rate_ = 1.0;  // unit of the twist in x, so that all of x is of one size
 };
 
 }  // namespace rwn

@@ -118,7 +118,8 @@ class Stepper {
   void go_along(const State& s, double h, const Regime& regime, const Vector& f, Vector& x, S& position) {
     using All = Operators<S, kind, masses>;
     SmallVector<T, n> y = All::template as<T>(s.x), way{};
-    flow<T, n>(operators_.template along<T>(h, regime).a, h, {All::template as<T>(f)}, y, way);
+    const auto& system = operators_.system(regime);
+    flow<T, n>(All::template as<T>(system.a), system.norm, h, {All::template as<T>(f)}, y, way);
     x = All::template as<S>(y);
     position = s.position + as_scalar<S>(way[w]);
   }
