@@ -7,27 +7,26 @@ struct Tag {};
 
 namespace {
 
-// Two masses are rare: half as many widths are compiled for them.
 #ifdef RWN_FEW_WIDTHS
-constexpr int of_one_mass = 16, of_two_masses = 16;  // where it has to be compiled soon, not to run fast
+constexpr int least_width = 16;  // where it has to be compiled soon, not to run fast
 #else
-constexpr int of_one_mass = 4, of_two_masses = 8;
+constexpr int least_width = 4;
 #endif
 
-/// N derivatives, or a few more.
 template <int N, Kind kind, int masses>
 int run(const SimulationSlice& slice) {
-  constexpr int step = masses == 2 ? of_two_masses : of_one_mass;
-  constexpr int width = (N + step - 1) / step * step;
-  return Simulation<Dual<width, Tag>, width, kind, masses>(slice).run();
+  return Simulation<Dual<N, Tag>, N, kind, masses>(slice).run();
 }
 
 template <int N>
 int run(Kind kind, const SimulationSlice& slice) {
-  if constexpr (N % RWN_VECTOR_WIDTH == 0) {
-    if (kind == Kind::lti) return run<N, Kind::lti, 1>(slice);
+  if constexpr (N == 0 || N == width_of_two_masses) {
     if (slice.masses == 2) return kind == Kind::dc ? run<N, Kind::dc, 2>(slice) : run<N, Kind::axis, 2>(slice);
-    return kind == Kind::dc ? run<N, Kind::dc, 1>(slice) : run<N, Kind::axis, 1>(slice);
+  }
+  if constexpr (N % RWN_VECTOR_WIDTH == 0) {
+    constexpr int width = N == 0 || N > least_width ? N : least_width;
+    if (kind == Kind::lti) return run<width, Kind::lti, 1>(slice);
+    return kind == Kind::dc ? run<width, Kind::dc, 1>(slice) : run<width, Kind::axis, 1>(slice);
   }
   return 0;  // never called: narrower vectors hold so many without a rest
 }

@@ -91,7 +91,11 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
 }
 
 /// Least width of the kernels that holds what is left; wide ones cost less per column.
-int width_for(int columns) { return columns <= 0 ? 0 : columns <= 4 ? 4 : columns <= 8 ? 8 : columns <= 12 ? 12 : 16; }
+int width_for(int columns, int masses) {
+  if (columns <= 0) return 0;
+  if (masses == 2) return width_of_two_masses;
+  return columns <= 4 ? 4 : columns <= 8 ? 8 : columns <= 12 ? 12 : 16;
+}
 
 double* pointer(std::span<double> s) { return s.empty() ? nullptr : s.data(); }
 
@@ -176,7 +180,7 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         &formula_failed};
   int finite = slice.samples;
   do {
-    const int width = width_for(columns - slice.column);
+    const int width = width_for(columns - slice.column, slice.masses);
     finite = std::min(finite, simulate_slice(task.kind, width, slice));
     slice.column += std::max(width, 1);
   } while (slice.column < columns && finite == slice.samples);

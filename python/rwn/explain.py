@@ -43,6 +43,16 @@ class Settled(NamedTuple):
     fits: list[Fitted]
 
 
+class Layer(NamedTuple):
+    """Explanations with one effect more than the last ones."""
+
+    fits: list[Fitted]
+    tried: frozenset[tuple[tuple[str, ...], str]]  # what was added to what
+
+
+NOTHING = Layer([], frozenset())
+
+
 @dataclass(frozen=True, kw_only=True)
 class Explanation:
     """What the search came to: every hypothesis with its probability, best first."""
@@ -55,9 +65,10 @@ class Explanation:
     weighted: OutputError  # the problem of the final fits: that of `setup`, or the same under coloured noise
     counted: Statistics  # what is left there: `left`, or what is new in each error
     alone: Settled  # every effect by itself
+    pairs: Layer  # under the noise of `alone`
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     strained: tuple[Fitted, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
-    complete: bool = True  # more effects at once would not have been tried either, had they been allowed
+    complete: bool = True  # no other effects and no more at once would have been tried, had they been allowed
 
     @property
     def nothing_missing(self) -> Hypothesis:
@@ -76,7 +87,7 @@ def explain(
 ) -> Explanation:  # fmt: skip
     """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most.
 
-    `after`: an explanation of the same recordings by one effect, to go on from.
+    `after`: an explanation of the same recordings by fewer effects, or by some of them, to go on from.
     """
     wanted = [n for n in names or setup.nominal.table if _applies(n, setup)]
     alone = after.alone if after else _each_alone(setup, wanted, progress)
@@ -86,11 +97,13 @@ def explain(
     left = evidence.statistics(search.problem, best)
     layer = _varied(fits)
     complete, paired = left.at_the_floor or not layer, False
+    pairs = after.pairs if after else NOTHING
     for size in range(2, at_once + 1):
         if complete:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
-        more = distinct(_beside(search, layer, wanted, fits))
+        found = _beside(search, layer, wanted, fits, pairs if size == 2 else NOTHING)
+        more, pairs = found.fits, found if size == 2 else pairs
         gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
         complete = gained < WORTH * left.variance
         if complete:
@@ -120,8 +133,9 @@ def explain(
         weighted=weighted,
         counted=counted,
         alone=alone,
+        pairs=pairs,
         speed_steps=steps_shown(search.problem, setup.problem, best),
-        complete=complete or at_once >= MOST_EFFECTS,
+        complete=names is None and (complete or at_once >= MOST_EFFECTS),
         strained=tuple(f for f in strained if f.cost < best.cost),
     )
 
@@ -190,13 +204,18 @@ def _by_windows(search: Search, nominal: Fitted, wanted: Sequence[str]) -> list[
     return search.refit_all(fits)
 
 
-def _beside(search: Search, layer: Sequence[Fitted], wanted: Sequence[str], fits: Sequence[Fitted]) -> list[Fitted]:
+def _beside(
+    search: Search, layer: Sequence[Fitted], wanted: Sequence[str], fits: Sequence[Fitted], known: Layer
+) -> Layer:
     """What helps beside each explanation of `layer`: any effect beside the best, promising ones beside the others."""
-    first, *others = layer
-    found = search.explain(first, wanted, keep=1)
-    met = {name for f in (*fits, *found) for name in f.added}
-    promising = [name for name in wanted if name in met]
-    return [*found, *(f for base in others for f in search.explain(base, promising, keep=1))]
+    found, tried, names = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted)
+    for base in layer:
+        new = [name for name in names if (base.added, name) not in tried]
+        found += search.explain(base, new, keep=1, best=min((f.cost for f in found), default=np.inf))
+        tried |= {(base.added, name) for name in new}
+        met = {name for f in (*fits, *found) for name in f.added}
+        names = [name for name in wanted if name in met]
+    return Layer(distinct(found), tried)
 
 
 def _varied(fits: Sequence[Fitted]) -> list[Fitted]:

@@ -21,7 +21,7 @@ from rwn.model import Model
 from rwn.output_error import OutputError
 from rwn.prepare import Setup, prepare
 from rwn.recording import Recording
-from rwn.search import Search
+from rwn.search import IN_PASSING, TO_THE_END, Search
 from rwn.threads import side_by_side
 from rwn.wrong_scale import gears
 
@@ -93,16 +93,19 @@ def sharpened(
     """The mistake with the delay at which what was found beneath it fits best, and what that leaves."""
     noise, base = doubt.mistake.levels(doubt.noise), beneath.closest
 
-    def moved(mistake: Mistake) -> float:
+    def moved(mistake: Mistake, iterations: int) -> float:
         setup = prepare(without(recordings, mistake), model)
         problem = replace(setup.problem, noise=noise)
-        return _left(setup, Search.of(setup, problem=problem).refit(base, problem), noise)
+        return _left(setup, Search.of(setup, problem=problem).refit(base, problem, iterations=iterations), noise)
 
+    left = _left(beneath.setup, base, noise)
     near = [doubt.mistake.delay + off for off in NEAR] if doubt.mistake.delay else []
     tried = [_shift(doubt.mistake.signals, delay, doubt.mistake.step) for delay in near if delay]
-    left = [_left(beneath.setup, base, noise), *side_by_side(moved, tried)]
-    best = int(np.argmin(left))
-    return [doubt.mistake, *tried][best], left[best]
+    soon = side_by_side(lambda mistake: moved(mistake, IN_PASSING), tried)
+    if min(soon, default=np.inf) >= left:
+        return doubt.mistake, left
+    best = tried[int(np.argmin(soon))]
+    return best, moved(best, TO_THE_END)
 
 
 def _refitted(setup: Setup, noise: Mapping[str, float]) -> Fitted:

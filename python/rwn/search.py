@@ -47,6 +47,7 @@ KEPT = 12  # explanations that are worth fitting again
 HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
 SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
 IN_PASSING = 6  # iterations for that
+TO_THE_END = 60  # iterations, most of them never needed
 STEEP = 0.5  # share of its first cost that a fit may have left after these, to go on whatever the others have
 GLANCE, LOOK = 2500, 9000  # samples on which starts of one effect are told apart, beside others and alone
 SIGHTED = 4  # starts that are worth an iteration where many are looked at
@@ -76,8 +77,13 @@ class Search:
         """The nominal structure as given, not fitted."""
         return candidate(self.nominal, (), self.scales)
 
-    def explain(self, base: Fitted, names: Iterable[str], *, keep: int = 2) -> list[Fitted]:
-        """`base` with each of `names` added, fitted from several starts; best first."""
+    def explain(
+        self, base: Fitted, names: Iterable[str], *, keep: int = 2, best: float = np.inf
+    ) -> list[Fitted]:
+        """`base` with each of `names` added, fitted from several starts; best first.
+
+        `best`: least cost of other explanations by as many effects; what comes nowhere near it is fitted in passing.
+        """
         fitting = [n for n in names if n not in base.candidate.effects and _has_room(base.candidate, n)]
         starts = side_by_side(lambda name: self._starts(base, name, orders=keep + 1), fitting)
         racers = [racer for of_one in starts for racer in of_one]
@@ -85,7 +91,8 @@ class Search:
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience, problem=look)
         start = base.cost if look is self.problem else self.refit(base, look).cost
         rows = _promising(_best_of_each(rows, keep), start)
-        finals = self._to_the_end([racer for racer, _ in self._over_rough(rows, look, start)])
+        near = self._over_rough(rows, look, start, best * start / base.cost)
+        finals = self._to_the_end([racer for racer, _ in near], best)
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
             for racer, m in sorted(finals, key=lambda row: row[1].cost)
@@ -150,25 +157,28 @@ class Search:
             for racer, m in zip(racers, ends, strict=True)
         ]
 
-    def _to_the_end(self, racers: Sequence[Racer]) -> list[Row]:
+    def _to_the_end(self, racers: Sequence[Racer], best: float) -> list[Row]:
         """Every racer fitted until it converges, those that are hopeless and gain little by a few iterations."""
         rows = self._race(racers, iterations=IN_PASSING)
-        bar = HOPELESS * min((m.cost for _, m in rows), default=np.inf)
+        bar = _bar(rows, best)
         under_way = [
             k
             for k, (_, m) in enumerate(rows)
             if m.status is FitStatus.ITERATION_LIMIT and m.cost < max(bar, STEEP * m.first)
         ]
-        ends = self._race([rows[k][0] for k in under_way], iterations=60)
+        ends = self._race([rows[k][0] for k in under_way], iterations=TO_THE_END)
         further = dict(zip(under_way, ends, strict=True))
         return [further.get(k, row) for k, row in enumerate(rows)]
 
-    def _over_rough(self, rows: Sequence[Row], problem: OutputError, base_cost: float) -> list[Row]:
-        """Starts whose error is rough and that have gained something, brought near before they are fitted."""
+    def _over_rough(
+        self, rows: Sequence[Row], problem: OutputError, base_cost: float, best: float
+    ) -> list[Row]:
+        """Starts whose error is rough, that have gained something and are not hopeless, brought near their minimum."""
+        bar = min(SLIGHT * base_cost, max(_bar(rows, best), STEEP * base_cost))
 
         def near(row: Row) -> Minimum:
             racer, m = row
-            return settled(problem, racer.candidate, m, turns=1) if m.cost < SLIGHT * base_cost else m
+            return settled(problem, racer.candidate, m, turns=1) if m.cost < bar else m
 
         ends = side_by_side(near, rows)
         return [
@@ -176,7 +186,7 @@ class Search:
             for (racer, _), m in zip(rows, ends, strict=True)
         ]
 
-    def refit(self, this: Fitted, problem: OutputError, *, iterations: int = 60) -> Fitted:
+    def refit(self, this: Fitted, problem: OutputError, *, iterations: int = TO_THE_END) -> Fitted:
         """The same explanation fitted to another problem (other weights, other recordings)."""
         start = this.candidate.starting_at(this.minimum.values)
         return Fitted(added=this.added, candidate=start, minimum=fit(problem, start, max_iterations=iterations))
@@ -187,7 +197,7 @@ class Search:
 
         def again(this: Fitted) -> Fitted:
             hopeless = bool(this.added) and this.cost > bar
-            return self.refit(this, self.problem, iterations=IN_PASSING if hopeless else 60)
+            return self.refit(this, self.problem, iterations=IN_PASSING if hopeless else TO_THE_END)
 
         return side_by_side(again, these)
 
@@ -247,6 +257,11 @@ class Search:
     def _windows(self, base: Fitted) -> list[tuple[float, float]]:
         residuals = self.problem.residuals(base.vector, base.candidate.active)
         return hints.windows(self.problem, base.vector, residuals)
+
+
+def _bar(rows: Sequence[Row], best: float) -> float:
+    """The cost from which a row is hopeless."""
+    return HOPELESS * min([best, *(m.cost for _, m in rows)])
 
 
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:

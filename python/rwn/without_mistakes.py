@@ -71,7 +71,7 @@ def _settled(
 ) -> tuple[Mistake | None, Explanation | None]:
     """The suspected mistake if it explains more, alone or beside one effect, than as many effects do by themselves.
 
-    Beside it what single effects explain of the recordings without it, or as they are; None where that is not known.
+    Beside it what was found on the way of the recordings without it, or as they are; None where that is not known.
     """
     mistake, left, beneath = doubt.mistake, doubt.after, None
     alone = explanation(right, 1)
@@ -86,7 +86,7 @@ def _settled(
     if beneath and left > CLEAR * doubt.before:
         pairs = explanation(right, 2, names=rivals(alone, beneath), after=alone)
         if not believed(doubt, left=left, physics=unexplained(doubt, pairs)):
-            return None, alone
+            return None, pairs
     return mistake, beneath if mistake is doubt.mistake else None
 
 

@@ -8,6 +8,9 @@
 
 namespace rwn {
 
+/// Derivatives by which a motion of two masses is run at a time: a run with 12 takes longer than two with 8.
+inline constexpr int width_of_two_masses = 8;
+
 /// As SimulationTask, in plain pointers (files of cpp/kernels use no std containers); derivatives by columns
 /// [column, column + N) of `by`.
 struct SimulationSlice {
