@@ -166,6 +166,22 @@ def test_an_explanation_goes_on_from_single_effects(setup: Setup) -> None:
     assert {n for h in fewer.hypotheses for n in h.fitted.added} <= set(names[:1])
 
 
+def test_pairs_that_were_tried_are_not_tried_again(setup: Setup, monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ["quadratic-drag", "input-delay"]  # neither is what is missing
+    pairs = explain(setup, progress=_silent, names=names, at_once=2)
+    assert pairs.pairs.fits
+    tried: list[str] = []
+
+    def none(self: Search, base: Fitted, wanted: list[str], **_: float) -> list[Fitted]:  # noqa: ARG001
+        tried.extend(wanted)
+        return []
+
+    monkeypatch.setattr(Search, "explain", none)
+    again = explain(setup, progress=_silent, names=names, at_once=2, after=pairs)
+    assert tried == []
+    assert [h.score for h in again.hypotheses] == [h.score for h in pairs.hypotheses]
+
+
 def test_priors_give_way_where_nothing_but_noise_is_left() -> None:
     """A data sheet that is wrong by nine standard deviations, and a fit that weak priors leave at the noise."""
     motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,

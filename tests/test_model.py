@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -110,6 +111,22 @@ def test_a_model_cannot_be_changed_from_outside() -> None:
     assert model.parameters["inertia"] == DC["inertia"]
     with pytest.raises(TypeError):
         model.parameters["inertia"] = 1.0  # type: ignore[index]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"kind": "DC"}, "unknown kind 'DC'.*did you mean 'dc'"),
+        ({"parameters": {"resistence": 1.0}}, "unknown parameter 'resistence'.*did you mean 'resistance'"),
+        ({"uncertainty": {"inertias": 0.1}}, "uncertainty: unknown parameter 'inertias'"),
+        ({"effects": {"quadratic_drag": {}}}, "unknown effect.*did you mean 'quadratic-drag'"),
+        ({"effects": {"quadratic-drag": {"coefficient": 1e-6}}}, "effects.quadratic-drag: unknown parameter"),
+    ],
+)
+def test_a_name_that_nobody_knows_is_refused(wrong: dict[str, Any], said: str) -> None:
+    given: dict[str, Any] = {"kind": "dc", "parameters": {"resistance": 1.0}}
+    with pytest.raises(InputError, match=said):
+        Model(**(given | wrong))
 
 
 def test_where_a_model_came_from_is_no_part_of_it() -> None:

@@ -61,12 +61,17 @@ def test_starts_of_a_drives_end_compete_per_first_guess_of_the_motor(lagging: Se
 
 
 @pytest.mark.parametrize(
-    ("first", "cost", "goes_on"),
-    [(100.0, 30.0, True), (100.0, 90.0, False), (1000.0, 400.0, True)],
-    ids=["near the best", "hopeless", "hopeless as yet, and falling"],
+    ("first", "cost", "known", "goes_on"),
+    [
+        (100.0, 30.0, np.inf, True),
+        (100.0, 90.0, np.inf, False),
+        (1000.0, 400.0, np.inf, True),
+        (50.0, 30.0, 2.0, False),
+    ],
+    ids=["near the best", "hopeless", "hopeless as yet, and falling", "near the best of these, a better is known"],
 )
 def test_a_race_goes_on_with_what_may_still_win(
-    lagging: Setup, monkeypatch: pytest.MonkeyPatch, first: float, cost: float, goes_on: bool
+    lagging: Setup, monkeypatch: pytest.MonkeyPatch, first: float, cost: float, known: float, goes_on: bool
 ) -> None:
     search = Search.of(lagging)
     fitted = search.fit_nominal()
@@ -81,5 +86,5 @@ def test_a_race_goes_on_with_what_may_still_win(
         return [(best, replace(fitted.minimum, cost=10.0, first=20.0)), (other, replace(limit, cost=cost, first=first))]
 
     monkeypatch.setattr(Search, "_race", race)
-    search._to_the_end([best, other])
+    search._to_the_end([best, other], known)
     assert legs == [["best", "other"], ["other"] if goes_on else []]

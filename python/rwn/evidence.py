@@ -14,6 +14,8 @@ from rwn.output_error import OutputError
 Array = NDArray[np.float64]
 
 AT_THE_FLOOR = 1.4  # coloured energy of a residual that may still be measurement noise
+RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2,
+LOUD = 2.0  # where the residual has at least so much variance in units of the noise
 MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it is worth
 
 
@@ -25,11 +27,13 @@ class Statistics:
     variance: float  # mean squared weighted error; 1: the noise alone
     correlation_time: float  # integrated autocorrelation time, in samples; 1: white
     coloured: float  # energy of block means against that of white noise; 1: white
+    ringing: float = 1.0  # energy of the loudest band of frequencies against that of white noise; 1: white
 
     @property
     def at_the_floor(self) -> bool:
-        """Whether the residual may be measurement noise and nothing else."""
-        return self.coloured < AT_THE_FLOOR or self.variance < 1.05
+        """Whether the residual may be measurement noise alone: it is not slow, nor loud and of one pitch."""
+        rings = self.ringing >= RINGING and self.variance >= LOUD
+        return (self.coloured < AT_THE_FLOOR and not rings) or self.variance < 1.05
 
     @property
     def effective(self) -> float:
@@ -62,6 +66,20 @@ def coloured_share(x: Array, blocks: Sequence[int] = (8, 32, 128)) -> float:
     return max(found)
 
 
+def ringing_share(x: Array, length: int = 32) -> float:
+    """Largest density of the spectrum (Welch, segments of `length` samples) against its mean: 1 for white noise.
+
+    A shaft that swings leaves means of zero, which `coloured_share` takes for noise.
+    """
+    from scipy.signal import welch  # late: the command line starts without it
+
+    x = x[np.isfinite(x)]
+    if x.size < 8 * length or not np.any(x):
+        return 1.0
+    density = welch(x, nperseg=length, detrend=False)[1][1:-1]
+    return float(np.max(density) / np.mean(density))
+
+
 def statistics(problem: OutputError, fitted: Fitted, *, drift: bool = True) -> Statistics:
     """Residual statistics of a fit, over all recordings and signals.
 
@@ -83,6 +101,7 @@ def statistics_of(joined: Mapping[str, Array]) -> Statistics:
         variance=whole / max(count, 1),
         correlation_time=sum(energies[s] * correlation_time(r) for s, r in joined.items()) / whole,
         coloured=max(coloured_share(r) for r in joined.values()),
+        ringing=max(ringing_share(r) for r in joined.values()),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -12,7 +12,7 @@ from typing import Any, Protocol, cast
 from rwn import drives, effects
 from rwn.drives import Drive, Nominal
 from rwn.effects import Effect
-from rwn.errors import InputError
+from rwn.errors import InputError, unknown
 from rwn.layout import Layout
 from rwn.own_effects import OwnEffect, check_constants, check_own_effects, with_own
 
@@ -45,6 +45,8 @@ class Model:
 
     Kind `lti`: parameters b0, b1, .. and a0, .. are the coefficients of s^0, s^1, .. of a transfer function
     of `order`, monic in its denominator; where they are not given they are estimated.
+
+    Raises InputError where a kind, a parameter or an effect is named that there is not.
     """
 
     kind: str
@@ -59,6 +61,8 @@ class Model:
     source: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
+        if self.kind not in drives.KINDS:
+            raise unknown("kind", self.kind, drives.KINDS, where=self.source or "model")
         for name in ("parameters", "uncertainty"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
         for name in ("effects", "load"):
@@ -70,6 +74,20 @@ class Model:
             check_constants(self.own_effects, self.effects, where=where)
             own = tuple(e if e.drive == self.drive else replace(e, drive=self.drive) for e in self.own_effects)
             object.__setattr__(self, "own_effects", own)
+        self._check_names()
+
+    def _check_names(self) -> None:
+        """A name that nobody knows would be left out of the simulation without a word."""
+        where = self.source or "model"
+        _require(self.parameters, "parameter", [p.name for p in self.nominal], where=where)
+        _require(self.uncertainty, "parameter", [p.name for p in self.nominal], where=f"{where}, uncertainty")
+        if not self.effects:
+            return
+        table = self.effect_table
+        _require(self.effects, "effect", table, where=f"{where}, effects")
+        for name, values in self.effects.items():
+            known = [p.name for p in table[name].parameters]
+            _require(values, "parameter", known, where=f"{where}, effects.{name}")
 
     @cached_property
     def effect_table(self) -> Mapping[str, Effect]:
@@ -90,6 +108,13 @@ class Model:
         """SI unit of a nominal parameter."""
         entry = next(p for p in self.nominal if p.name == parameter)
         return (entry.linear_unit if self.linear else entry.unit) or entry.unit
+
+
+def _require(names: Iterable[str], kind: str, known: Iterable[str], *, where: str) -> None:
+    known = list(known)
+    for name in names:
+        if name not in known:
+            raise unknown(kind, name, known, where=where)
 
 
 def lti_parameters(order: int) -> tuple[Nominal, ...]:
