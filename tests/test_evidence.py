@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 import rwn
-from rwn.evidence import RINGING, statistics_of
+from rwn.evidence import AT_THE_FLOOR, RINGING, statistics_of
 from rwn.explain import explain
 from rwn.model import Model
 from rwn.prepare import prepare
@@ -49,7 +49,7 @@ def test_differences_of_counts_are_noise() -> None:
 @pytest.mark.parametrize("periods", [4.0, 5.3, 7.3])
 def test_what_swings_is_more_than_noise(periods: float) -> None:
     left = statistics_of({"speed": 5.0 * _swing(periods) + _noise()})
-    assert left.coloured < 1.4  # means over 8 samples and more do not see it
+    assert left.coloured < AT_THE_FLOOR  # means over 8 samples and more do not see it
     assert not left.at_the_floor
     quiet = statistics_of({"speed": 0.3 * _swing(periods) + _noise()})
     assert quiet.at_the_floor  # where it is not loud it may be noise

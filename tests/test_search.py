@@ -88,3 +88,13 @@ def test_a_race_goes_on_with_what_may_still_win(
     monkeypatch.setattr(Search, "_race", race)
     search._to_the_end([best, other], known)
     assert legs == [["best", "other"], ["other"] if goes_on else []]
+
+
+def test_a_model_that_is_exact_is_adequate() -> None:
+    """What rwn simulates itself leaves nothing at all: an error of exactly zero."""
+    voltage = np.repeat(np.random.default_rng(1).uniform(-10.0, 10.0, 10), 100)
+    run = rwn.Recording(name="own", time=1e-3 * np.arange(1000.0), signals={"voltage": voltage})
+    model = Model(kind="dc", parameters=TRUE)
+    seen = rwn.simulate(model, run).signals
+    signals = {"voltage": voltage, "current": seen["current"], "speed": seen["speed"]}
+    assert rwn.diagnose([replace(run, signals=signals)], model).verdict == "adequate"

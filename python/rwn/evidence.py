@@ -99,7 +99,7 @@ def statistics_of(joined: Mapping[str, Array]) -> Statistics:
     return Statistics(
         count=count,
         variance=whole / max(count, 1),
-        correlation_time=sum(energies[s] * correlation_time(r) for s, r in joined.items()) / whole,
+        correlation_time=max(1.0, sum(energies[s] * correlation_time(r) for s, r in joined.items()) / whole),
         coloured=max(coloured_share(r) for r in joined.values()),
         ringing=max(ringing_share(r) for r in joined.values()),
     )

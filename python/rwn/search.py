@@ -91,7 +91,8 @@ class Search:
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience, problem=look)
         start = base.cost if look is self.problem else self.refit(base, look).cost
         rows = _promising(_best_of_each(rows, keep), start)
-        near = self._over_rough(rows, look, start, best * start / base.cost)
+        best_here = best * start / base.cost if np.isfinite(best) else best
+        near = self._over_rough(rows, look, start, best_here)
         finals = self._to_the_end([racer for racer, _ in near], best)
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
