@@ -13,7 +13,8 @@ from rwn.explain import explain
 from rwn.least_squares import FitStatus
 from rwn.model import Model
 from rwn.prepare import Setup, prepare
-from rwn.search import Racer, Row, Search
+from rwn.racer import Racer, Row
+from rwn.search import Search
 
 TRUE = {
     "resistance": 0.84, "inductance": 1e-4, "torque_constant": 0.116, "back_emf_constant": 0.116, "inertia": 3.84e-4,

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rwn import evidence
+from rwn.applicable import applicable
 from rwn.coloured_noise import final_fits
 from rwn.evidence import Hypothesis, Statistics
 from rwn.fitted import Fitted
@@ -29,7 +30,6 @@ FAR_OFF = 100.0  # squared error in units of the noise, from which short windows
 LOST = 0.2  # where the error of some signal is more than this share of its own spread
 PATIENCE = 4  # in short windows, where the misfit is large and the first steps of a fit are short
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
-HALF_A_TURN = 0.5  # travel in revolutions, from which a torque of the angle is more than a load and a spring
 WHOLE = 0.99  # share of the time from which a window is none
 OFFSET = "constant-load"
 BRIEF = 10  # samples that a load acts for at least
@@ -89,7 +89,7 @@ def explain(
 
     `after`: an explanation of the same recordings by fewer effects, or by some of them, to go on from.
     """
-    wanted = [n for n in names or setup.nominal.table if _applies(n, setup)]
+    wanted = [n for n in names or setup.nominal.table if applicable(n, setup)]
     alone = after.alone if after else _each_alone(setup, wanted, progress)
     search, nominal, fits = alone.search, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
     before = evidence.statistics(search.problem, nominal)
@@ -226,40 +226,6 @@ def _varied(fits: Sequence[Fitted]) -> list[Fitted]:
         if len(alike) < 2:
             kept.append(f)
     return kept[:3]
-
-
-def _applies(name: str, setup: Setup) -> bool:
-    """Whether an effect can be told at all from these signals and this model."""
-    effect = setup.nominal.table[name]
-    axis = setup.problem.kind == "axis"
-    if axis and effect.site in ("voltage", "flux"):
-        return False
-    if setup.problem.kind == "lti" and not effect.at_an_end:
-        return False
-    if name == "sensor-rectification" and not _may_be_rectified(setup):
-        return False
-    if any(p.lattice for p in effect.parameters):
-        return False  # read off the values, not fitted
-    if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
-        if any(p.replaces for p in effect.parameters) and setup.problem.angle_per_position == 1.0:
-            return True  # of a shaft that rubs, a part of a turn shows where it rubs more
-        return _revolutions(setup) > HALF_A_TURN
-    if name == "viscous-friction":
-        return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
-    signals = {s for t in setup.problem.targets for s in t.recorded}
-    return not (effect.site == "sensor" and "speed" not in signals)
-
-
-def _may_be_rectified(setup: Setup) -> bool:
-    """A sensor that does not see the direction never shows a negative speed."""
-    speeds = [t.speed for t in setup.problem.targets if t.speed.size]
-    return all(np.percentile(s, 2.0) > -0.05 * np.max(np.abs(s)) for s in speeds)
-
-
-def _revolutions(setup: Setup) -> float:
-    """The longest travel of a recording in revolutions (metres on a linear axis)."""
-    spans = [float(np.ptp(t.angle)) for t in setup.problem.targets if t.angle.size]
-    return max(spans, default=np.inf) * setup.problem.angle_per_position / (2.0 * np.pi)
 
 
 def _prior(setup: Setup) -> dict[str, float]:

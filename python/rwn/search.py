@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,33 +17,16 @@ from rwn.fitted import Fitted
 from rwn.least_squares import FitStatus, Minimum
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
-from rwn.rough import rough, settled
+from rwn.racer import HOPELESS, Kind, Racer, Row, best_of_each, hopeless_from, kind_of, misleads, promising
+from rwn.rough import settled
 from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
 Start = Mapping[str, float]
 
 
-class Racer(NamedTuple):
-    """A start of one effect; starts of different kinds (all but the candidate) do not compete before they are fitted.
-
-    Those of a drive's ends compete with the same first guess of the motor: a lag and a time constant of the motor that
-    have changed places fit nearly as well, and lie next to a motor that the missing lag has bent.
-    """
-
-    name: str
-    order: float  # periods per revolution; 0: not periodic
-    begin: int  # 0 from the motor as the base has it, 1 from any other
-    candidate: Candidate
-
-
-Row = tuple[Racer, Minimum]
-Kind = tuple[str, float, int]
-
-
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
-HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
 SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
 IN_PASSING = 6  # iterations for that
 TO_THE_END = 60  # iterations, most of them never needed
@@ -90,7 +72,7 @@ class Search:
         look = self.look(base)
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience, problem=look)
         start = base.cost if look is self.problem else self.refit(base, look).cost
-        rows = _promising(_best_of_each(rows, keep), start)
+        rows = promising(best_of_each(rows, keep), start)
         best_here = best * start / base.cost if np.isfinite(best) else best
         near = self._over_rough(rows, look, start, best_here)
         finals = self._to_the_end([racer for racer, _ in near], best)
@@ -105,27 +87,27 @@ class Search:
 
         A part of the recordings has to do; alone a longer one, since a soft bristle is lost on a short one.
         """
-        counts = Counter(map(_kind, racers))
-        crowded = [r for r in racers if counts[_kind(r)] > keep]
+        counts = Counter(map(kind_of, racers))
+        crowded = [r for r in racers if counts[kind_of(r)] > keep]
         if not crowded:
             return list(racers)
         crowded = self._sighted(crowded, self.part(base, GLANCE))
         part = self.part(base, GLANCE) if base.added or self.patience > 1 else self.look(base)
-        rows = _best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
-        return [*(r for r in racers if counts[_kind(r)] <= keep), *(racer for racer, _ in rows)]
+        rows = best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
+        return [*(r for r in racers if counts[kind_of(r)] <= keep), *(racer for racer, _ in rows)]
 
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
         """Where derivatives mislead from afar, the SIGHTED best of an effect's starts before anything is fitted.
 
         That is for periodic effects, each order by itself, and where a contact makes the error rough.
         """
-        astray = [r for r in racers if _misleads(r)]
+        astray = [r for r in racers if misleads(r)]
         ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray)
         groups: dict[Kind, list[tuple[float, int]]] = {}
         for k, (racer, cost) in enumerate(zip(astray, ends, strict=True)):
-            groups.setdefault(_kind(racer), []).append((cost, k))
+            groups.setdefault(kind_of(racer), []).append((cost, k))
         best = {k for group in groups.values() for _, k in sorted(group)[:SIGHTED]}
-        return [*(r for r in racers if not _misleads(r)), *(r for k, r in enumerate(astray) if k in best)]
+        return [*(r for r in racers if not misleads(r)), *(r for k, r in enumerate(astray) if k in best)]
 
     def look(self, base: Fitted) -> OutputError:
         """The part of the problem on which effects are told apart: all of it where it is short."""
@@ -161,7 +143,7 @@ class Search:
     def _to_the_end(self, racers: Sequence[Racer], best: float) -> list[Row]:
         """Every racer fitted until it converges, those that are hopeless and gain little by a few iterations."""
         rows = self._race(racers, iterations=IN_PASSING)
-        bar = _bar(rows, best)
+        bar = hopeless_from(rows, best)
         under_way = [
             k
             for k, (_, m) in enumerate(rows)
@@ -175,7 +157,7 @@ class Search:
         self, rows: Sequence[Row], problem: OutputError, base_cost: float, best: float
     ) -> list[Row]:
         """Starts whose error is rough, that have gained something and are not hopeless, brought near their minimum."""
-        bar = min(SLIGHT * base_cost, max(_bar(rows, best), STEEP * base_cost))
+        bar = min(SLIGHT * base_cost, max(hopeless_from(rows, best), STEEP * base_cost))
 
         def near(row: Row) -> Minimum:
             racer, m = row
@@ -260,45 +242,9 @@ class Search:
         return hints.windows(self.problem, base.vector, residuals)
 
 
-def _bar(rows: Sequence[Row], best: float) -> float:
-    """The cost from which a row is hopeless."""
-    return HOPELESS * min([best, *(m.cost for _, m in rows)])
-
-
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
     """The explanations that are worth fitting again under other conditions, best first."""
     return sorted(fits, key=lambda f: f.cost)[:KEPT]
-
-
-def _misleads(racer: Racer) -> bool:
-    """Whether the derivatives at a start may point away from the minimum."""
-    return bool(racer.order or rough(racer.candidate, racer.name))
-
-
-def _kind(racer: Racer) -> Kind:
-    return racer.name, racer.order, racer.begin
-
-
-def _best_of_each(rows: Sequence[Row], keep: int) -> list[Row]:
-    """The `keep` best starts of each kind, of a periodic effect the best of each order."""
-    groups: dict[Kind, list[Row]] = {}
-    for row in rows:
-        groups.setdefault(_kind(row[0]), []).append(row)
-    ranked = [sorted(group, key=lambda row: row[1].cost) for group in groups.values()]
-    return [row for group in ranked for row in group[: 1 if group[0][0].order else keep]]
-
-
-def _promising(rows: Sequence[Row], base_cost: float, least: int = 6, most: int = 8) -> list[Row]:
-    """The rows of effects that have gained at least half of what the best has; at least `least`, at most `most`."""
-    if not rows:
-        return []
-    costs: dict[str, float] = {}
-    for racer, m in rows:
-        costs[racer.name] = min(costs.get(racer.name, np.inf), m.cost)
-    ranked = sorted(costs, key=lambda name: costs[name])
-    bar = base_cost - 0.5 * max(base_cost - costs[ranked[0]], 0.0)
-    kept = {name for k, name in enumerate(ranked[:most]) if k < least or costs[name] < bar}
-    return [row for row in rows if row[0].name in kept]
 
 
 def _has_room(this: Candidate, name: str) -> bool:

@@ -1,0 +1,67 @@
+"""Starts that race: what tells them apart, and which of them go on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from rwn.candidate import Candidate
+from rwn.least_squares import Minimum
+from rwn.rough import rough
+
+HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
+
+
+class Racer(NamedTuple):
+    """A start of one effect; starts of different kinds (all but the candidate) do not compete before they are fitted.
+
+    Those of a drive's ends compete with the same first guess of the motor: a lag and a time constant of the motor that
+    have changed places fit nearly as well, and lie next to a motor that the missing lag has bent.
+    """
+
+    name: str
+    order: float  # periods per revolution; 0: not periodic
+    begin: int  # 0 from the motor as the base has it, 1 from any other
+    candidate: Candidate
+
+
+Row = tuple[Racer, Minimum]
+Kind = tuple[str, float, int]
+
+
+def misleads(racer: Racer) -> bool:
+    """Whether the derivatives at a start may point away from the minimum."""
+    return bool(racer.order or rough(racer.candidate, racer.name))
+
+
+def kind_of(racer: Racer) -> Kind:
+    return racer.name, racer.order, racer.begin
+
+
+def best_of_each(rows: Sequence[Row], keep: int) -> list[Row]:
+    """The `keep` best starts of each kind, of a periodic effect the best of each order."""
+    groups: dict[Kind, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(kind_of(row[0]), []).append(row)
+    ranked = [sorted(group, key=lambda row: row[1].cost) for group in groups.values()]
+    return [row for group in ranked for row in group[: 1 if group[0][0].order else keep]]
+
+
+def promising(rows: Sequence[Row], base_cost: float, least: int = 6, most: int = 8) -> list[Row]:
+    """The rows of effects that have gained at least half of what the best has; at least `least`, at most `most`."""
+    if not rows:
+        return []
+    costs: dict[str, float] = {}
+    for racer, m in rows:
+        costs[racer.name] = min(costs.get(racer.name, np.inf), m.cost)
+    ranked = sorted(costs, key=lambda name: costs[name])
+    bar = base_cost - 0.5 * max(base_cost - costs[ranked[0]], 0.0)
+    kept = {name for k, name in enumerate(ranked[:most]) if k < least or costs[name] < bar}
+    return [row for row in rows if row[0].name in kept]
+
+
+def hopeless_from(rows: Sequence[Row], best: float) -> float:
+    """The cost from which a row is hopeless."""
+    return HOPELESS * min([best, *(m.cost for _, m in rows)])
