@@ -91,14 +91,23 @@ def statistics(problem: OutputError, fitted: Fitted, *, drift: bool = True) -> S
     return statistics_of(joined)
 
 
+def variance(problem: OutputError, fitted: Fitted) -> float:
+    """Mean squared weighted error of a fit, over all recordings and signals; 1: the noise alone."""
+    return _variance_of(join(problem, problem.residuals(fitted.vector, fitted.candidate.active)))
+
+
+def _variance_of(joined: Mapping[str, Array]) -> float:
+    count = sum(int(np.isfinite(r).sum()) for r in joined.values())
+    return sum(float(np.nansum(r**2)) for r in joined.values()) / max(count, 1)
+
+
 def statistics_of(joined: Mapping[str, Array]) -> Statistics:
     """Statistics of weighted residuals by signal."""
     energies = {s: float(np.nansum(r**2)) for s, r in joined.items()}
     whole = sum(energies.values()) or 1.0
-    count = sum(int(np.isfinite(r).sum()) for r in joined.values())
     return Statistics(
-        count=count,
-        variance=whole / max(count, 1),
+        count=sum(int(np.isfinite(r).sum()) for r in joined.values()),
+        variance=_variance_of(joined),
         correlation_time=max(1.0, sum(energies[s] * correlation_time(r) for s, r in joined.items()) / whole),
         coloured=max(coloured_share(r) for r in joined.values()),
         ringing=max(ringing_share(r) for r in joined.values()),

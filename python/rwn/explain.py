@@ -207,15 +207,27 @@ def _by_windows(search: Search, nominal: Fitted, wanted: Sequence[str]) -> list[
 def _beside(
     search: Search, layer: Sequence[Fitted], wanted: Sequence[str], fits: Sequence[Fitted], known: Layer
 ) -> Layer:
-    """What helps beside each explanation of `layer`: any effect beside the best, promising ones beside the others."""
+    """What helps beside each explanation of `layer`: any effect beside the best, promising ones beside the others.
+
+    Once the best found leaves noise alone, one that has no part in it is tried beside its parts: a rival of one of them.
+    """
     found, tried, names = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted)
     for base in layer:
-        new = [name for name in names if (base.added, name) not in tried]
+        parts = _all_there_is(search, found)
+        beside = [n for n in names if n in parts] if parts and not parts & set(base.added) else names
+        new = [name for name in beside if (base.added, name) not in tried]
         found += search.explain(base, new, keep=1, best=min((f.cost for f in found), default=np.inf))
         tried |= {(base.added, name) for name in new}
         met = {name for f in (*fits, *found) for name in f.added}
         names = [name for name in wanted if name in met]
     return Layer(distinct(found), tried)
+
+
+def _all_there_is(search: Search, found: Sequence[Fitted]) -> frozenset[str]:
+    """The effects of the best that was found if it leaves but noise; none otherwise."""
+    best = min(found, key=lambda f: f.cost, default=None)
+    done = best and evidence.statistics(search.problem, best).at_the_floor
+    return frozenset(best.added) if best and done else frozenset()
 
 
 def _varied(fits: Sequence[Fitted]) -> list[Fitted]:

@@ -114,7 +114,7 @@ def _refitted(setup: Setup, noise: Mapping[str, float]) -> Fitted:
 
 def _left(setup: Setup, fitted: Fitted, noise: Mapping[str, float]) -> float:
     """Mean squared error above the noise, in units of it."""
-    return evidence.statistics(replace(setup.problem, noise=dict(noise)), fitted).variance - 1.0
+    return evidence.variance(replace(setup.problem, noise=dict(noise)), fitted) - 1.0
 
 
 # ---- delays that are worth a refit -----------------------------------------------------------------------------------

@@ -28,7 +28,8 @@ Start = Mapping[str, float]
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
 SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
-IN_PASSING = 6  # iterations for that
+IN_PASSING = 6  # iterations that show where a fit goes
+HARDLY = 2  # the same where it looks hopeless
 TO_THE_END = 60  # iterations, most of them never needed
 STEEP = 0.5  # share of its first cost that a fit may have left after these, to go on whatever the others have
 GLANCE, LOOK = 2500, 9000  # samples on which starts of one effect are told apart, beside others and alone
@@ -75,7 +76,7 @@ class Search:
         rows = promising(best_of_each(rows, keep), start)
         best_here = best * start / base.cost if np.isfinite(best) else best
         near = self._over_rough(rows, look, start, best_here)
-        finals = self._to_the_end([racer for racer, _ in near], best)
+        finals = self._to_the_end(near, best, best_here)
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
             for racer, m in sorted(finals, key=lambda row: row[1].cost)
@@ -131,27 +132,26 @@ class Search:
         self, racers: Sequence[Racer], *, iterations: int, problem: OutputError | None = None
     ) -> list[Row]:
         """Some iterations of every racer; each row starts the next leg where this one ended."""
-        on = problem or self.problem
-        ends = side_by_side(
-            lambda r: fit(on, r.candidate, max_iterations=iterations, tolerance=RESOLUTION), racers
-        )
-        return [
-            (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
-            for racer, m in zip(racers, ends, strict=True)
-        ]
+        return side_by_side(lambda racer: self._leg(racer, iterations, problem), racers)
 
-    def _to_the_end(self, racers: Sequence[Racer], best: float) -> list[Row]:
-        """Every racer fitted until it converges, those that are hopeless and gain little by a few iterations."""
-        rows = self._race(racers, iterations=IN_PASSING)
-        bar = hopeless_from(rows, best)
-        under_way = [
-            k
-            for k, (_, m) in enumerate(rows)
-            if m.status is FitStatus.ITERATION_LIMIT and m.cost < max(bar, STEEP * m.first)
-        ]
-        ends = self._race([rows[k][0] for k in under_way], iterations=TO_THE_END)
-        further = dict(zip(under_way, ends, strict=True))
-        return [further.get(k, row) for k, row in enumerate(rows)]
+    def _leg(self, racer: Racer, iterations: int, problem: OutputError | None = None) -> Row:
+        m = fit(problem or self.problem, racer.candidate, max_iterations=iterations, tolerance=RESOLUTION)
+        return racer._replace(candidate=racer.candidate.starting_at(m.values)), m
+
+    def _to_the_end(self, rows: Sequence[Row], best: float, best_here: float) -> list[Row]:
+        """Every racer fitted until it converges, those that are hopeless and gain little by a few iterations.
+
+        `rows`: how far they came on the look, where `best_here` is the cost of the best.
+        """
+        bar = hopeless_from(rows, best_here)
+        soon = side_by_side(
+            lambda row: self._leg(row[0], IN_PASSING if _goes_on(row[1], bar) else HARDLY), rows
+        )
+        bar = hopeless_from(soon, best)
+        return side_by_side(
+            lambda row: self._leg(row[0], TO_THE_END) if _under_way(row[1]) and _goes_on(row[1], bar) else row,
+            soon,
+        )
 
     def _over_rough(
         self, rows: Sequence[Row], problem: OutputError, base_cost: float, best: float
@@ -180,7 +180,7 @@ class Search:
 
         def again(this: Fitted) -> Fitted:
             hopeless = bool(this.added) and this.cost > bar
-            return self.refit(this, self.problem, iterations=IN_PASSING if hopeless else TO_THE_END)
+            return self.refit(this, self.problem, iterations=HARDLY if hopeless else TO_THE_END)
 
         return side_by_side(again, these)
 
@@ -250,6 +250,15 @@ def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
 def _has_room(this: Candidate, name: str) -> bool:
     """One effect at most can bring a second mass."""
     return not this.table[name].second_mass or not any(this.table[other].second_mass for other in this.effects)
+
+
+def _goes_on(m: Minimum, bar: float) -> bool:
+    """Whether a fit is not hopeless, or has gained much of late."""
+    return m.cost < max(bar, STEEP * m.first)
+
+
+def _under_way(m: Minimum) -> bool:
+    return m.status is FitStatus.ITERATION_LIMIT
 
 
 def _bent(base: Fitted) -> bool:

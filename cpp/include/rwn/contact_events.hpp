@@ -32,13 +32,12 @@ class ContactEvents {
     return search_.instant(s, h, beyond, [&](const State& x) { return sign(s) * value_of(depth(x, s, side)); });
   }
 
-  /// Puts `s` at that instant; returns the time that it took.
-  S pass(State& s, double instant, const State& beyond) {
+  /// Puts `s` at that instant, where it has come to `there`; returns the time that it took.
+  S pass(State& s, double instant, const State& there, const State& beyond) {
     const double side = side_of(s, beyond);
-    const State there = search_.at(s, instant);
     const auto deep = [&](const State& x) { return value_of(depth(x, s, side)); };
     const S duration = search_.shifted(instant, depth(there, s, side), search_.slope(there, instant, deep));
-    s = search_.at(s, duration);
+    s = search_.at(s, there, duration);
     s.contact = s.contact == 0.0 ? side : 0.0;
     return duration;
   }

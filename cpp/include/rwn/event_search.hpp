@@ -65,7 +65,7 @@ class EventSearch {
   template <class G>
   double slope(const State& there, double instant, const G& g) {
     const double nudge = 1e-6 * instant;
-    return (g(stepper_.nudged(there, nudge)) - g(there)) / nudge;
+    return (g(stepper_.moved(there, S(nudge))) - g(there)) / nudge;
   }
 
   /// The state at an instant, with the derivatives of both.
@@ -74,6 +74,11 @@ class EventSearch {
     const State there = stepper_.step(s, instant);
     stepper_.use(before);
     return there;
+  }
+
+  /// The same at `duration`, of which `there` has the value alone.
+  State at(const State& s, const State& there, const S& duration) {
+    return stepper_.finishes() ? at(s, duration) : stepper_.moved(there, duration - value_of(duration));
   }
 
   /// The instant with its derivatives, by the implicit function theorem: g(tau, p) = 0 with g as of the state there.

@@ -46,7 +46,7 @@ class Events {
       if (!contact_.continues(s, beyond)) {
         const double instant = contact_.instant(s, h, beyond);
         const State there = search_.at(s, instant);
-        if (friction_.continues(s, there)) return contact_.pass(s, instant, beyond);
+        if (friction_.continues(s, there)) return contact_.pass(s, instant, there, beyond);
         h = instant;
         beyond = there;
       }

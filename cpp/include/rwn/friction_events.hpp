@@ -44,7 +44,7 @@ class FrictionEvents {
   S stop(State& s, double instant) {
     const State there = search_.at(s, instant);
     const S duration = search_.shifted(instant, there.x[w], equations_.acceleration(there));
-    s = search_.at(s, duration);
+    s = search_.at(s, there, duration);
     s.x[w] = S(0.0);
     s.direction = 0.0;
     s.direction = equations_.breaking(s);
@@ -55,7 +55,7 @@ class FrictionEvents {
     const State there = search_.at(s, instant);
     const auto pulling = [&](const State& x) { return value_of(excess(x, direction)); };
     const S duration = search_.shifted(instant, excess(there, direction), search_.slope(there, instant, pulling));
-    s = search_.at(s, duration);
+    s = search_.at(s, there, duration);
     s.x[w] = S(0.0);
     s.direction = direction;
     return duration;

@@ -61,15 +61,18 @@ class Stepper {
     }
   }
 
-  /// `s` a little later, in which its rates of change last.
-  State nudged(const State& s, double later) {
+  /// `s` a little later, in which its rates of change last; memories of effects stay.
+  State moved(const State& s, const S& later) {
     Terms<S> t;
     const Vector f = equations_.varies() ? equations_.nonlinear(s, s.memory.data(), s.position, 0, t)
                                          : equations_.constant_part(s);
     State next = s;
-    shift(next.x, next.position, S(later), rates(s, f));
+    shift(next.x, next.position, later, rates(s, f));
     return next;
   }
+
+  /// Effects have memories that follow the motion.
+  bool finishes() const { return equations_.finishes(); }
 
   /// Sets what the next lengths are for; returns what they were.
   Use use(Use next) { return std::exchange(use_, next); }
