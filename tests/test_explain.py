@@ -13,7 +13,7 @@ import pytest
 import rwn
 from rwn import evidence, hints
 from rwn.candidate import Candidate, candidate, fit
-from rwn.explain import _no_window, _varied, explain
+from rwn.explain import NOTHING, _beside, _no_window, _varied, explain
 from rwn.fitted import Fitted
 from rwn.model import Model
 from rwn.prepare import Setup, prepare
@@ -180,6 +180,28 @@ def test_pairs_that_were_tried_are_not_tried_again(setup: Setup, monkeypatch: py
     again = explain(setup, progress=_silent, names=names, at_once=2, after=pairs)
     assert tried == []
     assert [h.score for h in again.hypotheses] == [h.score for h in pairs.hypotheses]
+
+
+@pytest.mark.parametrize("at_the_floor", [True, False])
+def test_beside_an_explanation_of_all_its_parts_alone_are_tried(
+    setup: Setup, monkeypatch: pytest.MonkeyPatch, at_the_floor: bool
+) -> None:
+    search, names = Search.of(setup), ["coulomb-friction", "quadratic-drag", "input-delay", "sensor-bias"]
+    first, part, other = (_fitted(setup, name) for name in names[:3])
+    pair = replace(first, added=(first.added[0], part.added[0]), minimum=replace(first.minimum, cost=0.0))
+    noise = np.random.default_rng(1).normal(size=1000)
+    left = evidence.statistics_of({"speed": noise if at_the_floor else 9.0 * np.cumsum(noise)})
+    monkeypatch.setattr(evidence, "statistics", lambda *_: left)
+    tried: dict[str, list[str]] = {}
+
+    def found(_: Search, base: Fitted, wanted: list[str], **__: float) -> list[Fitted]:
+        tried[base.added[0]] = list(wanted)
+        return [pair]
+
+    monkeypatch.setattr(Search, "explain", found)
+    _beside(search, [first, part, other], names, [first, part, other], NOTHING)
+    met = names[:3]
+    assert tried == {names[0]: names, names[1]: met, names[2]: names[:2] if at_the_floor else met}
 
 
 def test_priors_give_way_where_nothing_but_noise_is_left() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,11 +9,11 @@ import pytest
 
 import rwn
 from rwn.explain import explain
-from rwn.least_squares import FitStatus
+from rwn.least_squares import FitStatus, Minimum
 from rwn.model import Model
 from rwn.prepare import Setup, prepare
 from rwn.racer import Racer, Row
-from rwn.search import Search
+from rwn.search import HARDLY, IN_PASSING, TO_THE_END, Search
 
 TRUE = {
     "resistance": 0.84, "inductance": 1e-4, "torque_constant": 0.116, "back_emf_constant": 0.116, "inertia": 3.84e-4,
@@ -62,33 +61,40 @@ def test_starts_of_a_drives_end_compete_per_first_guess_of_the_motor(lagging: Se
 
 
 @pytest.mark.parametrize(
-    ("first", "cost", "known", "goes_on"),
+    ("look", "whole", "known", "legs"),
     [
-        (100.0, 30.0, np.inf, True),
-        (100.0, 90.0, np.inf, False),
-        (1000.0, 400.0, np.inf, True),
-        (50.0, 30.0, 2.0, False),
+        ((100.0, 30.0), (100.0, 30.0), np.inf, [IN_PASSING, TO_THE_END]),
+        ((100.0, 90.0), (100.0, 90.0), np.inf, [HARDLY]),
+        ((1000.0, 400.0), (1000.0, 400.0), np.inf, [IN_PASSING, TO_THE_END]),
+        ((100.0, 90.0), (100.0, 30.0), np.inf, [HARDLY, TO_THE_END]),
+        ((50.0, 30.0), (50.0, 30.0), 2.0, [HARDLY]),
     ],
-    ids=["near the best", "hopeless", "hopeless as yet, and falling", "near the best of these, a better is known"],
+    ids=["near the best", "hopeless", "hopeless as yet, and falling", "hopeless on the look", "a better is known"],
 )
 def test_a_race_goes_on_with_what_may_still_win(
-    lagging: Setup, monkeypatch: pytest.MonkeyPatch, first: float, cost: float, known: float, goes_on: bool
-) -> None:
+    lagging: Setup, monkeypatch: pytest.MonkeyPatch, look: tuple[float, float], whole: tuple[float, float],
+    known: float, legs: list[int],
+) -> None:  # fmt: skip
+    """`look`, `whole`: first and last cost of another's legs, where the best has come to 10."""
     search = Search.of(lagging)
     fitted = search.fit_nominal()
     best, other = (Racer(name, 0.0, 0, fitted.candidate) for name in ("best", "other"))
-    limit = replace(fitted.minimum, status=FitStatus.ITERATION_LIMIT)
-    legs: list[list[str]] = []
+    done = replace(fitted.minimum, cost=10.0, first=20.0)
 
-    def race(_: Search, racers: Sequence[Racer], **__: int) -> list[Row]:
-        legs.append([r.name for r in racers])
-        if len(legs) > 1:
-            return [(r, fitted.minimum) for r in racers]
-        return [(best, replace(fitted.minimum, cost=10.0, first=20.0)), (other, replace(limit, cost=cost, first=first))]
+    def under_way(costs: tuple[float, float]) -> Minimum:
+        return replace(fitted.minimum, status=FitStatus.ITERATION_LIMIT, first=costs[0], cost=costs[1])
 
-    monkeypatch.setattr(Search, "_race", race)
-    search._to_the_end([best, other], known)
-    assert legs == [["best", "other"], ["other"] if goes_on else []]
+    run: list[int] = []
+
+    def leg(_: Search, racer: Racer, iterations: int) -> Row:
+        if racer is best:
+            return racer, done
+        run.append(iterations)
+        return racer, under_way(whole)
+
+    monkeypatch.setattr(Search, "_leg", leg)
+    search._to_the_end([(best, done), (other, under_way(look))], known, known)
+    assert run == legs
 
 
 def test_a_model_that_is_exact_is_adequate() -> None:

@@ -71,12 +71,12 @@ def ringing_share(x: Array, length: int = 32) -> float:
 
     A shaft that swings leaves means of zero, which `coloured_share` takes for noise.
     """
-    from scipy.signal import welch  # late: the command line starts without it
-
     x = x[np.isfinite(x)]
     if x.size < 8 * length or not np.any(x):
         return 1.0
-    density = welch(x, nperseg=length, detrend=False)[1][1:-1]
+    # scipy's welch takes 30 times as long
+    segments = np.lib.stride_tricks.sliding_window_view(x, length)[:: length // 2]
+    density = np.mean(np.abs(np.fft.rfft(segments * np.hanning(length + 1)[:-1])) ** 2, axis=0)[1:-1]
     return float(np.max(density) / np.mean(density))
 
 

@@ -209,7 +209,7 @@ def _beside(
 ) -> Layer:
     """What helps beside each explanation of `layer`: any effect beside the best, promising ones beside the others.
 
-    Once the best found leaves noise alone, one that has no part in it is tried beside its parts: a rival of one of them.
+    Once the best found leaves noise alone, one that has no part in it is tried beside its parts: it may rival one.
     """
     found, tried, names = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted)
     for base in layer:

@@ -29,10 +29,10 @@ RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
 SLIGHT = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
 IN_PASSING = 6  # iterations that show where a fit goes
-HARDLY = 2  # the same where it looks hopeless
+HARDLY = 1  # the same where it looks hopeless
 TO_THE_END = 60  # iterations, most of them never needed
 STEEP = 0.5  # share of its first cost that a fit may have left after these, to go on whatever the others have
-GLANCE, LOOK = 2500, 9000  # samples on which starts of one effect are told apart, beside others and alone
+GLANCE, LOOK = 2500, 6000  # samples on which starts of one effect are told apart, beside others and alone
 SIGHTED = 4  # starts that are worth an iteration where many are looked at
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 

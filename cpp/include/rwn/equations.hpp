@@ -104,8 +104,8 @@ class Equations {
   /// Steps that the fastest effect asks for over h, where `f` and `t` are those of its start (level 0).
   int step_count(const State& s, double h, const Vector& f, const Terms<S>& t) const {
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
-    const double rate = std::max(winding_rate(t, h), effects_.rate(s, acceleration, h));
-    const double steps = std::ceil(h * rate / angle_of_a_step);
+    const double effect_steps = h * effects_.rate(s, acceleration, h) / angle_of_a_step;
+    const double steps = std::ceil(std::max(winding_steps(t, h), effect_steps));
     return steps > 1.0 ? static_cast<int>(std::min(16.0, steps)) : 1;
   }
 
@@ -202,8 +202,9 @@ class Equations {
   void finish(const State& before, State& after, const S& h) const { effects_.finish(before, after, h); }
 
  private:
-  static constexpr double angle_of_a_step = 0.7;  // of the fastest rate
-  static constexpr double winding_steps = 3.0;    // that a transient of the winding is worth, were it ever so short
+  static constexpr double angle_of_a_step = 0.7;     // of the fastest rate of an effect
+  static constexpr double angle_of_a_winding = 1.4;  // R/L h of a step, where its equation is nearly linear
+  static constexpr double most_winding_steps = 2.0;  // that its transient is worth, were it ever so short
 
   struct Constants {
     S torque{}, friction{}, acceleration{};
@@ -217,11 +218,11 @@ class Equations {
 
   static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
 
-  /// Where its equation is not linear, the winding's transient within the interval has to be followed: how fast it is.
-  double winding_rate(const Terms<S>& t, double h) const {
+  /// Steps in which the winding's transient is followed where its equation is not linear.
+  double winding_steps(const Terms<S>& t, double h) const {
     if constexpr (kind == Kind::dc) {
       const double rate = value_of(motor_[resistance]) / value_of(motor_[inductance] * t.inductance);
-      return electrical() ? std::min(rate, winding_steps * angle_of_a_step / h) : 0.0;
+      return electrical() ? std::min(h * rate / angle_of_a_winding, most_winding_steps) : 0.0;
     }
     return 0.0;
   }
