@@ -38,7 +38,7 @@ EVERY_ISA ?= OFF
 ISAS_OFF := baseline
 ISAS_ON := baseline avx2 avx512
 test-sanitize: install-test
-	cmake -S . -B build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DRWN_SANITIZE=ON -DRWN_BUILD_TESTS=ON -DRWN_EVERY_ISA=$(EVERY_ISA) >/dev/null
+	cmake -S . -B build/sanitize -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DRWN_SANITIZE=ON -DRWN_BUILD_TESTS=ON -DRWN_EVERY_ISA=$(EVERY_ISA) >/dev/null
 	cmake --build build/sanitize -j $(JOBS)
 	for isa in $(ISAS_$(EVERY_ISA)); do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
 
