@@ -53,3 +53,21 @@ def test_a_probe_saves_derivatives_and_changes_no_step() -> None:
         assert calls["evaluate"] < without["evaluate"]
         taken.append(calls["evaluate"])
     assert taken[1] <= taken[0]  # with every step in doubt derivatives are made of those that are taken, and no others
+
+
+def test_what_priors_alone_decide_is_found_too() -> None:
+    """The product of two unknowns is known a thousand times as well as their ratio: damping must not hold that back."""
+    strength = 1e5  # of the product
+
+    def evaluate(values: NDArray[np.float64]) -> Normal:
+        error = strength * (6.0 - values[0] * values[1])
+        slopes = strength * values[::-1]
+        return Normal(chi2=error**2, gradient=slopes * error, curvature=np.outer(slopes, slopes))
+
+    unknowns = tuple(
+        Unknown(name=n, unit="", index=k, lower=1e-3, upper=1e3, logarithmic=True, tied_to=other, tie_std=0.02)
+        for k, (n, other) in enumerate((("a", ""), ("b", "a")))
+    )
+    found = minimise(evaluate, np.array([2.3, 6.0 / 2.3]), unknowns)
+    assert found.status is FitStatus.CONVERGED
+    np.testing.assert_allclose(found.values, np.sqrt(6.0), rtol=2e-3)

@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 
 
 LEAST = 1e-4  # of what a step promises, that it has to keep to be taken
+UNDAMPED = 1e-10  # damping that holds no step back, even along what priors alone decide
+RELIEF = 1e-2  # what damping is lowered by where a step promises little
 
 
 class FitStatus(Enum):
@@ -178,15 +180,19 @@ def minimise(
     growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
     for count in range(1, max_iterations + 1):  # noqa: B007 - reported
         step = _step(search, z, gradient, curvature, damping)
-        promised = float(2.0 * step @ gradient - step @ curvature @ step)
+        promised = _promise(step, gradient, curvature)
         if (
             promised <= 0.0 and step.any()
         ):  # the ends of ranges stood in the way: shorten towards the gradient
             damping, growth, misses = damping * 10.0, 2.0, misses + 1
             if misses <= 8:
                 continue
-        unit = max(1.0, cost / max(1, _size(normal)))
-        if promised < tolerance * unit:
+        little = tolerance * max(1.0, cost / max(1, _size(normal)))
+        while promised < little and damping > UNDAMPED:  # does damping alone hold the step back?
+            damping, growth = max(RELIEF * damping, UNDAMPED), 2.0
+            step = _step(search, z, gradient, curvature, damping)
+            promised = _promise(step, gradient, curvature)
+        if promised < little:
             status = FitStatus.CONVERGED
             break
         least = cost - LEAST * promised
@@ -203,6 +209,11 @@ def minimise(
                 status = FitStatus.STALLED
                 break
     return _minimum(search, z, normal, cost, first, status, count)
+
+
+def _promise(step: Array, gradient: Array, curvature: Array) -> float:
+    """Cost that a step removes if the problem is quadratic."""
+    return float(2.0 * step @ gradient - step @ curvature @ step)
 
 
 def _size(normal: Normal) -> int:
