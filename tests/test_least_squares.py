@@ -56,7 +56,7 @@ def test_a_probe_saves_derivatives_and_changes_no_step() -> None:
 
 
 def test_what_priors_alone_decide_is_found_too() -> None:
-    """The product of two unknowns is known a thousand times as well as their ratio: damping must not hold that back."""
+    """Of two unknowns the product is known 10 000 times as well as the ratio: damping must not hold that back."""
     strength = 1e5  # of the product
 
     def evaluate(values: NDArray[np.float64]) -> Normal:

@@ -93,25 +93,30 @@ def statistics(problem: OutputError, fitted: Fitted, *, drift: bool = True) -> S
 
 def variance(problem: OutputError, fitted: Fitted) -> float:
     """Mean squared weighted error of a fit, over all recordings and signals; 1: the noise alone."""
-    return _variance_of(join(problem, problem.residuals(fitted.vector, fitted.candidate.active)))
-
-
-def _variance_of(joined: Mapping[str, Array]) -> float:
-    count = sum(int(np.isfinite(r).sum()) for r in joined.values())
-    return sum(float(np.nansum(r**2)) for r in joined.values()) / max(count, 1)
+    joined = join(problem, problem.residuals(fitted.vector, fitted.candidate.active))
+    return sum(_energies(joined).values()) / max(_count(joined), 1)
 
 
 def statistics_of(joined: Mapping[str, Array]) -> Statistics:
     """Statistics of weighted residuals by signal."""
-    energies = {s: float(np.nansum(r**2)) for s, r in joined.items()}
-    whole = sum(energies.values()) or 1.0
+    energies, count = _energies(joined), _count(joined)
+    whole = sum(energies.values())
+    correlated = sum(energies[s] * correlation_time(r) for s, r in joined.items())
     return Statistics(
-        count=sum(int(np.isfinite(r).sum()) for r in joined.values()),
-        variance=_variance_of(joined),
-        correlation_time=max(1.0, sum(energies[s] * correlation_time(r) for s, r in joined.items()) / whole),
+        count=count,
+        variance=whole / max(count, 1),
+        correlation_time=max(1.0, correlated / whole) if whole else 1.0,
         coloured=max(coloured_share(r) for r in joined.values()),
         ringing=max(ringing_share(r) for r in joined.values()),
     )
+
+
+def _energies(joined: Mapping[str, Array]) -> dict[str, float]:
+    return {s: float(np.nansum(r**2)) for s, r in joined.items()}
+
+
+def _count(joined: Mapping[str, Array]) -> int:
+    return sum(int(np.isfinite(r).sum()) for r in joined.values())
 
 
 def join(problem: OutputError, residuals: Sequence[Mapping[str, Array]]) -> dict[str, Array]:

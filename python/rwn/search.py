@@ -148,10 +148,13 @@ class Search:
             lambda row: self._leg(row[0], IN_PASSING if _goes_on(row[1], bar) else HARDLY), rows
         )
         bar = hopeless_from(soon, best)
-        return side_by_side(
-            lambda row: self._leg(row[0], TO_THE_END) if _under_way(row[1]) and _goes_on(row[1], bar) else row,
-            soon,
-        )
+
+        def further(row: Row) -> Row:
+            racer, m = row
+            under_way = m.status is FitStatus.ITERATION_LIMIT
+            return self._leg(racer, TO_THE_END) if under_way and _goes_on(m, bar) else row
+
+        return side_by_side(further, soon)
 
     def _over_rough(
         self, rows: Sequence[Row], problem: OutputError, base_cost: float, best: float
@@ -255,10 +258,6 @@ def _has_room(this: Candidate, name: str) -> bool:
 def _goes_on(m: Minimum, bar: float) -> bool:
     """Whether a fit is not hopeless, or has gained much of late."""
     return m.cost < max(bar, STEEP * m.first)
-
-
-def _under_way(m: Minimum) -> bool:
-    return m.status is FitStatus.ITERATION_LIMIT
 
 
 def _bent(base: Fitted) -> bool:
