@@ -1,7 +1,8 @@
 """Time of a whole diagnosis with every effect tried; at most 20 s for 20 000 samples on two cores is asked.
 
 Makes blind trials of a development seed with 20 000 training samples each, and five with a backlash, which none of
-these has, and diagnoses them one after the other, without held-out recordings, on two threads. Run on an idle machine:
+these has, and diagnoses them one after the other, without held-out recordings, on two threads. Run on an idle machine;
+"stolen" is the share of the processor time asked for that a virtual machine's host gave to others (/proc/stat):
 python bench/bench_diagnose.py [COUNT]
 """
 
@@ -33,11 +34,20 @@ BACKLASH = (
 )
 
 
+def processor_times() -> tuple[float, float]:
+    """Seconds, up to a factor, that all processors worked, and that their host kept them waiting; 0 where unknown."""
+    stat = Path("/proc/stat")
+    if not stat.exists():
+        return 0.0, 0.0
+    user, nice, system, _, _, hard, soft, stolen = map(float, stat.read_text().split()[1:9])
+    return user + nice + system + hard + soft, stolen
+
+
 def main() -> None:
     count = int(sys.argv[1]) if len(sys.argv) > 1 else COUNT
     scene.TRAIN_ROWS = SAMPLES
     times = []
-    print(f"{'concealed':<46}{'found':<46}{'samples':>8}{'time':>9}")
+    print(f"{'concealed':<46}{'found':<46}{'samples':>8}{'time':>9}{'stolen':>8}")
     with tempfile.TemporaryDirectory() as folder:
         for plan in (*plans(SEED, count), *BACKLASH):
             trial = make_trial(plan)
@@ -45,12 +55,14 @@ def main() -> None:
             write_trial(place, trial)
             model = rwn.read_model(place / "model.toml")
             recordings = [rwn.read_recording(f, layout=model.recording) for f in train_files(place)]
-            begin = time.perf_counter()
+            before, begin = processor_times(), time.perf_counter()
             found = rwn.diagnose(recordings, model, jobs=2)
             times.append(time.perf_counter() - begin)
+            worked, stolen = np.subtract(processor_times(), before)
+            share = stolen / max(worked + stolen, 1.0)
             names = " + ".join(e.name for e in found.effects) or found.verdict
             concealed = " + ".join(e["name"] for e in trial.answer["effects"]) or "nothing"
-            print(f"{concealed:<46}{names:<46}{sum(map(len, recordings)):8}{times[-1]:7.1f} s", flush=True)
+            print(f"{concealed:<46}{names:<46}{sum(map(len, recordings)):8}{times[-1]:7.1f} s{share:7.0%}", flush=True)
     late = sum(t > ASKED for t in times)
     print(f"median {np.median(times):.1f} s, longest {max(times):.1f} s; {late} of {len(times)} over {ASKED:.0f} s")
 

@@ -87,6 +87,7 @@ def explain(
 ) -> Explanation:  # fmt: skip
     """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most.
 
+    `names`: of the effects that are tried; such an explanation is for comparison, simpler ones than its best are not.
     `after`: an explanation of the same recordings by fewer effects, or by some of them, to go on from.
     """
     wanted = [n for n in names or setup.nominal.table if applicable(n, setup)]
@@ -115,7 +116,7 @@ def explain(
         complete = left.at_the_floor or _at_its_floor(search, best)
     if paired:
         search, nominal, fits = _settled(search, nominal, fits, setup)
-    fits = with_simpler(search, nominal, fits)
+    fits = with_simpler(search, nominal, fits) if names is None else fits
     strained = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, setup))]
     best = min([nominal, *fits], key=lambda f: f.cost)

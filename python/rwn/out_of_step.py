@@ -21,7 +21,7 @@ from rwn.model import Model
 from rwn.output_error import OutputError
 from rwn.prepare import Setup, prepare
 from rwn.recording import Recording
-from rwn.search import IN_PASSING, TO_THE_END, Search
+from rwn.search import IN_PASSING, Search
 from rwn.threads import side_by_side
 from rwn.wrong_scale import gears
 
@@ -72,14 +72,20 @@ def unexplained(doubt: Suspicion, found: Explanation) -> float:
     return _left(found.setup, found.closest, doubt.noise)
 
 
-def rivals(alone: Explanation, beneath: Explanation) -> list[str]:
+def rivals(*explanations: Explanation) -> list[str]:
     """Effects of which two might do what the mistake does with one beneath it.
 
     They are those of the drive's ends, which delay and scale, and the first ones with the mistake and without.
     """
-    ends = [name for name, effect in alone.setup.nominal.table.items() if effect.at_an_end]
-    first = [name for of in (alone, beneath) for h in of.hypotheses[:FIRST] for name in h.fitted.added]
-    return list(dict.fromkeys([*ends, *first]))
+    table = explanations[0].setup.nominal.table
+    ends = [name for name, effect in table.items() if effect.at_an_end]
+    return list(dict.fromkeys([*ends, *foremost(*explanations)]))
+
+
+def foremost(*explanations: Explanation) -> list[str]:
+    """The effects of the first hypotheses of each."""
+    first = [name for of in explanations for h in of.hypotheses[:FIRST] for name in h.fitted.added]
+    return list(dict.fromkeys(first))
 
 
 def believed(doubt: Suspicion, *, left: float, physics: float) -> bool:
@@ -93,19 +99,27 @@ def sharpened(
     """The mistake with the delay at which what was found beneath it fits best, and what that leaves."""
     noise, base = doubt.mistake.levels(doubt.noise), beneath.closest
 
-    def moved(mistake: Mistake, iterations: int) -> float:
+    def undone(mistake: Mistake) -> Search:
         setup = prepare(without(recordings, mistake), model)
-        problem = replace(setup.problem, noise=noise)
-        return _left(setup, Search.of(setup, problem=problem).refit(base, problem, iterations=iterations), noise)
+        return Search.of(setup, problem=replace(setup.problem, noise=noise))
+
+    def in_passing(mistake: Mistake) -> float:
+        search = undone(mistake)
+        look = search.look(base)
+        return evidence.variance(look, search.refit(base, look, iterations=IN_PASSING))
 
     left = _left(beneath.setup, base, noise)
     near = [doubt.mistake.delay + off for off in NEAR] if doubt.mistake.delay else []
     tried = [_shift(doubt.mistake.signals, delay, doubt.mistake.step) for delay in near if delay]
-    soon = side_by_side(lambda mistake: moved(mistake, IN_PASSING), tried)
-    if min(soon, default=np.inf) >= left:
+    if not tried:
+        return doubt.mistake, left
+    as_doubted, *soon = side_by_side(in_passing, [doubt.mistake, *tried])
+    if min(soon) >= as_doubted:
         return doubt.mistake, left
     best = tried[int(np.argmin(soon))]
-    return best, moved(best, TO_THE_END)
+    search = undone(best)
+    sharper = evidence.variance(search.problem, search.refit(base, search.problem)) - 1.0
+    return (best, sharper) if sharper < left else (doubt.mistake, left)
 
 
 def _refitted(setup: Setup, noise: Mapping[str, float]) -> Fitted:

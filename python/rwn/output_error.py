@@ -112,6 +112,11 @@ class OutputError:
     )  # correlation of a signal's error with the one before; `noise` is then that of what is new in each
     colour: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
+    @property
+    def samples(self) -> int:
+        """Of all recorded signals."""
+        return sum(t.signal(s).size for t in self.targets for s in t.recorded)
+
     def parameters_for(self, target: Target, vector: Array, active: Sequence[int]) -> Array:  # noqa: ARG002
         """The parameter vector with the start of this recording filled in."""
         own = vector.copy()

@@ -12,6 +12,7 @@ from rwn.least_squares import Minimum
 from rwn.rough import rough
 
 HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
+MET = 1.0  # squared error in units of its variance, within which two starts have come to the same end
 
 
 class Racer(NamedTuple):
@@ -60,6 +61,25 @@ def promising(rows: Sequence[Row], base_cost: float, least: int = 6, most: int =
     bar = base_cost - 0.5 * max(base_cost - costs[ranked[0]], 0.0)
     kept = {name for k, name in enumerate(ranked[:most]) if k < least or costs[name] < bar}
     return [row for row in rows if row[0].name in kept]
+
+
+def apart(rows: Sequence[Row], samples: int) -> list[Row]:
+    """The rows without those that have met a better one of their effect; `samples`: that they were fitted to."""
+    kept: list[Row] = []
+    for row in sorted(rows, key=lambda row: row[1].cost):
+        if not any(_met(row, better, samples) for better in kept):
+            kept.append(row)
+    return kept
+
+
+def _met(row: Row, better: Row, samples: int) -> bool:
+    """Whether a fit has come to the end of another: by its cost, and by the other's quadratic."""
+    (racer, m), (other, end) = row, better
+    little = MET * max(1.0, end.cost / samples)
+    if racer.name != other.name or m.cost - end.cost > little:
+        return False
+    off = m.values - end.values
+    return float(off @ end.information @ off) < little
 
 
 def hopeless_from(rows: Sequence[Row], best: float) -> float:

@@ -68,10 +68,9 @@ def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Minim
             slopes[:, k] = column
         return _normal(error, slopes)
 
-    samples = sum(t.signal(s).size for t in problem.targets for s in t.recorded)
     with _overflowing():
         return minimise(
-            evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * samples,
+            evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * problem.samples,
             prior_scale=problem.colour, probe=probe, doubt=0,
         )  # fmt: skip
 

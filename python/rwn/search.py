@@ -17,7 +17,7 @@ from rwn.fitted import Fitted
 from rwn.least_squares import FitStatus, Minimum
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
-from rwn.racer import HOPELESS, Kind, Racer, Row, best_of_each, hopeless_from, kind_of, misleads, promising
+from rwn.racer import HOPELESS, Kind, Racer, Row, apart, best_of_each, hopeless_from, kind_of, misleads, promising
 from rwn.rough import settled
 from rwn.threads import side_by_side
 
@@ -73,7 +73,7 @@ class Search:
         look = self.look(base)
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience, problem=look)
         start = base.cost if look is self.problem else self.refit(base, look).cost
-        rows = promising(best_of_each(rows, keep), start)
+        rows = apart(promising(best_of_each(rows, keep), start), look.samples)
         best_here = best * start / base.cost if np.isfinite(best) else best
         near = self._over_rough(rows, look, start, best_here)
         finals = self._to_the_end(near, best, best_here)

@@ -9,7 +9,7 @@ from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
 from rwn.gear_ratio import gear_ratio
 from rwn.mistakes import GEAR, Mistake, without
 from rwn.model import Model
-from rwn.out_of_step import CLEAR, LITTLE, Suspicion, believed, rivals, sharpened, suspected, unexplained
+from rwn.out_of_step import CLEAR, LITTLE, Suspicion, believed, foremost, rivals, sharpened, suspected, unexplained
 from rwn.prepare import prepare
 from rwn.recording import Recording
 from rwn.wrong_scale import wrong_scale
@@ -71,23 +71,28 @@ def _settled(
 ) -> tuple[Mistake | None, Explanation | None]:
     """The suspected mistake if it explains more, alone or beside one effect, than as many effects do by themselves.
 
-    Beside it what was found on the way of the recordings without it, or as they are; None where that is not known.
+    Where two of them explain all there is, only theirs and the foremost are tried beside the mistake. Returned with it
+    is what was found on the way of the recordings without it, or as they are; None where that is not known.
     """
-    mistake, left, beneath = doubt.mistake, doubt.after, None
+    mistake, left = doubt.mistake, doubt.after
     alone = explanation(right, 1)
     physics = unexplained(doubt, alone)
     if physics <= LITTLE:
         return None, alone
-    if left > LITTLE:
-        beneath = explanation(without(right, mistake), 1)
-        mistake, left = sharpened(doubt, right, model, beneath)
+    if left <= LITTLE:
+        return (mistake, None) if believed(doubt, left=left, physics=physics) else (None, alone)
+    pairs = explanation(right, 2, names=rivals(alone), after=alone)
+    enough = unexplained(doubt, pairs) <= LITTLE
+    beneath = explanation(without(right, mistake), 1, names=foremost(alone, pairs) if enough else None)
+    mistake, left = sharpened(doubt, right, model, beneath)
     if not believed(doubt, left=left, physics=physics):
-        return None, alone
-    if beneath and left > CLEAR * doubt.before:
-        pairs = explanation(right, 2, names=rivals(alone, beneath), after=alone)
+        return None, pairs
+    if left > CLEAR * doubt.before:
+        if not enough:
+            pairs = explanation(right, 2, names=rivals(alone, beneath), after=pairs)
         if not believed(doubt, left=left, physics=unexplained(doubt, pairs)):
             return None, pairs
-    return mistake, beneath if mistake is doubt.mistake else None
+    return mistake, beneath if mistake is doubt.mistake and not enough else None
 
 
 def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
