@@ -48,8 +48,7 @@ def correlation_time(x: Array) -> float:
     if n < 8 or not np.any(x):
         return 1.0
     size = 1 << (2 * n - 1).bit_length()  # a length with a large prime factor takes ten times as long
-    spectrum = np.abs(np.fft.rfft(x, size)) ** 2
-    rho = np.fft.irfft(spectrum)[:n]
+    rho = np.fft.irfft(_power(np.fft.rfft(x, size)))[:n]
     sums = 2.0 * np.cumsum(rho / rho[0]) - 1.0
     inside = np.nonzero(np.arange(n) >= 5.0 * sums)[0]
     return float(max(1.0, sums[inside[0] if inside.size else n - 1]))
@@ -77,8 +76,13 @@ def ringing_share(x: Array, length: int = 32) -> float:
         return 1.0
     # scipy's welch takes 30 times as long
     segments = np.lib.stride_tricks.sliding_window_view(x, length)[:: length // 2]
-    density = np.mean(np.abs(np.fft.rfft(segments * np.hanning(length + 1)[:-1])) ** 2, axis=0)[1:-1]
+    density = np.mean(_power(np.fft.rfft(segments * np.hanning(length + 1)[:-1])), axis=0)[1:-1]
     return float(np.max(density) / np.mean(density))
+
+
+def _power(spectrum: NDArray[np.complex128]) -> Array:
+    power: Array = spectrum.real**2 + spectrum.imag**2
+    return power
 
 
 def statistics(problem: OutputError, fitted: Fitted, *, drift: bool = True) -> Statistics:

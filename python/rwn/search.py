@@ -76,7 +76,7 @@ class Search:
         rows = apart(promising(best_of_each(rows, keep), start), look.samples)
         best_here = best * start / base.cost if np.isfinite(best) else best
         near = self._over_rough(rows, look, start, best_here)
-        finals = self._to_the_end(near, best, best_here)
+        finals = self._to_the_end(near, look, best_here)
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
             for racer, m in sorted(finals, key=lambda row: row[1].cost)
@@ -138,23 +138,24 @@ class Search:
         m = fit(problem or self.problem, racer.candidate, max_iterations=iterations, tolerance=RESOLUTION)
         return racer._replace(candidate=racer.candidate.starting_at(m.values)), m
 
-    def _to_the_end(self, rows: Sequence[Row], best: float, best_here: float) -> list[Row]:
-        """Every racer fitted until it converges, those that are hopeless and gain little by a few iterations.
+    def _to_the_end(self, rows: Sequence[Row], look: OutputError, best: float) -> list[Row]:
+        """Every racer fitted to all recordings, until it converges or, where it is hopeless and gains little, hardly.
 
-        `rows`: how far they came on the look, where `best_here` is the cost of the best.
+        `rows`: how far they came on the look, where they go on for a while; `best`: the least cost there that is known.
         """
-        bar = hopeless_from(rows, best_here)
-        soon = side_by_side(
-            lambda row: self._leg(row[0], IN_PASSING if _goes_on(row[1], bar) else HARDLY), rows
+        bar = hopeless_from(rows, best)
+        rows = side_by_side(
+            lambda row: self._leg(row[0], IN_PASSING, look) if _goes_on(row[1], bar) else row, rows
         )
-        bar = hopeless_from(soon, best)
+        bar = hopeless_from(rows, best)
 
-        def further(row: Row) -> Row:
+        def ended(row: Row) -> Row:
             racer, m = row
-            under_way = m.status is FitStatus.ITERATION_LIMIT
-            return self._leg(racer, TO_THE_END) if under_way and _goes_on(m, bar) else row
+            if look is self.problem and m.status is not FitStatus.ITERATION_LIMIT:
+                return row
+            return self._leg(racer, TO_THE_END if _goes_on(m, bar) else HARDLY)
 
-        return side_by_side(further, soon)
+        return side_by_side(ended, rows)
 
     def _over_rough(
         self, rows: Sequence[Row], problem: OutputError, base_cost: float, best: float
