@@ -11,6 +11,7 @@ import rwn
 from rwn.explain import explain
 from rwn.least_squares import FitStatus, Minimum
 from rwn.model import Model
+from rwn.output_error import OutputError
 from rwn.prepare import Setup, prepare
 from rwn.racer import Racer, Row
 from rwn.search import HARDLY, IN_PASSING, TO_THE_END, Search
@@ -60,40 +61,49 @@ def test_starts_of_a_drives_end_compete_per_first_guess_of_the_motor(lagging: Se
     assert kinds == {"speed-sensor-lag": {0, 1}, "backlash": {0}}
 
 
+ON_LOOK, ON_ALL = "look", "all"
+
+
 @pytest.mark.parametrize(
-    ("look", "whole", "known", "legs"),
+    ("raced", "later", "known", "legs"),
     [
-        ((100.0, 30.0), (100.0, 30.0), np.inf, [IN_PASSING, TO_THE_END]),
-        ((100.0, 90.0), (100.0, 90.0), np.inf, [HARDLY]),
-        ((1000.0, 400.0), (1000.0, 400.0), np.inf, [IN_PASSING, TO_THE_END]),
-        ((100.0, 90.0), (100.0, 30.0), np.inf, [HARDLY, TO_THE_END]),
-        ((50.0, 30.0), (50.0, 30.0), 2.0, [HARDLY]),
+        ((100.0, 30.0), {}, np.inf, [(ON_LOOK, IN_PASSING), (ON_ALL, TO_THE_END)]),
+        ((100.0, 90.0), {}, np.inf, [(ON_ALL, HARDLY)]),
+        ((1000.0, 400.0), {}, np.inf, [(ON_LOOK, IN_PASSING), (ON_ALL, TO_THE_END)]),
+        ((1000.0, 400.0), dict.fromkeys((ON_LOOK, ON_ALL), (400.0, 390.0)), np.inf,
+         [(ON_LOOK, IN_PASSING), (ON_ALL, HARDLY)]),
+        ((100.0, 90.0), {ON_ALL: (60.0, 30.0)}, np.inf, [(ON_ALL, HARDLY), (ON_ALL, TO_THE_END)]),
+        ((50.0, 30.0), {}, 2.0, [(ON_ALL, HARDLY)]),
     ],
-    ids=["near the best", "hopeless", "hopeless as yet, and falling", "hopeless on the look", "a better is known"],
-)
+    ids=["near the best", "hopeless", "hopeless as yet, and falling", "fell no further", "not hopeless on all",
+         "a better is known"],
+)  # fmt: skip
 def test_a_race_goes_on_with_what_may_still_win(
-    lagging: Setup, monkeypatch: pytest.MonkeyPatch, look: tuple[float, float], whole: tuple[float, float],
-    known: float, legs: list[int],
+    lagging: Setup, monkeypatch: pytest.MonkeyPatch, raced: tuple[float, float],
+    later: dict[str, tuple[float, float]], known: float, legs: list[tuple[str, int]],
 ) -> None:  # fmt: skip
-    """`look`, `whole`: first and last cost of another's legs, where the best has come to 10."""
+    """`raced`, `later`: first and last cost of another's legs, where the best has come to 10, as raced if not given."""
     search = Search.of(lagging)
+    look = search.part(search.fit_nominal(), 100)
     fitted = search.fit_nominal()
     best, other = (Racer(name, 0.0, 0, fitted.candidate) for name in ("best", "other"))
-    done = replace(fitted.minimum, cost=10.0, first=20.0)
+    done = replace(fitted.minimum, status=FitStatus.CONVERGED, cost=10.0, first=20.0)
 
     def under_way(costs: tuple[float, float]) -> Minimum:
-        return replace(fitted.minimum, status=FitStatus.ITERATION_LIMIT, first=costs[0], cost=costs[1])
+        return replace(fitted.minimum, status=FitStatus.ITERATION_LIMIT, first=costs[0], cost=costs[1], iterations=1)
 
-    run: list[int] = []
+    run: list[tuple[str, int]] = []
 
-    def leg(_: Search, racer: Racer, iterations: int) -> Row:
+    def leg(_: Search, racer: Racer, iterations: int, problem: OutputError | None = None) -> Row:
         if racer is best:
             return racer, done
-        run.append(iterations)
-        return racer, under_way(whole)
+        run.append((ON_LOOK if problem is look else ON_ALL, iterations))
+        if iterations == TO_THE_END:
+            return racer, replace(done, cost=raced[1])
+        return racer, under_way(later.get(run[-1][0], raced))
 
     monkeypatch.setattr(Search, "_leg", leg)
-    search._to_the_end([(best, done), (other, under_way(look))], known, known)
+    search._to_the_end([(best, done), (other, under_way(raced))], look, best_here=known, best=known)
     assert run == legs
 
 

@@ -59,3 +59,19 @@ def test_a_sensor_keeps_its_memory_where_friction_of_no_size_stops_the_motor() -
     plain = rwn.simulate(Model(kind="dc", parameters=motor), seen).signals["speed"]
     assert np.all(np.isfinite(speed))
     assert np.max(np.abs(speed - plain)) < 0.5 * np.max(np.abs(plain))
+
+
+def test_a_late_sensor_follows_a_speed_that_bends_within_a_sample() -> None:
+    """A lag that is shorter than a sample, and samples that are longer than L/R (trial 16 of test seed 10034)."""
+    voltage = np.repeat(np.random.default_rng(3).choice([-5.0, 5.0], 150), 4)
+
+    def seen(lag: float, parts: int) -> np.ndarray:
+        time = STEP / parts * np.arange(voltage.size * parts)
+        model = Model(kind="dc", parameters=MOTOR, effects={"speed-sensor-lag": {"time_constant": lag}})
+        run = rwn.Recording(name="prbs.csv", time=time, signals={"voltage": np.repeat(voltage, parts)})
+        return rwn.simulate(model, run).signals["speed"][::parts]
+
+    lag = 0.75 * STEP
+    fine = seen(lag, 16)
+    done = np.std(fine - seen(1e-3 * lag, 16))
+    assert np.std(seen(lag, 1) - fine) < 0.01 * done

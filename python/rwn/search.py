@@ -76,7 +76,7 @@ class Search:
         rows = apart(promising(best_of_each(rows, keep), start), look.samples)
         best_here = best * start / base.cost if np.isfinite(best) else best
         near = self._over_rough(rows, look, start, best_here)
-        finals = self._to_the_end(near, look, best_here)
+        finals = self._to_the_end(near, look, best_here=best_here, best=best)
         found = [
             Fitted(added=(*base.added, racer.name), candidate=racer.candidate, minimum=m)
             for racer, m in sorted(finals, key=lambda row: row[1].cost)
@@ -138,24 +138,34 @@ class Search:
         m = fit(problem or self.problem, racer.candidate, max_iterations=iterations, tolerance=RESOLUTION)
         return racer._replace(candidate=racer.candidate.starting_at(m.values)), m
 
-    def _to_the_end(self, rows: Sequence[Row], look: OutputError, best: float) -> list[Row]:
+    def _to_the_end(
+        self, rows: Sequence[Row], look: OutputError, *, best_here: float, best: float
+    ) -> list[Row]:
         """Every racer fitted to all recordings, until it converges or, where it is hopeless and gains little, hardly.
 
-        `rows`: how far they came on the look, where they go on for a while; `best`: the least cost there that is known.
+        `rows`: how far they came on the look, where they go on for a while. `best_here`, `best`: the least costs that
+        are known on the look and on all recordings.
         """
-        bar = hopeless_from(rows, best)
+        bar = hopeless_from(rows, best_here)
         rows = side_by_side(
             lambda row: self._leg(row[0], IN_PASSING, look) if _goes_on(row[1], bar) else row, rows
         )
+        bar = hopeless_from(rows, best_here)
+        rows = side_by_side(lambda row: self._on_all(row, look, bar), rows)
         bar = hopeless_from(rows, best)
 
-        def ended(row: Row) -> Row:
+        def late(row: Row) -> Row:
             racer, m = row
-            if look is self.problem and m.status is not FitStatus.ITERATION_LIMIT:
-                return row
-            return self._leg(racer, TO_THE_END if _goes_on(m, bar) else HARDLY)
+            hardly = _under_way(m) and m.iterations <= HARDLY
+            return self._leg(racer, TO_THE_END) if hardly and _goes_on(m, bar) else row
 
-        return side_by_side(ended, rows)
+        return side_by_side(late, rows)
+
+    def _on_all(self, row: Row, look: OutputError, bar: float) -> Row:
+        racer, m = row
+        if look is self.problem and not _under_way(m):
+            return row
+        return self._leg(racer, TO_THE_END if _goes_on(m, bar) else HARDLY)
 
     def _over_rough(
         self, rows: Sequence[Row], problem: OutputError, base_cost: float, best: float
@@ -259,6 +269,10 @@ def _has_room(this: Candidate, name: str) -> bool:
 def _goes_on(m: Minimum, bar: float) -> bool:
     """Whether a fit is not hopeless, or has gained much of late."""
     return m.cost < max(bar, STEEP * m.first)
+
+
+def _under_way(m: Minimum) -> bool:
+    return m.status is FitStatus.ITERATION_LIMIT
 
 
 def _bent(base: Fitted) -> bool:

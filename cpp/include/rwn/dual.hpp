@@ -197,6 +197,10 @@ struct Dual {
     const double e = std::exp(x.v);
     return x.chain(e, e);
   }
+  friend Dual expm1(const Dual& x) {
+    const double e = std::expm1(x.v);
+    return x.chain(e, 1.0 + e);
+  }
   friend Dual log(const Dual& x) { return x.chain(std::log(x.v), 1.0 / x.v); }
   friend Dual sin(const Dual& x) { return x.chain(std::sin(x.v), std::cos(x.v)); }
   friend Dual cos(const Dual& x) { return x.chain(std::cos(x.v), -std::sin(x.v)); }

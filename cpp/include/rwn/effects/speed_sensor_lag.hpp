@@ -23,14 +23,19 @@ struct SpeedSensorLag {
   static void begin(const S*, const Reading<S>& first, S* memory) {
     memory[0] = first.speed;
   }
-  /// Exact for speed that changes linearly over the step.
+  /// Exact for a speed that is quadratic over the step: that with these ends and this travel. Where the current settles
+  /// within a sample a straight line is not enough.
   template <class S>
   static void finish(const S* p, const Motor<S>&, const S& h, const Motion<S>& before, const Motion<S>& after,
                      S* memory) {
-    using std::exp;
-    const S slope = (after.speed - before.speed) / h;
-    const S settled = after.speed - p[0] * slope;
-    memory[0] = settled + (memory[0] - (before.speed - p[0] * slope)) * exp(-(h / p[0]));
+    using std::expm1;
+    const S x = h / p[0];
+    const S settled = -expm1(-x);  // answer to a step of 1, to a rise of 1 and to s (1 - s), s from 0 to 1
+    const S mean = settled / x;
+    const S risen = 1.0 - mean;
+    const S bowed = 2.0 * risen / x - mean;
+    const S bow = 6.0 * (after.travel / h) - 3.0 * (before.speed + after.speed);
+    memory[0] += settled * (before.speed - memory[0]) + risen * (after.speed - before.speed) + bowed * bow;
   }
   template <class S>
   static void sense(const S*, Reading<S>& y, const S* memory) {

@@ -1,0 +1,47 @@
+"""Starts that race for the same end."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from rwn.least_squares import FitStatus, Minimum
+from rwn.racer import Racer, Row, apart
+
+SAMPLES = 100
+BEST = (1.0, 2.0)
+
+
+def _row(name: str, values: tuple[float, float], cost: float) -> Row:
+    information = np.diag([1e4, 1.0])
+    m = Minimum(
+        values=np.array(values), chi2=cost, cost=cost, first=2.0 * cost, information=information,
+        data_information=information, status=FitStatus.CONVERGED, iterations=3,
+    )  # fmt: skip
+    return Racer(name, 0.0, 0, cast(Any, SimpleNamespace())), m
+
+
+@pytest.mark.parametrize(
+    ("other", "kept"),
+    [
+        (("drag", (1.0001, 2.5), 100.3), 1),
+        (("drag", (1.1, 2.0), 100.3), 2),  # as good, elsewhere
+        (("drag", (1.0001, 2.5), 105.0), 2),  # near, and not yet as good
+        (("lag", BEST, 100.0), 2),
+    ],
+    ids=["met", "another minimum", "under way", "another effect"],
+)
+def test_of_starts_that_have_met_the_better_goes_on(other: tuple[str, tuple[float, float], float], kept: int) -> None:
+    rows = [_row(*other), _row("drag", BEST, 100.0)]
+    left = apart(rows, SAMPLES)
+    assert len(left) == kept
+    assert any(racer.name == "drag" and m.cost == 100.0 for racer, m in left)
+
+
+def test_where_the_error_is_large_starts_have_met_from_farther_off() -> None:
+    rows = [_row("drag", BEST, 1e4), _row("drag", (1.0, 7.0), 1e4 + 50.0)]
+    assert len(apart(rows, SAMPLES)) == 1
+    assert len(apart(rows, int(1e4))) == 2
