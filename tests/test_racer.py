@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
@@ -21,7 +20,7 @@ def _row(name: str, values: tuple[float, float], cost: float) -> Row:
         values=np.array(values), chi2=cost, cost=cost, first=2.0 * cost, information=information,
         data_information=information, status=FitStatus.CONVERGED, iterations=3,
     )  # fmt: skip
-    return Racer(name, 0.0, 0, cast(Any, SimpleNamespace())), m
+    return Racer(name, 0.0, 0, cast(Any, None)), m
 
 
 @pytest.mark.parametrize(

@@ -79,10 +79,10 @@ def rivals(*explanations: Explanation) -> list[str]:
     """
     table = explanations[0].setup.nominal.table
     ends = [name for name, effect in table.items() if effect.at_an_end]
-    return list(dict.fromkeys([*ends, *foremost(*explanations)]))
+    return list(dict.fromkeys([*ends, *first_effects(*explanations)]))
 
 
-def foremost(*explanations: Explanation) -> list[str]:
+def first_effects(*explanations: Explanation) -> list[str]:
     """The effects of the first hypotheses of each."""
     first = [name for of in explanations for h in of.hypotheses[:FIRST] for name in h.fitted.added]
     return list(dict.fromkeys(first))

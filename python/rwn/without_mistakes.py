@@ -9,7 +9,7 @@ from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
 from rwn.gear_ratio import gear_ratio
 from rwn.mistakes import GEAR, Mistake, without
 from rwn.model import Model
-from rwn.out_of_step import CLEAR, LITTLE, Suspicion, believed, foremost, rivals, sharpened, suspected, unexplained
+from rwn.out_of_step import CLEAR, LITTLE, Suspicion, believed, first_effects, rivals, sharpened, suspected, unexplained
 from rwn.prepare import prepare
 from rwn.recording import Recording
 from rwn.wrong_scale import wrong_scale
@@ -83,7 +83,7 @@ def _settled(
         return (mistake, None) if believed(doubt, left=left, physics=physics) else (None, alone)
     pairs = explanation(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(doubt, pairs) <= LITTLE
-    beneath = explanation(without(right, mistake), 1, names=foremost(alone, pairs) if enough else None)
+    beneath = explanation(without(right, mistake), 1, names=first_effects(alone, pairs) if enough else None)
     mistake, left = sharpened(doubt, right, model, beneath)
     if not believed(doubt, left=left, physics=physics):
         return None, pairs
