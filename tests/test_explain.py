@@ -19,6 +19,7 @@ from rwn.model import Model
 from rwn.prepare import Setup, prepare
 from rwn.search import Search
 from rwn.simpler import with_simpler
+from rwn.speed_measurement import SpeedMeasurement
 from rwn.temper import tempered
 
 DEMO = Path(rwn.__file__).parent / "demo"
@@ -71,7 +72,7 @@ def test_the_ends_of_a_difference_are_not_compared(setup: Setup) -> None:
         for t in setup.problem.targets:
             speed = t.speed.copy()
             speed[[0, -1]] += ends
-            targets.append(replace(t, speed=speed, speed_is_difference=True))
+            targets.append(replace(t, speed=speed, speed_measured=SpeedMeasurement.CENTRAL))
         problem, this = replace(setup.problem, targets=tuple(targets)), candidate(setup.nominal, (), setup.scales)
         (first, *_) = problem.residuals(this.vector, this.active)
         return [problem.error(this.vector, this.active), float(np.sum(first["speed"] ** 2))]

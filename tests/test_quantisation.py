@@ -9,34 +9,9 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.quantisation import counted, lattice, mean_rounding_error
+from rwn.quantisation import mean_rounding_error
 
 DEMO = Path(rwn.__file__).parent / "demo"
-TIME = np.arange(4000) * 1e-3
-ANGLE = 200.0 * TIME - 30.0 * np.sin(8.0 * TIME)
-
-
-def test_encoder_counts_are_found_where_no_value_repeats() -> None:
-    counts = 4096
-    step = 2.0 * np.pi / counts
-    seen = step * np.floor(ANGLE / step)
-    assert np.unique(seen).size > seen.size / 3
-    assert lattice(np.round(seen, 9)) == pytest.approx(step, rel=1e-7)
-
-
-def test_the_difference_of_counts_is_told_from_a_coarse_converter() -> None:
-    step = 2.0 * np.pi / 1024
-    speed = np.gradient(step * np.floor(ANGLE / step), 1e-3)
-    assert counted(TIME, speed)
-    coarse = 2.337 * np.round(np.gradient(ANGLE, 1e-3) / 2.337)
-    assert lattice(coarse) == pytest.approx(2.337)
-    assert not counted(TIME, coarse)
-
-
-def test_the_decimals_of_a_file_are_no_lattice() -> None:
-    rng = np.random.default_rng(0)
-    assert lattice(np.round(100.0 * rng.standard_normal(4000), 3)) == 0.0
-    assert lattice(100.0 * rng.standard_normal(4000)) == 0.0
 
 
 def test_a_coarse_speed_signal_is_named() -> None:

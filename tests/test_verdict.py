@@ -17,6 +17,7 @@ from rwn.fitted import Fitted
 from rwn.output_error import Target
 from rwn.prepare import CLOCK, noise_levels, prepare
 from rwn.proof import LEFT_OUT
+from rwn.speed_measurement import SpeedMeasurement
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -94,7 +95,7 @@ def test_only_the_speed_is_as_exact_as_encoder_counts() -> None:
     current = np.round(rng.standard_normal(time.size) / 0.5) * 0.01  # a converter whose step is half of the noise
     target = Target(
         name="coarse", time=time, input=0.0 * time, current=current, speed=counts, position=counts,
-        speed_is_difference=True,
+        speed_measured=SpeedMeasurement.CENTRAL,
     )  # fmt: skip
     levels = noise_levels([target], [{"current": current, "speed": current, "position": current}])
     assert levels["current"] == pytest.approx(0.02, rel=0.3)

@@ -54,24 +54,11 @@ void predict(std::span<const double> measured, double persistence, std::size_t e
 
 }  // namespace
 
-void central_difference(std::span<const double> time, std::span<const double> position, std::span<double> speed,
-                        std::size_t width) {
-  const std::size_t n = time.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t before = k == 0 ? 0 : k - 1;
-    const std::size_t after = std::min(k + 1, n - 1);
-    const double inverse = 1.0 / (time[after] - time[before]);
-    for (std::size_t j = 0; j < width; ++j) {
-      speed[k * width + j] = (position[after * width + j] - position[before * width + j]) * inverse;
-    }
-  }
-}
-
 NormalEquations normal_equations(const SimulationTask& task, const Measurements& measured) {
   const std::size_t n = task.time.size();
   const std::size_t p = task.by.size();
-  const bool difference = measured.speed_measurement == SpeedMeasurement::central_difference;
-  const bool wants_position = !measured.position.empty() || (difference && !measured.speed.empty());
+  const bool differs = !measured.speed.empty() && measured.speed_measurement != SpeedMeasurement::instantaneous;
+  const bool wants_position = !measured.position.empty() || differs;
   const auto room = [&](bool wanted, std::size_t width) { return std::vector<double>(wanted ? n * width : 0); };
   std::vector<double> current = room(!measured.current.empty(), 1), d_current = room(!measured.current.empty(), p);
   std::vector<double> speed = room(!measured.speed.empty(), 1), d_speed = room(!measured.speed.empty(), p);
@@ -81,9 +68,9 @@ NormalEquations normal_equations(const SimulationTask& task, const Measurements&
   sum.gradient.assign(p, 0.0);
   sum.curvature.assign(p * p, 0.0);
   sum.status = simulate(task, {current, speed, position, d_current, d_speed, d_position});
-  if (difference && !measured.speed.empty()) {
-    central_difference(task.time, position, speed, 1);
-    central_difference(task.time, d_position, d_speed, p);
+  if (differs) {
+    difference(measured.speed_measurement, task.time, position, speed, 1);
+    difference(measured.speed_measurement, task.time, d_position, d_speed, p);
   }
   const int columns = static_cast<int>(p), stride = padded(columns);
   const auto row = static_cast<std::size_t>(stride);

@@ -16,7 +16,8 @@ from rwn import _core
 from rwn.effects import motor_index
 from rwn.locate import unknown_inputs
 from rwn.output_error import OutputError, Target
-from rwn.prepare import integral, motion
+from rwn.prepare import motion
+from rwn.speed_measurement import integral
 
 Array = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ def along_the_shaft(problem: OutputError, vector: Array, active: Sequence[int]) 
     for target in problem.targets:
         if target.follows and target.angle_from_speed and target.speed.size:
             run = problem.simulate(target, vector, active).signals
-            shown = integral(target.time, run["speed"])
+            shown = integral(target.speed_measured, target.time, run["speed"])
             angle = target.angle - (shown - (run["position"] - run["position"][0]))
             target = replace(target, angle=angle, angle_from_speed=False)
         targets.append(target)

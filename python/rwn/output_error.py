@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.least_squares import Normal
+from rwn.speed_measurement import SpeedMeasurement, difference
 from rwn.threads import side_by_side
 
 Array = NDArray[np.float64]
@@ -32,7 +33,7 @@ class Target:
     current: Array = field(default_factory=lambda: _NONE)
     speed: Array = field(default_factory=lambda: _NONE)
     position: Array = field(default_factory=lambda: _NONE)
-    speed_is_difference: bool = False  # speed was computed as the central difference of the position
+    speed_measured: SpeedMeasurement = SpeedMeasurement.INSTANTANEOUS
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     input_before: float = 0.0
     angle: Array = field(
@@ -54,11 +55,17 @@ class Target:
     @cached_property
     def compared_speed(self) -> Array:
         """The speed without the ends of a difference, for which there are as many formulas as makers (NaN there)."""
-        if not self.speed_is_difference:
+        if not self.speed_measured.is_difference:
             return self.speed
         speed = self.speed.copy()
-        speed[[0, -1]] = np.nan
+        speed[self.beyond_the_ends] = np.nan
         return speed
+
+    @cached_property
+    def beyond_the_ends(self) -> list[int]:
+        """Indices of samples at which the difference that the speed is would reach outside the recording."""
+        before, after = self.speed_measured.reach
+        return [0] * bool(before) + [-1] * bool(after)
 
     @property
     def followed(self) -> Array:
@@ -135,9 +142,9 @@ class OutputError:
         )  # fmt: skip
         signals = dict(zip(SIGNALS, arrays[:3], strict=True))
         slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
-        if target.speed_is_difference:
-            signals["speed"] = central_difference(target.time, signals["position"])
-            slopes["speed"] = central_difference(target.time, slopes["position"])
+        if target.speed_measured.is_difference:
+            signals["speed"] = difference(target.speed_measured, target.time, signals["position"])
+            slopes["speed"] = difference(target.speed_measured, target.time, slopes["position"])
         return Output(status=status, signals=signals, slopes=slopes)
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
@@ -146,8 +153,8 @@ class OutputError:
         def one(target: Target) -> dict[str, Array]:
             out = self.simulate(target, vector, active).signals
             left = {s: target.signal(s) - out[s] for s in target.recorded}
-            if target.speed_is_difference:
-                left["speed"][[0, -1]] = 0.0
+            if target.speed.size:
+                left["speed"][target.beyond_the_ends] = 0.0
             return left
 
         return side_by_side(one, self.targets)
@@ -181,21 +188,10 @@ class OutputError:
         status, chi2, count, gradient, curvature = _core.normal_equations(
             self.kind, target.time, target.input, vector, list(active), list(by), target.current,
             target.compared_speed, target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS],
-            target.speed_is_difference, self.angle_per_position, target.input_before, target.followed,
+            target.speed_measured, self.angle_per_position, target.input_before, target.followed,
             target.angle_from_speed, target.restart_every, target.restart_speed, target.restart_position,
             self.order, self.own, [self.persistence.get(s, 0.0) for s in SIGNALS],
         )  # fmt: skip
         return CountedNormal(
             chi2=chi2, gradient=gradient, curvature=curvature, count=count, finite=status == "ok"
         )
-
-
-def central_difference(time: Array, position: Array) -> Array:
-    """Central difference over `time` (n,) of `position` (n,) or (n, p), one-sided at the ends."""
-    n = time.size
-    before = np.maximum(np.arange(n) - 1, 0)
-    after = np.minimum(np.arange(n) + 1, n - 1)
-    span = time[after] - time[before]
-    change = position[after] - position[before]
-    result: Array = change / (span if position.ndim == 1 else span[:, None])
-    return result

@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 
 from rwn.candidate import Nominal, candidate, fit
 from rwn.effects import motor_index, motor_parameters
+from rwn.lattice import lattice
 from rwn.model import Model
 from rwn.output_error import OutputError, Target
-from rwn.quantisation import counted, lattice, quantisation
+from rwn.quantisation import quantisation
 from rwn.recording import Recording
 from rwn.scales import scales
 from rwn.smoothing import LENGTHS, smooth, smoothing_length
+from rwn.speed_measurement import SpeedMeasurement, integral, speed_measurement
 from rwn.transfer_error import TransferError
 from rwn.transfer_start import first_guesses
 
@@ -103,6 +105,7 @@ def target(recording: Recording, model: Model) -> Target:
     empty = np.empty(0)
     speed, position = signals.get("speed", empty), signals.get("position", empty)
     rest = model.recording.initial == "rest"
+    way = SpeedMeasurement.INSTANTANEOUS if model.kind == "lti" else speed_measurement(time, speed, position)
     start_speed = 0.0 if rest else _start_speed(time, speed, position)
     return Target(
         name=recording.name,
@@ -111,10 +114,10 @@ def target(recording: Recording, model: Model) -> Target:
         current=signals.get("current", empty) if model.kind == "dc" else empty,
         speed=speed,
         position=position,
-        speed_is_difference=model.kind != "lti" and counted(time, speed),
+        speed_measured=way,
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
-        angle=position if position.size else integral(time, speed),
+        angle=position if position.size else integral(way, time, speed),
         angle_from_speed=position.size == 0,
     )
 
@@ -165,7 +168,7 @@ def noise_levels(targets: Sequence[Target], residuals: Sequence[Mapping[str, Arr
         steps = float(np.median([quantisation(t, signal) for t in targets]))
         found = [_noise(r[signal]) for r in residuals if r[signal].size > 8]
         rough = max(float(np.median(found)) if found else 1.0, 1e-12)
-        encoder = signal == "position" or (signal == "speed" and any(t.speed_is_difference for t in targets))
+        encoder = signal == "position" or (signal == "speed" and any(t.speed_measured.is_difference for t in targets))
         levels[signal] = steps if steps and encoder else max(steps, rough)
     if "position" in levels:
         levels["position"] = max(levels["position"], CLOCK * max(float(np.ptp(t.position)) for t in targets))
@@ -184,14 +187,6 @@ def _start_speed(time: Array, speed: Array, position: Array) -> float:
         return float(np.mean(speed[:5]))
     k = min(20, time.size - 1)
     return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if position.size else 0.0
-
-
-def integral(time: Array, speed: Array) -> Array:
-    """What a speed has turned since its first sample, by trapezia; (n,), empty where it was not recorded."""
-    if not speed.size:
-        return speed
-    steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(time)
-    return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def _with_motion(target: Target, simulated: Mapping[str, Array]) -> dict[str, Array]:

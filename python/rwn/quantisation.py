@@ -1,4 +1,4 @@
-"""Signals that come in steps: encoder counts, their differences, and converters that are too coarse."""
+"""What rounding adds to a signal: of encoder counts, their differences, and converters that are too coarse."""
 
 from __future__ import annotations
 
@@ -8,71 +8,25 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.lattice import lattice
 from rwn.output_error import OutputError, Target
 
 Array = NDArray[np.float64]
 
 
-def lattice(signal: Array) -> float:
-    """The step of the lattice that the values lie on, as encoder counts and their differences do; 0: none.
-
-    A step of 1, 2 or 5 in some decimal is how numbers are written; it counts only where the values repeat.
-    """
-    if signal.size < 20:
-        return 0.0
-    values: Array = np.unique(np.round(signal - signal[0], 12))
-    gaps = np.diff(values)
-    gaps = gaps[gaps > 1e-9 * max(float(np.ptp(values)), 1e-300)]
-    if gaps.size < 2:
-        return 0.0
-    step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 5)]))
-    values = np.asarray(values[np.argsort(np.abs(values))], dtype=np.float64)
-    size = 8
-    while True:  # the step is known the better, the further it has been counted
-        part = values[:size]
-        counts = np.round(part / step)
-        step = float(part @ counts / max(float(counts @ counts), 1.0))
-        if size >= values.size or step <= 0.0:
-            break
-        size *= 2
-    if step <= 0.0:
-        return 0.0
-    off = np.abs(values / step - np.round(values / step))
-    repeats = values.size < signal.size / 3
-    return step if np.percentile(off, 95) < 0.1 and (repeats or not _decimal(step)) else 0.0
-
-
-def _decimal(step: float) -> bool:
-    """Whether a step is 1, 2 or 5 in some decimal place."""
-    leading = step / 10.0 ** np.floor(np.log10(step) + 1e-9)
-    return bool(min(abs(leading / m - 1.0) for m in (1.0, 2.0, 5.0, 10.0)) < 1e-4)
-
-
-def counted(time: Array, speed: Array) -> bool:
-    """Whether a speed signal is the central difference of encoder counts.
-
-    Its step is then half a count per sample time, with a whole number of counts per revolution.
-    """
-    step = lattice(speed)
-    if step == 0.0:
-        return False
-    counts = np.pi / (step * float(np.median(np.diff(time))))
-    return bool(counts > 3.0 and abs(counts - round(counts)) < max(0.01, 3e-6 * counts))
-
-
 def quantisation(target: Target, signal: str) -> float:
     """Standard deviation of the quantisation of a signal; 0 where its values lie on no lattice.
 
-    q / sqrt(12) for steps of q; the central difference of counts, steps of q / 2T, has q / sqrt(24) / T.
+    q / sqrt(12) for steps of q, q / sqrt(6) where these are of a difference, which holds two roundings.
     """
     step = lattice(target.signal(signal))
-    difference = signal == "speed" and target.speed_is_difference
+    difference = signal == "speed" and target.speed_measured.is_difference
     return float(step / np.sqrt(6.0 if difference else 12.0))
 
 
 def speed_resolution(target: Target, residual: Array) -> float:
     """The step of a speed signal that a coarse converter rounds, where that is much of the residual; else 0."""
-    step = 0.0 if target.speed_is_difference else lattice(target.speed)
+    step = 0.0 if target.speed_measured.is_difference else lattice(target.speed)
     share = step**2 / 12.0 / max(float(np.nanmean(residual**2)), 1e-300)
     return step if share > COARSE else 0.0
 

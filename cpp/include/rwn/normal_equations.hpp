@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "rwn/simulate.hpp"
+#include "rwn/speed_measurement.hpp"
 
 namespace rwn {
-
-/// How a recorded speed was obtained: by a tachometer, or offline as the central difference of the position.
-enum class SpeedMeasurement { instantaneous, central_difference };
 
 /// Recorded signals of one recording; empty spans are signals that were not recorded. NaN samples do not count.
 struct Measurements {
@@ -29,10 +27,6 @@ struct NormalEquations {
   std::vector<double> gradient;   // (p) J'r with r = weighted (measured - simulated)
   std::vector<double> curvature;  // (p, p) J'J
 };
-
-/// Replaces `speed` by the central difference of `position` over `time` (one-sided at the ends); rows are `width` wide.
-void central_difference(std::span<const double> time, std::span<const double> position, std::span<double> speed,
-                        std::size_t width);
 
 /// Simulates `task` (its derivatives by `task.by`) and accumulates the normal equations against `measured`.
 NormalEquations normal_equations(const SimulationTask& task, const Measurements& measured);
