@@ -9,7 +9,7 @@ from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
 from rwn.gear_ratio import gear_ratio
 from rwn.mistakes import GEAR, Mistake, without
 from rwn.model import Model
-from rwn.out_of_step import CLEAR, LITTLE, Suspicion, believed, first_effects, rivals, sharpened, suspected, unexplained
+from rwn.out_of_step import CLEAR, LITTLE, SLIGHT, Suspicion, believed, first_effects, rivals, sharpened, suspected, unexplained
 from rwn.prepare import prepare
 from rwn.recording import Recording
 from rwn.wrong_scale import wrong_scale
@@ -92,6 +92,8 @@ def _settled(
             pairs = explanation(right, 2, names=rivals(alone, beneath), after=pairs)
         if not believed(doubt, left=left, physics=unexplained(doubt, pairs)):
             return None, pairs
+    elif unexplained(doubt, pairs) < left + SLIGHT:
+        return None, pairs
     return mistake, beneath if mistake is doubt.mistake and not enough else None
 
 
