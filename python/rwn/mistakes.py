@@ -18,6 +18,7 @@ SIGN = "wrong-sign"
 GEAR = "wrong-gear-ratio"
 SHIFT = "time-shift"
 MOTION = ("speed", "position")  # signals of one shaft
+LINE = 4  # samples
 SURE = 0.99  # probability that is stated of a mistake; those that fit alike share it
 
 
@@ -35,13 +36,18 @@ class Mistake:
     also: tuple[str, ...] = ()  # other mistakes that these recordings do not tell from it
 
     def undo(self, recording: Recording) -> Recording:
-        """The recording as it should have been; where a signal came late, all are cut to what is left."""
+        """The recording as it should have been; where a signal came late, all are cut to what is left.
+
+        Where one came early, what it was before its first sample is not known: the run begins where the input does.
+        """
         n = len(recording) - max(self.delay, 0)
         signals = {name: np.array(values[:n]) for name, values in recording.signals.items()}
-        for name in self.signals:
-            if name in signals:
-                signals[name] = _moved(np.array(recording.signals[name]), self.delay)[:n] / self.factor
-        return replace(recording, time=recording.time[:n], signals=signals)
+        moved = [name for name in self.signals if name in signals]
+        for name in moved:
+            signals[name] = _moved(np.array(recording.signals[name]), self.delay)[:n] / self.factor
+        early = dict.fromkeys(moved, -self.delay) if self.delay < 0 else {}
+        known = {**recording.known_from, **early}
+        return replace(recording, time=recording.time[:n], signals=signals, known_from=known)
 
     def levels(self, noise: Mapping[str, float]) -> dict[str, float]:
         """Noise levels of the signals once it is undone."""
@@ -68,6 +74,14 @@ def without(recordings: Sequence[Recording], mistake: Mistake) -> list[Recording
 
 
 def _moved(values: Array, delay: int) -> Array:
-    if delay < 0:  # it came early: what was before the first sample is at rest
-        return np.concatenate([np.full(-delay, values[0]), values[:delay]])
+    if delay < 0:
+        return np.concatenate([_before(values, -delay), values[:delay]])
     return values[delay:]
+
+
+def _before(values: Array, samples: int) -> Array:
+    """A guess at the samples before the first: along the line through as many that follow, and some more."""
+    count = min(samples + LINE, values.size)
+    slope, first = np.polyfit(np.arange(count), values[:count], 1)
+    before: Array = first + slope * np.arange(-samples, 0)
+    return before

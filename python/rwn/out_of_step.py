@@ -69,7 +69,7 @@ def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None
 
 
 def unexplained(doubt: Suspicion, found: Explanation) -> float:
-    """Mean squared error above the noise, in units of it, that physics leaves of the recordings as they are."""
+    """Mean squared error above the noise, in units of it, that physics leaves of the recordings, shifted or not."""
     return _left(found.setup, found.closest, doubt.noise)
 
 

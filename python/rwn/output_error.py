@@ -34,6 +34,7 @@ class Target:
     speed: Array = field(default_factory=lambda: _NONE)
     position: Array = field(default_factory=lambda: _NONE)
     speed_measured: SpeedMeasurement = SpeedMeasurement.INSTANTANEOUS
+    known_from: Mapping[str, int] = field(default_factory=dict)  # first measured sample, of signals that begin late
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     input_before: float = 0.0
     angle: Array = field(
@@ -52,20 +53,30 @@ class Target:
         """A recorded signal by name; empty where it was not recorded."""
         return {"current": self.current, "speed": self.speed, "position": self.position}[name]
 
-    @cached_property
-    def compared_speed(self) -> Array:
-        """The speed without the ends of a difference, for which there are as many formulas as makers (NaN there)."""
-        if not self.speed_measured.is_difference:
-            return self.speed
-        speed = self.speed.copy()
-        speed[self.beyond_the_ends] = np.nan
-        return speed
+    def measured(self, name: str) -> Array:
+        """A recorded signal from its first measured sample on."""
+        return self.signal(name)[self.known_from.get(name, 0) :]
 
     @cached_property
-    def beyond_the_ends(self) -> list[int]:
-        """Indices of samples at which the difference that the speed is would reach outside the recording."""
-        before, after = self.speed_measured.reach
-        return [0] * bool(before) + [-1] * bool(after)
+    def compared(self) -> Mapping[str, Array]:
+        """The signals, NaN where they are not compared."""
+        signals = {}
+        for name in SIGNALS:
+            signal = self.signal(name)
+            if signal.size and (outside := self.outside(name)):
+                signal = signal.copy()
+                signal[outside] = np.nan
+            signals[name] = signal
+        return signals
+
+    def outside(self, name: str) -> list[int]:
+        """Indices of samples that were not measured, or where a difference would reach outside the recording.
+
+        For the ends of a difference there are as many formulas as makers.
+        """
+        before, after = self.speed_measured.reach if name == "speed" else (0, 0)
+        first = self.known_from.get(name, 0) + before
+        return [*range(first), *([-1] if after else [])]
 
     @property
     def followed(self) -> Array:
@@ -153,8 +164,8 @@ class OutputError:
         def one(target: Target) -> dict[str, Array]:
             out = self.simulate(target, vector, active).signals
             left = {s: target.signal(s) - out[s] for s in target.recorded}
-            if target.speed.size:
-                left["speed"][target.beyond_the_ends] = 0.0
+            for signal in left:
+                left[signal][target.outside(signal)] = 0.0
             return left
 
         return side_by_side(one, self.targets)
@@ -185,9 +196,10 @@ class OutputError:
         self, target: Target, vector: Array, active: Sequence[int], by: Sequence[int]
     ) -> CountedNormal:
         """Normal equations of one recording whose start is part of `vector`."""
+        seen = target.compared
         status, chi2, count, gradient, curvature = _core.normal_equations(
-            self.kind, target.time, target.input, vector, list(active), list(by), target.current,
-            target.compared_speed, target.position, [1.0 / self.noise.get(s, 1.0) for s in SIGNALS],
+            self.kind, target.time, target.input, vector, list(active), list(by), seen["current"], seen["speed"],
+            seen["position"], [1.0 / self.noise.get(s, 1.0) for s in SIGNALS],
             target.speed_measured, self.angle_per_position, target.input_before, target.followed,
             target.angle_from_speed, target.restart_every, target.restart_speed, target.restart_position,
             self.order, self.own, [self.persistence.get(s, 0.0) for s in SIGNALS],

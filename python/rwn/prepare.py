@@ -45,7 +45,7 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     whole = _whole(targets, model)
     if model.kind == "lti" and not model.parameters:
         nominal = _started(whole, nominal, first_guesses(targets, model.order))
-    count = max((lattice(t.position) for t in targets), default=0.0)
+    count = max((lattice(t.measured("position")) for t in targets), default=0.0)
     if count > 0.0 and model.recording.initial == "rest":
         # a counter that was zeroed anywhere within a count: else the free run is off by up to one count for ever
         nominal = replace(nominal, free={"initial_position": 0.0}, reach={"initial_position": 1.5 * count})
@@ -105,7 +105,10 @@ def target(recording: Recording, model: Model) -> Target:
     empty = np.empty(0)
     speed, position = signals.get("speed", empty), signals.get("position", empty)
     rest = model.recording.initial == "rest"
-    way = SpeedMeasurement.INSTANTANEOUS if model.kind == "lti" else speed_measurement(time, speed, position)
+    known = max(recording.known_from.values(), default=0)
+    way = SpeedMeasurement.INSTANTANEOUS
+    if model.kind != "lti":
+        way = speed_measurement(time[known:], speed[known:], position[known:])
     start_speed = 0.0 if rest else _start_speed(time, speed, position)
     return Target(
         name=recording.name,
@@ -115,6 +118,7 @@ def target(recording: Recording, model: Model) -> Target:
         speed=speed,
         position=position,
         speed_measured=way,
+        known_from=recording.known_from,
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
         angle=position if position.size else integral(way, time, speed),

@@ -19,14 +19,14 @@ def quantisation(target: Target, signal: str) -> float:
 
     q / sqrt(12) for steps of q, q / sqrt(6) where these are of a difference, which holds two roundings.
     """
-    step = lattice(target.signal(signal))
+    step = lattice(target.measured(signal))
     difference = signal == "speed" and target.speed_measured.is_difference
     return float(step / np.sqrt(6.0 if difference else 12.0))
 
 
 def speed_resolution(target: Target, residual: Array) -> float:
     """The step of a speed signal that a coarse converter rounds, where that is much of the residual; else 0."""
-    step = 0.0 if target.speed_measured.is_difference else lattice(target.speed)
+    step = 0.0 if target.speed_measured.is_difference else lattice(target.measured("speed"))
     share = step**2 / 12.0 / max(float(np.nanmean(residual**2)), 1e-300)
     return step if share > COARSE else 0.0
 

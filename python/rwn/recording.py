@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -24,7 +24,8 @@ Array = NDArray[np.float64]
 class Recording:
     """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in the SI units of `rwn.signals`.
 
-    `linear`: a linear axis (m, m/s, N) instead of a shaft. Arrays are made float64, contiguous and read-only.
+    `linear`: a linear axis (m, m/s, N) instead of a shaft. `known_from`: first sample of a signal that was measured,
+    where those before it are a guess that nothing is compared with. Arrays are made float64, contiguous and read-only.
     Raises InputError when lengths differ, an array is not a real vector or a signal's name is unknown.
     """
 
@@ -34,6 +35,7 @@ class Recording:
     source: str = ""
     linear: bool = False
     warnings: tuple[str, ...] = ()
+    known_from: Mapping[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         time = _vector(self.name, "time", self.time)

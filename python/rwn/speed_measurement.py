@@ -97,19 +97,19 @@ def _repeats(time: Array, speed: Array, position: Array, way: SpeedMeasurement) 
 
 
 def _of_counts(time: Array, speed: Array) -> SpeedMeasurement:
-    """Steps of half a count per sample time, or of one, with a whole number of counts per revolution.
+    """By their steps, and by what these hold near half the sampling rate.
 
-    The central difference (q[k+1] - q[k-1]) / 2T holds nothing at half the sampling rate, that over one sample most
-    there; what a coarse converter rounds does neither.
+    The central difference (q[k+1] - q[k-1]) / 2T vanishes there, whatever gear is between encoder and shaft; that over
+    one sample, with a whole number of counts per revolution, holds most there; what a coarse converter rounds neither.
     """
     step = lattice(speed)
     if step == 0.0:
         return SpeedMeasurement.INSTANTANEOUS
-    counts = np.pi / (step * float(np.median(np.diff(time))))
     quarter = _power(speed, 0.2, 0.3)
-    if _whole(counts) and _power(speed, 0.48, 0.5) < VANISHING * quarter:
+    if _power(speed, 0.48, 0.5) < VANISHING * quarter:
         return SpeedMeasurement.CENTRAL
-    if _whole(2.0 * counts) and _power(speed, 0.4, 0.5) > RISING * quarter:
+    counts = 2.0 * np.pi / (step * float(np.median(np.diff(time))))
+    if _whole(counts) and _power(speed, 0.4, 0.5) > RISING * quarter:
         return SpeedMeasurement.BACKWARD
     return SpeedMeasurement.INSTANTANEOUS
 

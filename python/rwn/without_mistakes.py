@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Protocol
 
 from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
 from rwn.gear_ratio import gear_ratio
 from rwn.mistakes import GEAR, Mistake, without
 from rwn.model import Model
-from rwn.out_of_step import CLEAR, LITTLE, SLIGHT, Suspicion, believed, first_effects, rivals, sharpened, suspected, unexplained
+from rwn.out_of_step import (
+    BETTER,
+    CLEAR,
+    LITTLE,
+    SLIGHT,
+    Suspicion,
+    believed,
+    first_effects,
+    rivals,
+    sharpened,
+    suspected,
+    unexplained,
+)
 from rwn.prepare import prepare
 from rwn.recording import Recording
-from rwn.wrong_scale import wrong_scale
+from rwn.wrong_scale import as_gear, wrong_scale
 
 MOST_SCALES = 2  # wrong at a time
+MOST_SHARPENED = 3  # times that a delay is told more exactly, with what was found beneath it
 WRONG = 0.01  # relative error of a gear ratio, from which what is beneath it is explained anew
 
 
@@ -49,7 +63,16 @@ def explained(
         made, right = [*made, mistake], without(right, mistake)
     found = singly if singly and singly.complete else explanation(right, after=singly)
     gear = next((m for m in made if m.name == GEAR), None)
-    return _geared(gear, made, recordings, model, found, explanation) if gear else (made, found)
+    if gear:
+        return _geared(gear, made, recordings, model, found, explanation)
+    unit = next((m for m in made if GEAR in m.also), None)
+    if unit and not found.left.at_the_floor:
+        gear = as_gear(unit, model)
+        others = [gear if m is unit else m for m in made]
+        geared, beneath = _geared(gear, others, recordings, model, found, explanation)
+        if beneath.left.at_the_floor:  # of another ratio than the unit's
+            return geared, beneath
+    return made, found
 
 
 def _geared(
@@ -71,8 +94,9 @@ def _settled(
 ) -> tuple[Mistake | None, Explanation | None]:
     """The suspected mistake if it explains more, alone or beside one effect, than as many effects do by themselves.
 
-    Where two of them explain all there is, only theirs and the foremost are tried beside the mistake. Returned with it
-    is what was found on the way of the recordings without it, or as they are; None where that is not known.
+    Or if all there is is explained beneath it, by however many. Where two effects explain all without it, only theirs
+    and the foremost are tried beside it. Returned with it is what was found on the way of the recordings without it,
+    or as they are; None where that is not known.
     """
     mistake, left = doubt.mistake, doubt.after
     alone = explanation(right, 1)
@@ -83,10 +107,18 @@ def _settled(
         return (mistake, None) if believed(doubt, left=left, physics=physics) else (None, alone)
     pairs = explanation(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(doubt, pairs) <= LITTLE
-    beneath = explanation(without(right, mistake), 1, names=first_effects(alone, pairs) if enough else None)
-    mistake, left = sharpened(doubt, right, model, beneath)
+    names = first_effects(alone, pairs) if enough else None
+    for _ in range(MOST_SHARPENED):
+        doubt, undone = replace(doubt, mistake=mistake), mistake
+        beneath = explanation(without(right, undone), 1, names=names)
+        mistake, left = sharpened(doubt, right, model, beneath)
+        if mistake is undone:
+            break
     if not believed(doubt, left=left, physics=physics):
-        return None, pairs
+        if enough or mistake is not undone or left > BETTER * physics:
+            return None, pairs
+        beneath = explanation(without(right, mistake), after=beneath)
+        return (mistake, beneath) if unexplained(doubt, beneath) <= LITTLE else (None, pairs)
     if left > CLEAR * doubt.before:
         if not enough:
             pairs = explanation(right, 2, names=rivals(alone, beneath), after=pairs)
@@ -94,7 +126,7 @@ def _settled(
             return None, pairs
     elif unexplained(doubt, pairs) < left + SLIGHT:
         return None, pairs
-    return mistake, beneath if mistake is doubt.mistake and not enough else None
+    return mistake, beneath if mistake is undone and not enough else None
 
 
 def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:

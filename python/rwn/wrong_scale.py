@@ -29,6 +29,7 @@ LEFT = 0.3  # misfit that it may leave; 0.3 is a correlation of 0.85
 FAR = 1.4  # size of a signal against its simulation from which its scale is doubted
 SAME = 0.05  # relative difference between a size and a unit's factor that nothing has to account for
 WIDEST = 0.3  # the same where the data sheet is poor and physics is missing
+PLAIN = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
 GEARED = 2.0  # size from which a gear is believed: what slows a motor by so much does not leave its transients alike
 GEAR_LIKE = 1.5  # size from which a gear is tried beside physics
 SURELY = 3.0  # standard deviations of the data sheet that a gear ratio has to be away from 1
@@ -101,7 +102,8 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Mistake | None
         before = float(np.mean([seen[s].misfit(1.0) for s in judged]))
         left = float(np.mean([undone[s] for s in judged]))
         everywhere = float(np.mean(list(undone.values())))
-        if left < min((1.0 - REMOVED[mistake.name]) * before, LEFT) and everywhere < least:
+        most = (1.0 - REMOVED[mistake.name]) * before
+        if left < (most if _plain(mistake.factor) else min(most, LEFT)) and everywhere < least:
             best, least = mistake, everywhere
     return best
 
@@ -166,7 +168,11 @@ def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool
     """Sign and units of a group of signals that its size allows, and a gear ratio where it is all of the motion."""
     yield _turned(group)
     leeway = _leeway(seen, model)
-    units = {f: text for f, text in _units(group, model).items() if abs(np.log(seen.ratio / f)) < leeway}
+    units = {
+        f: text
+        for f, text in _units(group, model).items()
+        if abs(np.log(seen.ratio / f)) < (np.log(PLAIN) / 2.0 if _plain(f) else leeway)
+    }
     if not whole:
         yield from _in_units(group, units)
         return
@@ -205,10 +211,19 @@ def gear(group: tuple[str, ...], factor: float, spread: float) -> Mistake:
     return Mistake(name=GEAR, signals=group, factor=factor, spread=spread, meaning=text)
 
 
+def as_gear(unit: Mistake, model: Model) -> Mistake:
+    """What is told as a unit, as the ratio of a gear in its place."""
+    return gear(unit.signals, unit.factor, _spread(model))
+
+
 def _units(group: tuple[str, ...], model: Model) -> dict[float, str]:
     if group[0] in MOTION and not model.linear:
         return SPEED_UNITS if "speed" in group else ANGLE_UNITS
     return THOUSANDS
+
+
+def _plain(factor: float) -> bool:
+    return bool(abs(np.log(abs(factor))) > np.log(PLAIN))
 
 
 def _spread(model: Model) -> float:
