@@ -13,6 +13,7 @@ from rwn import words
 from rwn.diagnosis import Beneath
 from rwn.mistakes import without as undone
 from rwn.out_of_step import suspected
+from rwn.prepare import prepare
 from rwn.without_mistakes import explained
 from rwn.wrong_scale import wrong_scale
 
@@ -110,6 +111,58 @@ def test_a_channel_out_of_step_is_seen_through_missing_physics(model: rwn.Model)
     made, found = explained([altered(friction, ("current",), delay=6)], model, say=silent)
     assert [(m.name, m.delay) for m in made] == [("time-shift", 6)]
     assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+
+
+def test_nothing_is_compared_where_an_early_channel_was_not_measured(model: rwn.Model) -> None:
+    """Its first value in place of the unknown ones made what lies beneath `unexplained`."""
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    run = replace(friction, time=friction.time[:-6], signals={s: v[:-6] for s, v in friction.signals.items()})
+    early = replace(run, signals={**run.signals, "current": friction.signals["current"][6:]})
+    made, found = explained([early], model, say=silent)
+    assert [(m.name, m.delay) for m in made] == [("time-shift", -6)]
+    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+    assert found.left.at_the_floor
+    (recording,) = undone([early], made[0])
+    assert recording.known_from == {"current": 6}
+    assert np.array_equal(recording.signals["current"][6:], run.signals["current"][6:])
+
+    def errors(guess: float) -> list[float]:
+        current = recording.signals["current"].copy()
+        current[:6] += guess
+        problem = prepare([replace(recording, signals={**recording.signals, "current": current})], model).problem
+        problem = replace(problem, noise=found.setup.problem.noise)
+        best = found.closest
+        (left,) = problem.residuals(best.vector, best.candidate.active)
+        return [problem.error(best.vector, best.candidate.active), float(np.sum(left["current"] ** 2))]
+
+    assert errors(0.0) == errors(1e3)
+
+
+@pytest.mark.parametrize(
+    ("names", "factor"), [(("current",), 1e3), (("speed",), 60.0 / (2.0 * np.pi)), (("speed",), 180.0 / np.pi)]
+)
+def test_units_are_seen_through_physics_that_slows_the_motor(
+    model: rwn.Model, names: tuple[str, ...], factor: float
+) -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    braked = replace(model, parameters={**model.parameters, "viscous_friction": 2.5e-4})
+    out = rwn.simulate(braked, recording).signals
+    signals = {"voltage": recording.signals["voltage"], "current": out["current"], "speed": out["speed"]}
+    found = wrong_scale([altered(replace(recording, signals=signals), names, factor)], model)
+    assert found is not None
+    assert (found.name, found.signals, found.factor) == ("wrong-unit", names, pytest.approx(factor))
+
+
+def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model) -> None:
+    """A delay and one effect explain nearly as much of it as a lag and that effect, but not as much."""
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    time, speed = friction.time, np.array(friction.signals["speed"])
+    share = 1.0 - np.exp(-float(time[1] - time[0]) / 4e-3)
+    for k in range(1, time.size):
+        speed[k] = speed[k - 1] + share * (speed[k] - speed[k - 1])
+    made, found = explained([replace(friction, signals={**friction.signals, "speed": speed})], model, say=silent)
+    assert made == []
+    assert set(found.hypotheses[0].fitted.added) == {"coulomb-friction", "speed-sensor-lag"}
 
 
 def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rwn.Recording) -> None:

@@ -35,6 +35,10 @@ def test_differences_of_counts_are_told_from_a_coarse_converter(counts: int) -> 
     assert speed_measurement(TIME, coarse, NONE) is SpeedMeasurement.INSTANTANEOUS
 
 
+def test_a_central_difference_is_known_through_a_gear() -> None:
+    assert speed_measurement(TIME, 0.36612 * difference(CENTRAL, TIME, counted(ANGLE, 1024)), NONE) is CENTRAL
+
+
 @pytest.mark.parametrize("noise", [0.0, 0.1, 0.5])
 def test_a_coarse_converter_whose_step_fits_an_encoder_is_no_difference_of_counts(noise: float) -> None:
     """Of steps that no encoder of few counts makes, one in fifty comes near a whole number (trial 58 of seed 10035)."""

@@ -167,12 +167,7 @@ def _mean(of: Sequence[Likeness]) -> Likeness:
 def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool) -> Iterator[Mistake]:
     """Sign and units of a group of signals that its size allows, and a gear ratio where it is all of the motion."""
     yield _turned(group)
-    leeway = _leeway(seen, model)
-    units = {
-        f: text
-        for f, text in _units(group, model).items()
-        if abs(np.log(seen.ratio / f)) < (np.log(PLAIN) / 2.0 if _plain(f) else leeway)
-    }
+    units = {f: text for f, text in _units(group, model).items() if _allowed(f, group, seen, model)}
     if not whole:
         yield from _in_units(group, units)
         return
@@ -220,6 +215,19 @@ def _units(group: tuple[str, ...], model: Model) -> dict[float, str]:
     if group[0] in MOTION and not model.linear:
         return SPEED_UNITS if "speed" in group else ANGLE_UNITS
     return THOUSANDS
+
+
+def _allowed(factor: float, group: tuple[str, ...], seen: Likeness, model: Model) -> bool:
+    """Whether what the data sheet and missing physics leave open makes a signal's size of a unit's factor.
+
+    Missing physics slows a motor: where numbers are too large, it may be slower than its model by more than faster.
+    """
+    off = float(np.log(seen.ratio / factor))
+    if _plain(factor):
+        return bool(abs(off) < np.log(PLAIN) / 2.0)
+    if group[0] in MOTION and factor > 1.0:
+        return -WIDEST < off < max(SURELY * _spread(model), SAME)
+    return abs(off) < _leeway(seen, model)
 
 
 def _plain(factor: float) -> bool:
