@@ -68,6 +68,20 @@ def test_what_is_gained_below_the_noise_is_no_gain(found: Explanation, monkeypat
     assert verdict.choose(found).fitted.added == ("coulomb-friction",)
 
 
+def test_most_of_a_coarse_speed_s_error_is_a_gain_beneath_its_steps(
+    found: Explanation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What the steps do on average is known: a backlash of 0.9 of their size was passed over (10034, trial 24)."""
+    errors = {(): {"speed": 0.9}, ("coulomb-friction",): {"speed": 0.1}}
+    monkeypatch.setattr(verdict, "_variances", lambda _, h: errors.get(h.fitted.added, errors[()]))
+    monkeypatch.setattr(verdict, "farthest", lambda _: 1.0)
+    coarse = replace(found, speed_steps=(1.0,))
+    assert verdict.choose(found).fitted.added == ()
+    assert verdict.choose(coarse).fitted.added == ("coulomb-friction",)
+    errors["coulomb-friction",]["speed"] = 0.6
+    assert verdict.choose(coarse).fitted.added == ()
+
+
 @pytest.mark.parametrize(
     ("without", "with_it", "named"),
     [(12.0, 1.0, "coulomb-friction"), (3.0, 1.0, None), (12.0, 6.0, None)],

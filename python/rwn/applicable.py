@@ -6,7 +6,7 @@ import numpy as np
 
 from rwn.prepare import Setup
 
-HALF_A_TURN = 0.5  # travel in revolutions, from which a torque of the angle is more than a load and a spring
+A_SIXTH = 1.0 / 6.0  # travel in revolutions, from which a torque of the angle is more than a load and a spring
 
 
 def applicable(name: str, setup: Setup) -> bool:
@@ -24,7 +24,7 @@ def applicable(name: str, setup: Setup) -> bool:
     if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
         if any(p.replaces for p in effect.parameters) and setup.problem.angle_per_position == 1.0:
             return True  # of a shaft that rubs, a part of a turn shows where it rubs more
-        return _revolutions(setup) > HALF_A_TURN
+        return _revolutions(setup) > A_SIXTH
     if name == "viscous-friction":
         return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
     signals = {s for t in setup.problem.targets for s in t.recorded}

@@ -28,6 +28,7 @@ INEXACT = 0.002  # relative change in squared error that the simulation's own er
 ROUGH = 0.05  # the same where a contact makes the error rough
 SIMULATED = 1e-6  # share of the squared error that an explanation removes, to which the simulation is exact
 DOUBTFUL = 2.0  # squared error of a signal, in units of its noise, from which it is off at all
+COARSELY = 0.5  # share of the squared error of a coarse speed that a name has to be below, whatever its steps
 MATERIAL = 0.015  # smallest relative gain in squared error that is called physics
 
 
@@ -46,8 +47,15 @@ def choose(found: Explanation) -> Hypothesis:
 
 
 def _is_material(found: Explanation, h: Hypothesis) -> bool:
-    """Whether the recordings alone, whatever was declared, are explained better."""
-    return 1.0 - _above_noise(found, h) / _above_noise(found, found.nothing_missing) >= MATERIAL
+    """Whether the recordings alone, whatever was declared, are explained better.
+
+    Where the speed is coarse its steps count as noise, but what they do on average was taken out of it: what is left
+    of half of that is no chance.
+    """
+    nothing = found.nothing_missing
+    if found.speed_steps and _variances(found, h)["speed"] < COARSELY * _variances(found, nothing)["speed"]:
+        return True
+    return 1.0 - _above_noise(found, h) / _above_noise(found, nothing) >= MATERIAL
 
 
 def _beyond_belief(found: Explanation, h: Hypothesis) -> bool:
