@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from made_up_motor import MOTOR, plant
 
 import rwn
+from made_up_motor import MOTOR, plant
 from rwn.applicable import applicable
 from rwn.prepare import prepare
 

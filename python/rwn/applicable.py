@@ -7,6 +7,7 @@ import numpy as np
 from rwn.prepare import Setup
 
 A_SIXTH = 1.0 / 6.0  # travel in revolutions, from which a torque of the angle is more than a load and a spring
+HALF_A_METRE = 0.5  # the same of a linear axis, where nothing repeats by the metre
 
 
 def applicable(name: str, setup: Setup) -> bool:
@@ -22,9 +23,10 @@ def applicable(name: str, setup: Setup) -> bool:
     if any(p.lattice for p in effect.parameters):
         return False  # read off the values, not fitted
     if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
-        if any(p.replaces for p in effect.parameters) and setup.problem.angle_per_position == 1.0:
+        turns = setup.problem.angle_per_position == 1.0
+        if turns and any(p.replaces for p in effect.parameters):
             return True  # of a shaft that rubs, a part of a turn shows where it rubs more
-        return _revolutions(setup) > A_SIXTH
+        return _revolutions(setup) > (A_SIXTH if turns else HALF_A_METRE)
     if name == "viscous-friction":
         return setup.nominal.uncertainty.get("viscous_friction", 0.0) == 0.0
     signals = {s for t in setup.problem.targets for s in t.recorded}
