@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
 from rwn.gear_ratio import gear_ratio
@@ -39,6 +39,15 @@ class Explain(Protocol):
         self, of: Sequence[Recording], at_once: int = ..., *, names: Sequence[str] | None = ...,
         after: Explanation | None = ...,
     ) -> Explanation: ...  # fmt: skip
+
+
+class Followed(NamedTuple):
+    """A delay, what was found beneath it, and the squared error that is left (see `sharpened`)."""
+
+    mistake: Mistake
+    beneath: Explanation
+    left: float
+    exact: bool  # `beneath` was found with this delay undone, not with one near it
 
 
 def explained(
@@ -98,24 +107,18 @@ def _settled(
     and the foremost are tried beside it. Returned with it is what was found on the way of the recordings without it,
     or as they are; None where that is not known.
     """
-    mistake, left = doubt.mistake, doubt.after
     alone = explanation(right, 1)
     physics = unexplained(doubt, alone)
     if physics <= LITTLE:
         return None, alone
-    if left <= LITTLE:
-        return (mistake, None) if believed(doubt, left=left, physics=physics) else (None, alone)
+    if doubt.after <= LITTLE:
+        return (doubt.mistake, None) if believed(doubt, left=doubt.after, physics=physics) else (None, alone)
     pairs = explanation(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(doubt, pairs) <= LITTLE
     names = first_effects(alone, pairs) if enough else None
-    for _ in range(MOST_SHARPENED):
-        doubt, undone = replace(doubt, mistake=mistake), mistake
-        beneath = explanation(without(right, undone), 1, names=names)
-        mistake, left = sharpened(doubt, right, model, beneath)
-        if mistake is undone:
-            break
+    mistake, beneath, left, exact = _followed(doubt, right, model, explanation, names)
     if not believed(doubt, left=left, physics=physics):
-        if enough or mistake is not undone or left > BETTER * physics:
+        if enough or not exact or left > BETTER * physics:
             return None, pairs
         beneath = explanation(without(right, mistake), after=beneath)
         return (mistake, beneath) if unexplained(doubt, beneath) <= LITTLE else (None, pairs)
@@ -126,7 +129,21 @@ def _settled(
             return None, pairs
     elif unexplained(doubt, pairs) < left + SLIGHT:
         return None, pairs
-    return mistake, beneath if mistake is undone and not enough else None
+    return mistake, beneath if exact and not enough else None
+
+
+def _followed(
+    doubt: Suspicion, right: Sequence[Recording], model: Model, explanation: Explain, names: Sequence[str] | None
+) -> Followed:
+    """The suspected delay, told again by what is found beneath it until that tells the same."""
+    mistake = doubt.mistake
+    for _ in range(MOST_SHARPENED):
+        undone = mistake
+        beneath = explanation(without(right, undone), 1, names=names)
+        mistake, left = sharpened(replace(doubt, mistake=undone), right, model, beneath)
+        if mistake is undone:
+            break
+    return Followed(mistake, beneath, left, mistake is undone)
 
 
 def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Mistake], list[Recording]]:
