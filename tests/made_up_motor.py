@@ -41,11 +41,16 @@ def plant(voltage: Array, torque: Torque, *, step: float = 1e-3, parts: int = 6)
     return np.array(rows)
 
 
+def shaking(rng: np.random.Generator, t: Array) -> Array:
+    """A voltage of three tones, in steps of 10 mV."""
+    tones = zip((9.0, 6.0, 3.0), rng.uniform(0.4, 3.0, 3), rng.uniform(0.0, 6.0, 3), strict=True)
+    return np.asarray(np.round(sum(a * np.sin(2 * np.pi * f * t + p) for a, f, p in tones), 2))
+
+
 def recorded(seed: int, torque: Torque, samples: int = 2000) -> rwn.Recording:
     rng = np.random.default_rng(seed)
     t = 1e-3 * np.arange(samples)
-    tones = zip((9.0, 6.0, 3.0), rng.uniform(0.4, 3.0, 3), rng.uniform(0.0, 6.0, 3), strict=True)
-    voltage = np.round(sum(a * np.sin(2 * np.pi * f * t + p) for a, f, p in tones), 2)
+    voltage = shaking(rng, t)
     rows = plant(voltage, torque)
     signals = {
         "voltage": voltage,

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 import rwn
-from made_up_motor import MOTOR, plant
+from made_up_motor import MOTOR, plant, shaking
 from rwn.candidate import candidate
 from rwn.prepare import prepare
 from rwn.speed_measurement import DIFFERENCES, SpeedMeasurement, difference, integral, speed_measurement
@@ -99,8 +99,7 @@ def _model() -> rwn.Model:
 
 def _recorded(seed: int, way: SpeedMeasurement, *, counts: int, friction: float) -> rwn.Recording:
     rng, t = np.random.default_rng(seed), 1e-3 * np.arange(3000)
-    tones = zip((9.0, 6.0, 3.0), rng.uniform(0.4, 3.0, 3), rng.uniform(0.0, 6.0, 3), strict=True)
-    voltage = np.round(sum(a * np.sin(2 * np.pi * f * t + p) for a, f, p in tones), 2)
+    voltage = shaking(rng, t)
     rows = plant(voltage, lambda w, _: -friction * np.tanh(w / 0.05), parts=8)
     signals = {
         "voltage": voltage,

@@ -1,16 +1,17 @@
 #include "rwn/speed_measurement.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
 namespace rwn {
 
 SpeedMeasurement speed_measurement_of(std::string_view name) {
-  if (name == "instantaneous") return SpeedMeasurement::instantaneous;
-  if (name == "central_difference") return SpeedMeasurement::central_difference;
-  if (name == "backward_difference") return SpeedMeasurement::backward_difference;
-  if (name == "forward_difference") return SpeedMeasurement::forward_difference;
+  constexpr std::string_view names[] = {"instantaneous", "central_difference", "backward_difference",
+                                        "forward_difference"};
+  const auto* found = std::find(std::begin(names), std::end(names), name);
+  if (found != std::end(names)) return static_cast<SpeedMeasurement>(found - std::begin(names));
   throw std::invalid_argument("no speed measurement is called '" + std::string(name) + "'");
 }
 

@@ -29,8 +29,8 @@ SpeedMeasurement speed_measurement_of(std::string_view name);
 
 /// Replaces `speed` by the difference of `position` over `time`; rows are `width` wide.
 ///
-/// At an end, where it would reach outside, the difference over the nearest sample. Not for an instantaneous speed; needs
-/// two samples at least.
+/// At an end, where it would reach outside, the difference over the nearest sample. Not for an instantaneous speed;
+/// needs two samples at least.
 void difference(SpeedMeasurement measurement, std::span<const double> time, std::span<const double> position,
                 std::span<double> speed, std::size_t width);
 
