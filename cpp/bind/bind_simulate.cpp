@@ -62,7 +62,7 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
               const std::vector<int>& active, const std::vector<int>& by, double angle_per_position,
               double input_before, const Array& angle, bool angle_from_speed, int restart_every,
               const Array& restart_speed, const Array& restart_position, int order,
-              const std::vector<OwnEffect>& own) {
+              const std::vector<OwnEffect>& own, std::optional<Work*> work) {
   const auto n = time.size();
   const auto p = static_cast<py::ssize_t>(by.size());
   std::vector<Array> out;
@@ -82,7 +82,8 @@ py::tuple run(const std::string& kind, const Array& time, const Array& input, co
                             view(restart_speed),
                             view(restart_position),
                             order,
-                            own};
+                            own,
+                            work.value_or(nullptr)};
   const bool electrical = task.kind == Kind::dc;
   if (!electrical) {  // an axis has no current: untouched zeros
     const py::object zeros = py::module_::import("numpy").attr("zeros");
@@ -114,6 +115,7 @@ void bind_simulate(py::module_& m) {
         "by"_a, "angle_per_position"_a = 1.0, "input_before"_a = 0.0, "angle"_a = Array(0),
         "angle_from_speed"_a = false, "restart_every"_a = 0, "restart_speed"_a = Array(0),
         "restart_position"_a = Array(0), "order"_a = 0, "own"_a = std::vector<OwnEffect>{},
+        "work"_a = std::optional<Work*>{},
         "Returns status, current, speed, position (n) and their derivatives (n, p).");
 }
 

@@ -4,6 +4,7 @@
 
 namespace rwn::bind {
 void bind_own_effect(py::module_& m);
+void bind_work(py::module_& m);
 void bind_inverse_dynamics(py::module_& m);
 void bind_normal_equations(py::module_& m);
 void bind_simulate(py::module_& m);
@@ -26,6 +27,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.attr("__version__") = RWN_VERSION;
   m.def("isa", [] { return std::string(rwn::to_string(rwn::isa())); }, "Instruction set in use.");
   bind_own_effect(m);
+  bind_work(m);
   bind_inverse_dynamics(m);
   bind_normal_equations(m);
   bind_simulate(m);

@@ -149,6 +149,7 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
 
   const auto programs = programs_of(task.own);
   bool formula_failed = false;
+  long work = 0;
   SimulationSlice slice{task.time.data(),
                         task.input.data(),
                         static_cast<int>(task.time.size()),
@@ -177,7 +178,8 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         first_coefficient(),
                         programs.data(),
                         first_own_parameter(),
-                        &formula_failed};
+                        &formula_failed,
+                        &work};
   int finite = slice.samples;
   do {
     const int width = width_for(columns - slice.column, slice.masses);
@@ -185,6 +187,7 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
     slice.column += std::max(width, 1);
   } while (slice.column < columns && finite == slice.samples);
 
+  if (task.work != nullptr) task.work->add(work);
   if (finite == slice.samples) return SimulationStatus::ok;
   for (const auto& signal : {output.current, output.speed, output.position}) hold_last(signal, finite);
   for (const auto& slope : {output.d_current, output.d_speed, output.d_position}) {

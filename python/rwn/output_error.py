@@ -128,7 +128,12 @@ class OutputError:
     persistence: Mapping[str, float] = field(
         default_factory=dict
     )  # correlation of a signal's error with the one before; `noise` is then that of what is new in each
+    work: _core.Work = field(default_factory=_core.Work, compare=False)  # what all simulations have cost
     colour: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
+
+    def metered(self) -> OutputError:
+        """The same problem with a meter of its own."""
+        return replace(self, work=_core.Work())
 
     @property
     def samples(self) -> int:
@@ -149,7 +154,7 @@ class OutputError:
         status, *arrays = _core.simulate(
             self.kind, target.time, target.input, self.parameters_for(target, vector, active), list(active), list(by),
             self.angle_per_position, target.input_before, target.followed, target.angle_from_speed,
-            target.restart_every, target.restart_speed, target.restart_position, self.order, self.own,
+            target.restart_every, target.restart_speed, target.restart_position, self.order, self.own, self.work,
         )  # fmt: skip
         signals = dict(zip(SIGNALS, arrays[:3], strict=True))
         slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
@@ -203,6 +208,7 @@ class OutputError:
             target.speed_measured, self.angle_per_position, target.input_before, target.followed,
             target.angle_from_speed, target.restart_every, target.restart_speed, target.restart_position,
             self.order, self.own, [self.persistence.get(s, 0.0) for s in SIGNALS],
+            self.work,
         )  # fmt: skip
         return CountedNormal(
             chi2=chi2, gradient=gradient, curvature=curvature, count=count, finite=status == "ok"

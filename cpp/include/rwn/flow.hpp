@@ -24,17 +24,34 @@ double norm_of(const SmallMatrix<S, n>& a) {
   return norm;
 }
 
-/// |A| h from which on the products of matrices are fewer.
-inline constexpr double longest_flow = 16.0;
+/// Parts in which a length is gone along, of which each has |A| h < 1.
+template <class S>
+int parts_of_flow(double reach) {
+  return 1 + static_cast<int>(reach);
+}
 
-/// Takes x over h of x' = A x + f(t), and adds the integral of x to `way`; `norm` is |A|, and norm h at most
-/// `longest_flow`.
+/// |A| h from which on matrices are made sooner: with derivatives, and of values alone.
+inline constexpr double longest_flow = 6.0, longest_flow_of_values = 1.0;
+
+/// Terms of the series over |A| h = `reach` <= 1, behind which it and its quadrature are below rounding.
+template <class S>
+int terms_of_flow(double reach) {
+  int k = 3;  // the first with all of f
+  for (double left = reach / 4.0; left > 1e-15; left *= reach / (k + 1.0)) ++k;
+  return k;
+}
+
+/// Takes x over h of x' = A x + f(t), and adds the integral of x to `way`; `norm` is |A|.
 template <class S, int n>
 void flow(const SmallMatrix<S, n>& a, double norm, double h, const Flow<S, n>& f, SmallVector<S, n>& x,
           SmallVector<S, n>& way) {
-  constexpr int terms = 17;  // 1 / 18! is far below rounding
-  const int parts = 1 + static_cast<int>(norm * h);
+  const int parts = parts_of_flow<S>(norm * h);
   const double length = h / parts;
+  const int terms = terms_of_flow<S>(norm * length);
+  SmallMatrix<S, n> columns;  // so that a product goes on in all rows at once
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) columns[j * n + i] = a[i * n + j];
+  }
   for (int part = 0; part < parts; ++part) {
     const double at = static_cast<double>(part) / parts;  // where the part begins, of h
     SmallVector<S, n> term = x, sum = x, integral = x;
@@ -47,7 +64,9 @@ void flow(const SmallMatrix<S, n>& a, double norm, double h, const Flow<S, n>& f
       } else if (k == 3) {
         for (std::size_t j = 0; j < n; ++j) next[j] = 0.5 / parts / parts * f.quadratic[j];
       }
-      add_product<S, n>(next, a, term);
+      for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t i = 0; i < n; ++i) add_product(next[i], columns[j * n + i], term[j]);
+      }
       for (std::size_t j = 0; j < n; ++j) {
         term[j] = (length / k) * next[j];
         sum[j] += term[j];

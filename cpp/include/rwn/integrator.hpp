@@ -33,6 +33,9 @@ class Integrator {
     if (dry_) s.direction = value_of(s.x[w]) > 0.0 ? 1.0 : value_of(s.x[w]) < 0.0 ? -1.0 : 0.0;
   }
 
+  /// Of all steps so far.
+  const StepCounts& counts() const { return stepper_.counts(); }
+
   /// Advances `s` over `h` from time `time` with constant input.
   void advance(State& s, const S& h, const S& input, double time) {
     equations_.begin(input, time + 0.5 * value_of(h));

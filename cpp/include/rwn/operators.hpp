@@ -6,6 +6,7 @@
 
 #include "rwn/equations.hpp"
 #include "rwn/flow.hpp"
+#include "rwn/step_counts.hpp"
 
 namespace rwn {
 
@@ -18,6 +19,7 @@ class Operators {
  public:
   using Matrix = typename Equations<S, kind, masses>::Matrix;
   using Vector = typename Equations<S, kind, masses>::Vector;
+  using Value = typename S::Value;
   static constexpr int n = Equations<S, kind, masses>::n;
 
   /// The linear part, and its values.
@@ -28,28 +30,30 @@ class Operators {
     double norm = 0.0;
   };
 
+  /// In scalar T: S, or values alone.
+  template <class T>
   struct Step {
     double h = -1.0;
     Regime regime{};
-    Matrix e{}, p1{}, p2{};                // whole step: e^{Ah}, h phi1, h^2 phi2 (p2 of linear steps only)
-    Matrix eh{}, p1h{}, f1{}, f2{}, f3{};  // half step and Cox-Matthews weights (nonlinear steps only)
+    SmallMatrix<T, n> e{}, p1{}, p2{};                // whole step: e^{Ah}, h phi1, h^2 phi2 (p2 of linear steps only)
+    SmallMatrix<T, n> eh{}, p1h{}, f1{}, f2{}, f3{};  // half step and Cox-Matthews weights (nonlinear steps only)
 
     /// x after half the step with f.
     Vector half(const Vector& x, const Vector& f) const {
-      Vector y{};
-      add_product<S, n>(y, eh, x);
-      add_product<S, n>(y, p1h, f);
-      return y;
+      SmallVector<T, n> y{};
+      add_product<T, n>(y, eh, in<T>(x));
+      add_product<T, n>(y, p1h, in<T>(f));
+      return in<S>(y);
     }
 
     /// x after the step with f at its start, `middle` twice the mean of f halfway, and `last` at its end.
     Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
-      Vector y{};
-      add_product<S, n>(y, e, x);
-      add_product<S, n>(y, f1, f);
-      add_product<S, n>(y, f2, middle);
-      add_product<S, n>(y, f3, last);
-      return y;
+      SmallVector<T, n> y{};
+      add_product<T, n>(y, e, in<T>(x));
+      add_product<T, n>(y, f1, in<T>(f));
+      add_product<T, n>(y, f2, in<T>(middle));
+      add_product<T, n>(y, f3, in<T>(last));
+      return in<S>(y);
     }
   };
 
@@ -58,6 +62,9 @@ class Operators {
   struct Passage {
     SmallMatrix<T, n> a;
     double norm, h;
+
+    /// Parts in which the series of a nonlinear step are gone along.
+    int parts() const { return 3 * parts_of_flow<S>(0.5 * norm * h) + parts_of_flow<S>(norm * h); }
 
     Vector half(const Vector& x, const Vector& f) const { return over(0.5 * h, x, {as<T>(f)}); }
 
@@ -78,6 +85,8 @@ class Operators {
     }
   };
 
+  StepCounts counts;  // kept by those who step
+
   explicit Operators(const Equations<S, kind, masses>& equations) : equations_(equations) {}
 
   const System& system(const Regime& regime) {
@@ -91,13 +100,21 @@ class Operators {
     return slot;
   }
 
-  const Step& over(double h, const Regime& regime) {
-    for (const Step& o : steps_) {
+  const Step<S>& over(double h, const Regime& regime) {
+    for (const Step<S>& o : steps_) {
       if (std::abs(o.h - h) <= 1e-9 * h && o.regime == regime) return o;
     }
-    Step& slot = next_of(steps_, next_step_);
+    Step<S>& slot = next_of(steps_, next_step_);
+    ++counts.matrices;
     make(slot, h, regime);
     return slot;
+  }
+
+  /// The values, of a length that does not come back.
+  const Step<Value>& values_over(double h, const Regime& regime) {
+    ++counts.matrices_of_values;
+    make(passing_, h, regime);
+    return passing_;
   }
 
   template <class T>
@@ -113,6 +130,16 @@ class Operators {
     return a;
   }
 
+  /// As `as`, without a copy where it is of that scalar.
+  template <class T, class From>
+  static decltype(auto) in(const SmallVector<From, n>& x) {
+    if constexpr (std::is_same_v<T, From>) {
+      return (x);
+    } else {
+      return as<T>(x);
+    }
+  }
+
  private:
   /// The oldest of the last few.
   template <class List>
@@ -120,14 +147,16 @@ class Operators {
     return list[std::exchange(next, (next + 1) % list.size())];
   }
 
-  static Matrix scaled(Matrix a, double h) {
-    for (S& entry : a) entry *= h;
+  template <class T>
+  static SmallMatrix<T, n> scaled(SmallMatrix<T, n> a, double h) {
+    for (T& entry : a) entry *= h;
     return a;
   }
 
-  void make(Step& o, double h, const Regime& regime) {
-    const Matrix a = system(regime).a;
-    const PhiFunctions<S, n> f = phi_functions<S, n>(scaled(a, h));
+  template <class T>
+  void make(Step<T>& o, double h, const Regime& regime) {
+    const SmallMatrix<T, n> a = as<T>(system(regime).a);
+    const PhiFunctions<T, n> f = phi_functions<T, n>(scaled(a, h));
     o.h = h;
     o.regime = regime;
     o.e = f.p0;
@@ -136,17 +165,18 @@ class Operators {
       o.p2 = scaled(f.p2, h * h);
       return;
     }
-    const PhiFunctions<S, n> half = phi_functions<S, n>(scaled(a, 0.5 * h));
+    const PhiFunctions<T, n> half = phi_functions<T, n>(scaled(a, 0.5 * h));
     o.eh = half.p0;
     o.p1h = scaled(half.p1, 0.5 * h);
-    o.f1 = scaled(combine<S, n>(1.0, combine<S, n>(1.0, f.p1, -3.0, f.p2), 4.0, f.p3), h);
-    o.f2 = scaled(combine<S, n>(2.0, f.p2, -4.0, f.p3), h);
-    o.f3 = scaled(combine<S, n>(-1.0, f.p2, 4.0, f.p3), h);
+    o.f1 = scaled(combine<T, n>(1.0, combine<T, n>(1.0, f.p1, -3.0, f.p2), 4.0, f.p3), h);
+    o.f2 = scaled(combine<T, n>(2.0, f.p2, -4.0, f.p3), h);
+    o.f3 = scaled(combine<T, n>(-1.0, f.p2, 4.0, f.p3), h);
   }
 
   const Equations<S, kind, masses>& equations_;
   std::array<System, 6> systems_{};
-  std::array<Step, 8> steps_{};
+  std::array<Step<S>, 8> steps_{};
+  Step<Value> passing_{};
   std::size_t next_system_ = 0, next_step_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "rwn/drive.hpp"
 #include "rwn/effects.hpp"
 #include "rwn/own_effect.hpp"
+#include "rwn/work.hpp"
 
 namespace rwn {
 
@@ -49,6 +50,7 @@ struct SimulationTask {
   std::span<const double> restart_speed, restart_position;  // (n) recorded motion; not read where restart_every is 0
   int order = 0;                                             // of a transfer function (kind lti)
   std::span<const OwnEffect> own;  // users' effects, by slot; none for kind lti
+  Work* work = nullptr;            // what the run costs is added here
 };
 
 /// Signals at the rows' times, before the new input acts; derivatives are (n, p) row-major. Empty spans are not

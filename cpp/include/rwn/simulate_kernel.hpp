@@ -38,6 +38,7 @@ struct SimulationSlice {
   const OwnProgram* own;   // by slot
   int first_own;           // place of the parameters of slot 0
   bool* formula_failed;    // set where a user's formula gave no finite number
+  long* work;              // what the run costs is added here
 };
 
 template <class S, int N, Kind kind, int masses = 1>
@@ -76,6 +77,13 @@ class Simulation {
   int run() {
     Plant integrator = plant();
     if (!integrator.sound()) return 0;
+    const int finite = run(integrator);
+    *slice_.work += cost_of<S, N, masses>(integrator.counts(), finite);
+    return finite;
+  }
+
+ private:
+  int run(Plant& integrator) {
     State state = initial(integrator);
     integrator.settle(state);
     prepare(state);
@@ -97,7 +105,6 @@ class Simulation {
     return slice_.samples;
   }
 
- private:
   Plant plant() const {
     if constexpr (kind == Kind::lti) {
       return {coefficients_.data(), slice_.order, effects_.data(), slice_.active_count};

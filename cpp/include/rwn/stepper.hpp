@@ -45,15 +45,22 @@ class Stepper {
     if (level != 0) start(s, level);
     const Regime regime = equations_.regime(s, level);
     const double length = value_of(h);
-    if (!flows(length, regime)) return nonlinear_step(s, h, level, operators_.over(length, regime));
-    if (use_ == Use::rests) return nonlinear_step(s, h, level, operators_.template along<S>(length, regime));
-    return nonlinear_step(s, h, level, operators_.template along<Value>(length, regime));
+    ++operators_.counts.nonlinear;
+    if (use_ == Use::intervals) return nonlinear_step(s, h, level, operators_.over(length, regime));
+    const double reach = operators_.system(regime).norm * length;
+    if (use_ == Use::search) {
+      if (reach > longest_flow_of_values) return nonlinear_step(s, h, level, operators_.values_over(length, regime));
+      return nonlinear_step(s, h, level, along<Value>(length, regime));
+    }
+    if (reach > longest_flow) return nonlinear_step(s, h, level, operators_.over(length, regime));
+    return nonlinear_step(s, h, level, along<S>(length, regime));
   }
 
   /// Exact solution over h for constant terms; `x` and `position` may be those of `s`.
   void linear_update(const State& s, const S& h, Vector& x, S& position) {
     const Vector f = equations_.constant_part(s);
     const Regime regime = equations_.regime(s, 0);
+    ++operators_.counts.linear;
     if (use_ != Use::intervals || !is_constant(h)) {
       linear_rest(s, h, regime, f, x, position);
     } else {
@@ -71,6 +78,8 @@ class Stepper {
     return next;
   }
 
+  const StepCounts& counts() const { return operators_.counts; }
+
   /// Effects have memories that follow the motion.
   bool finishes() const { return equations_.finishes(); }
 
@@ -87,41 +96,56 @@ class Stepper {
     return next;
   }
 
-  /// Whether a length is gone along a series, not by matrices of its own.
-  bool flows(double h, const Regime& regime) {
-    return use_ != Use::intervals && operators_.system(regime).norm * h < longest_flow;
+  /// The series along a length of a nonlinear step.
+  template <class T>
+  auto along(double h, const Regime& regime) {
+    const auto way = operators_.template along<T>(h, regime);
+    count_series(way.parts());
+    return way;
+  }
+  void count_series(int parts) {
+    (use_ == Use::search ? operators_.counts.series_of_values : operators_.counts.series) += parts;
   }
 
-  static void go(const typename Operators<S, kind, masses>::Step& o, const State& s, const Vector& f, Vector& x,
-                 S& position) {
-    Vector after{};
-    add_product<S, n>(after, o.e, s.x);
-    add_product<S, n>(after, o.p1, f);
-    S travelled = s.position;
-    for (std::size_t j = 0; j < n; ++j) travelled += o.p1[w * n + j] * s.x[j] + o.p2[w * n + j] * f[j];
-    x = after;
-    position = travelled;
+  using All = Operators<S, kind, masses>;
+
+  template <class T>
+  static void go(const typename All::template Step<T>& o, const State& s, const Vector& constant, Vector& x, S& position) {
+    const auto& before = All::template in<T>(s.x);
+    const auto& f = All::template in<T>(constant);
+    SmallVector<T, n> after{};
+    add_product<T, n>(after, o.e, before);
+    add_product<T, n>(after, o.p1, f);
+    T travelled(0.0);
+    for (std::size_t j = 0; j < n; ++j) travelled += o.p1[w * n + j] * before[j] + o.p2[w * n + j] * f[j];
+    position = s.position + as_scalar<S>(travelled);
+    x = All::template as<S>(after);
   }
 
   /// What is rare is kept out of the common way.
   [[gnu::noinline]] void linear_rest(const State& s, const S& h, const Regime& regime, const Vector& f, Vector& x,
                                      S& position) {
     const double length = value_of(h);
-    if (!flows(length, regime)) {
+    const double reach = operators_.system(regime).norm * length;
+    if (use_ == Use::search) {
+      if (reach > longest_flow_of_values) {
+        go(operators_.values_over(length, regime), s, f, x, position);
+      } else {
+        go_along<Value>(s, length, regime, f, x, position);
+      }
+    } else if (use_ == Use::intervals || reach > longest_flow) {
       go(operators_.over(length, regime), s, f, x, position);
-    } else if (use_ == Use::rests) {
-      go_along<S>(s, length, regime, f, x, position);
     } else {
-      go_along<Value>(s, length, regime, f, x, position);
+      go_along<S>(s, length, regime, f, x, position);
     }
     if (!is_constant(h)) shift(x, position, h - length, rates(operators_.system(regime).value, x, f));
   }
 
   template <class T>
   void go_along(const State& s, double h, const Regime& regime, const Vector& f, Vector& x, S& position) {
-    using All = Operators<S, kind, masses>;
     SmallVector<T, n> y = All::template as<T>(s.x), way{};
     const auto& system = operators_.system(regime);
+    count_series(parts_of_flow<S>(system.norm * h));
     flow<T, n>(All::template as<T>(system.a), system.norm, h, {All::template as<T>(f)}, y, way);
     x = All::template as<S>(y);
     position = s.position + as_scalar<S>(way[w]);

@@ -15,6 +15,7 @@
 #include "rwn/active_effects.hpp"
 #include "rwn/memory.hpp"
 #include "rwn/room.hpp"
+#include "rwn/step_counts.hpp"
 
 namespace rwn {
 
@@ -51,11 +52,13 @@ class TransferFunction {
   }
 
   bool sound() const { return true; }
+  const StepCounts& counts() const { return counts_; }
   void settle(State&) const {}
   void follow(const S&) {}
 
   /// Advances `s` over `h` with constant input.
   void advance(State& s, const S& h, const S& input, double) {
+    ++counts_.linear;
     const Matrix& m = step_of(h).m;
     Room<S, max_order> before;
     for (int i = 0; i < order_; ++i) before[at(i)] = s.x[at(i)];
@@ -157,6 +160,7 @@ class TransferFunction {
   double rate_ = 0.0;  // time scale that makes the coefficients of order one
   std::array<Step, 4> kept_{};
   int next_ = 0;
+  StepCounts counts_;
   Matrix z_, scratch_;
 };
 
