@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 
 from rwn.least_squares import FitStatus, Minimum
-from rwn.racer import Racer, Row, apart
+from rwn.racer import Racer, Row, apart, best_of_each
 
 SAMPLES = 100
 BEST = (1.0, 2.0)
 
 
-def _row(name: str, values: tuple[float, float], cost: float) -> Row:
+def _row(name: str, values: tuple[float, float], cost: float, order: float = 0.0) -> Row:
     information = np.diag([1e4, 1.0])
     m = Minimum(
         values=np.array(values), chi2=cost, cost=cost, first=2.0 * cost, information=information,
         data_information=information, status=FitStatus.CONVERGED, iterations=3,
     )  # fmt: skip
-    return Racer(name, 0.0, 0, cast(Any, None)), m
+    return Racer(name, order, 0, cast(Any, None)), m
 
 
 @pytest.mark.parametrize(
@@ -44,3 +44,10 @@ def test_where_the_error_is_large_starts_have_met_from_farther_off() -> None:
     rows = [_row("drag", BEST, 1e4), _row("drag", (1.0, 7.0), 1e4 + 50.0)]
     assert len(apart(rows, SAMPLES)) == 1
     assert len(apart(rows, int(1e4))) == 2
+
+
+def test_of_a_periodic_effect_the_best_start_of_the_best_orders_goes_on() -> None:
+    ripple = [_row("ripple", BEST, cost, order) for order, cost in ((7.0, 5.0), (7.0, 4.0), (14.0, 3.0), (9.0, 6.0))]
+    rows = [*ripple, *(_row("drag", BEST, cost) for cost in (9.0, 7.0, 8.0))]
+    kept = [(racer.name, racer.order, m.cost) for racer, m in best_of_each(rows, 2, orders=2)]
+    assert kept == [("ripple", 14.0, 3.0), ("ripple", 7.0, 4.0), ("drag", 0.0, 7.0), ("drag", 0.0, 8.0)]

@@ -94,7 +94,10 @@ def test_a_race_goes_on_with_what_may_still_win(
 
     run: list[tuple[str, int]] = []
 
-    def leg(_: Search, racer: Racer, iterations: int, problem: OutputError | None = None) -> Row:
+    def leg(
+        _: Search, racer: Racer, iterations: int, problem: OutputError | None = None, *, share: float
+    ) -> Row:
+        assert share > 0.0
         if racer is best:
             return racer, done
         run.append((ON_LOOK if problem is look else ON_ALL, iterations))

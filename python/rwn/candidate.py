@@ -94,20 +94,23 @@ def candidate(
 
 
 def fit(
-    problem: OutputError, this: Candidate, *, max_iterations: int = 60, tolerance: float = 1e-2
+    problem: OutputError, this: Candidate, *, max_iterations: int = 60, tolerance: float = 1e-2, share: float = np.inf
 ) -> Minimum:
-    """Fits the unknowns of a candidate to the recordings."""
+    """Fits the unknowns of a candidate to the recordings, by one iteration at least; `share`: what it may cost."""
+    own = problem.metered()
 
     def evaluate(values: Array) -> CountedNormal:
-        return problem.normal(this.with_values(values), this.active, this.by)
+        return own.normal(this.with_values(values), this.active, this.by)
 
     def probe(values: Array) -> CountedNormal:
-        return problem.normal(this.with_values(values), this.active, ())
+        return own.normal(this.with_values(values), this.active, ())
 
-    return minimise(
+    end = minimise(
         evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance,
-        prior_scale=problem.colour, probe=probe,
+        prior_scale=problem.colour, probe=probe, enough=lambda: own.work.done >= share,
     )  # fmt: skip
+    problem.work.add(own.work.done)
+    return end
 
 
 def _motor_unknown(name: str, nominal: Nominal) -> Unknown:

@@ -189,6 +189,12 @@ def _warnings(
             f"what is left of the {signal} lasts (its correlation from sample to sample is {share:.2f}): the corrected "
             "model was fitted to what is new in it"
         )
+    if found.cut_short:
+        most = max(len(h.fitted.added) for h in found.hypotheses)
+        texts.append(
+            f"more effects at once than {most} were not tried, since the search had cost what it may: recordings of fewer "
+            "samples, without the parts that say little, leave room for them"
+        )
     if rests_on_what_was_declared(found, chosen):
         texts.append(
             "without it the nominal model fits as well, "

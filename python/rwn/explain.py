@@ -10,6 +10,7 @@ import numpy as np
 
 from rwn import evidence
 from rwn.applicable import applicable
+from rwn.budget import affords_more, one_stage
 from rwn.coloured_noise import final_fits
 from rwn.evidence import Hypothesis, Statistics
 from rwn.fitted import Fitted
@@ -68,6 +69,7 @@ class Explanation:
     pairs: Layer  # under the noise of `alone`
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     strained: tuple[Fitted, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
+    cut_short: bool = False  # more effects at once would have been tried, but for what that costs
     complete: bool = True  # no other effects and no more at once would have been tried, had they been allowed
 
     @property
@@ -97,10 +99,13 @@ def explain(
     best = min([nominal, *fits], key=lambda f: f.cost)
     left = evidence.statistics(search.problem, best)
     layer = _varied(fits)
-    complete, paired = left.at_the_floor or not layer, False
+    complete, paired, cut_short = left.at_the_floor or not layer, False, False
     pairs = after.pairs if after else NOTHING
     for size in range(2, at_once + 1):
         if complete:
+            break
+        if not affords_more(search.problem.work):
+            cut_short = True
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
         found = _beside(search, layer, wanted, fits, pairs if size == 2 else NOTHING)
@@ -137,6 +142,7 @@ def explain(
         pairs=pairs,
         speed_steps=steps_shown(search.problem, setup.problem, best),
         complete=names is None and (complete or at_once >= MOST_EFFECTS),
+        cut_short=cut_short,
         strained=tuple(f for f in strained if f.cost < best.cost),
     )
 
@@ -158,7 +164,7 @@ def _each_alone(setup: Setup, wanted: Sequence[str], progress: Progress) -> Sett
     if setup.problem.kind == "axis":  # the rule on a machine axis: gravity, or an offset of the drive
         offset = next(f for f in search.explain(nominal, [OFFSET]))
         fits = distinct([*fits, *search.explain(offset, wanted)])
-    if _far_off(search, min([nominal, *fits], key=lambda f: f.cost)):
+    if affords_more(search.problem.work) and _far_off(search, min([nominal, *fits], key=lambda f: f.cost)):
         fits = distinct([*fits, *_by_windows(search, nominal, wanted)])
     return _settled(search, nominal, fits, setup)
 
@@ -180,7 +186,8 @@ def _at_its_floor(search: Search, best: Fitted) -> bool:
     Those of the search go with what was best before it: under them a right pair is held off its minimum.
     """
     own = tempered(with_noise(search, best), best)
-    return evidence.statistics(own.problem, own.refit(best, own.problem)).at_the_floor
+    again = own.refit(best, own.problem, share=one_stage(own.problem.work))
+    return evidence.statistics(own.problem, again).at_the_floor
 
 
 def _far_off(search: Search, best: Fitted) -> bool:
@@ -213,7 +220,9 @@ def _beside(
     Once the best found leaves noise alone, one that has no part in it is tried beside its parts: it may rival one.
     """
     found, tried, names = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted)
-    for base in layer:
+    for place, base in enumerate(layer):
+        if place and not affords_more(search.problem.work):
+            break
         parts = _all_there_is(search, found)
         beside = [n for n in names if n in parts] if parts and not parts & set(base.added) else names
         new = [name for name in beside if (base.added, name) not in tried]

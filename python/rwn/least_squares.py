@@ -160,12 +160,14 @@ def minimise(
     prior_scale: float = 1.0,
     probe: Evaluate | None = None,
     doubt: int = 1,
+    enough: Callable[[], bool] | None = None,
 ) -> Minimum:
     """Levenberg-Marquardt (Nielsen's damping) from `start` (p values) within the unknowns' bounds.
 
     Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: what
     priors are multiplied by: the independent samples that a coloured residual is short of. `probe` gives the error
     without derivatives: it decides on a step after `doubt` that were not taken, and `evaluate` follows if that one is.
+    `enough`: asked after every iteration, ends the fit as the iteration limit does.
     """
     search = _Search(evaluate, probe, unknowns, prior_scale)
     z = np.array(
@@ -178,7 +180,10 @@ def minimise(
     gradient, curvature = search.slopes(z, normal)
     first = cost
     growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
-    for count in range(1, max_iterations + 1):  # noqa: B007 - reported
+    for count in range(1, max_iterations + 1):
+        if count > 1 and enough is not None and enough():
+            count -= 1  # reported: of those that were done
+            break
         step = _step(search, z, gradient, curvature, damping)
         promised = _promise(step, gradient, curvature)
         if (

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rwn.budget import shares_by_rank
 from rwn.fitted import Fitted
+from rwn.least_squares import Minimum
 from rwn.rough import rough, settled
 from rwn.search import Search
 from rwn.threads import side_by_side
@@ -17,6 +19,12 @@ def polished(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Searc
     """The same fits, those that may be the best fitted on by `rough.settled`."""
     bar = RIVAL * min(f.cost for f in (nominal, *fits))
     worth = [f for f in fits if f.cost < bar and rough(f.candidate)]
-    ends = side_by_side(lambda f: settled(search.problem, f.candidate, f.minimum, turns=TURNS), worth)
+    shares = shares_by_rank(search.problem.work, [f.cost for f in worth])
+
+    def on(pair: tuple[Fitted, float]) -> Minimum:
+        f, share = pair
+        return settled(search.problem, f.candidate, f.minimum, turns=TURNS, share=share)
+
+    ends = side_by_side(on, zip(worth, shares, strict=True))
     better = {id(f): replace(f, minimum=m) for f, m in zip(worth, ends, strict=True)}
     return search, nominal, [better.get(id(f), f) for f in fits]

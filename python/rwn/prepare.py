@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn import _core
 from rwn.candidate import Nominal, candidate, fit
 from rwn.effects import motor_index, motor_parameters
 from rwn.lattice import lattice
@@ -38,11 +39,14 @@ class Setup:
     scales: Mapping[str, float]
 
 
-def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
-    """Targets, weights and scales; the noise levels are first guesses from the recordings alone."""
+def prepare(recordings: Sequence[Recording], model: Model, *, work: _core.Work | None = None) -> Setup:
+    """Targets, weights and scales; the noise levels are first guesses from the recordings alone.
+
+    `work`: meter of what simulations cost, of a diagnosis that prepares several times.
+    """
     targets = tuple(target(r, model) for r in recordings)
     nominal = nominal_of(model)
-    whole = _whole(targets, model)
+    whole = _whole(targets, model, work or _core.Work())
     if model.kind == "lti" and not model.parameters:
         nominal = _started(whole, nominal, first_guesses(targets, model.order))
     count = max((lattice(t.measured("position")) for t in targets), default=0.0)
@@ -59,16 +63,17 @@ def prepare(recordings: Sequence[Recording], model: Model) -> Setup:
     )
 
 
-def _whole(targets: tuple[Target, ...], model: Model) -> OutputError:
+def _whole(targets: tuple[Target, ...], model: Model, work: _core.Work) -> OutputError:
     noise = noise_levels(targets, [{s: t.signal(s) for s in t.recorded} for t in targets])
     if model.kind == "lti":
         at_rest = model.recording.initial == "rest"
-        return TransferError(kind="lti", targets=targets, noise=noise, order=model.order, at_rest=at_rest)
+        return TransferError(kind="lti", targets=targets, noise=noise, order=model.order, at_rest=at_rest, work=work)
     return OutputError(
         kind=model.kind,
         targets=targets,
         noise=noise,
         angle_per_position=2.0 * np.pi if model.linear else 1.0,
+        work=work,
         own=tuple(effect.core for effect in model.own_effects),
         start_indices=(
             motor_index("initial_current"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -41,13 +42,20 @@ def kind_of(racer: Racer) -> Kind:
     return racer.name, racer.order, racer.begin
 
 
-def best_of_each(rows: Sequence[Row], keep: int) -> list[Row]:
-    """The `keep` best starts of each kind, of a periodic effect the best of each order."""
+def best_of_each(rows: Sequence[Row], keep: int, orders: int) -> list[Row]:
+    """The `keep` best starts of each kind, of a periodic effect the best of each of its `orders` best orders."""
     groups: dict[Kind, list[Row]] = {}
-    for row in rows:
+    for row in sorted(rows, key=lambda row: row[1].cost):
         groups.setdefault(kind_of(row[0]), []).append(row)
-    ranked = [sorted(group, key=lambda row: row[1].cost) for group in groups.values()]
-    return [row for group in ranked for row in group[: 1 if group[0][0].order else keep]]
+    met: Counter[tuple[str, int]] = Counter()
+    kept: list[Row] = []
+    for (name, order, begin), group in groups.items():
+        if not order:
+            kept += group[:keep]
+        elif met[name, begin] < orders:
+            met[name, begin] += 1
+            kept.append(group[0])
+    return kept
 
 
 def promising(rows: Sequence[Row], base_cost: float, least: int = 6, most: int = 8) -> list[Row]:

@@ -29,26 +29,33 @@ def rough(this: Candidate, *names: str) -> list[int]:
     return [k for k, u in enumerate(this.unknowns) if u.name.partition(".")[0] in owners and u.lower > 0.0]
 
 
-def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int) -> Minimum:
-    """The fit of `this` from the end of another, by turns as long as they gain; `start` where its error is smooth."""
-    best = start
+def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int, share: float = np.inf) -> Minimum:
+    """The fit of `this` from the end of another, by turns as long as they gain; `start` where its error is smooth.
+
+    `share`: what it may cost, the beginning of every part aside.
+    """
+    best, own = start, problem.metered()
     for _ in range(turns if rough(this) else 0):
         values = best.values
         for relative in SECANTS:
-            found = _by_secants(problem, this.starting_at(values), relative)
+            found = _by_secants(own, this.starting_at(values), relative, share)
             values = found.values
             if found.cost > (1.0 - GAIN) * found.first:
                 break  # the bowl is left, and what remains are ripples
-        again = fit(problem, this.starting_at(values), max_iterations=ITERATIONS)
+        again = fit(own, this.starting_at(values), max_iterations=ITERATIONS, share=share - own.work.done)
         gained = again.cost < (1.0 - GAIN) * best.cost
         best = min(best, again, key=lambda m: m.cost)
-        if not gained:
+        if not gained or own.work.done >= share:
             break
+    problem.work.add(own.work.done)
     return best
 
 
-def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Minimum:
-    """Where Levenberg-Marquardt ends with the slopes of secants over `relative` steps in place of derivatives."""
+def _by_secants(problem: OutputError, this: Candidate, relative: float, share: float) -> Minimum:
+    """Where Levenberg-Marquardt ends with the slopes of secants over `relative` steps in place of derivatives.
+
+    Or where the problem's meter has come to `share`.
+    """
 
     def slope(values: Array, k: int) -> Array | float:
         low, high = _sides(this.unknowns[k], float(values[k]), relative)
@@ -71,7 +78,7 @@ def _by_secants(problem: OutputError, this: Candidate, relative: float) -> Minim
     with _overflowing():
         return minimise(
             evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * problem.samples,
-            prior_scale=problem.colour, probe=probe, doubt=0,
+            prior_scale=problem.colour, probe=probe, doubt=0, enough=lambda: problem.work.done >= share,
         )  # fmt: skip
 
 

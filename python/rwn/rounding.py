@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from rwn.budget import shares_by_rank
 from rwn.fitted import Fitted
 from rwn.output_error import OutputError
 from rwn.quantisation import coarse_steps, noise_before_rounding, unrounded
@@ -32,7 +33,13 @@ def unrounded_fits(
         noise_before_rounding(t, r["speed"], step)
         for t, r, step in zip(problem.targets, residuals, steps, strict=True)
     ]
-    settled = side_by_side(lambda f: _settled(search, f, problem, steps, noises), (nominal, *foremost(fits)))
+    these = [nominal, *foremost(fits)]
+    shares = shares_by_rank(problem.work, [f.cost for f in these])
+
+    def on_average(pair: tuple[Fitted, float]) -> tuple[Fitted, OutputError]:
+        return _settled(search, pair[0], problem, steps, noises, share=pair[1])
+
+    settled = side_by_side(on_average, zip(these, shares, strict=True))
     _, on = min(settled, key=lambda pair: pair[0].cost)
     return replace(search, problem=on), settled[0][0], sorted((f for f, _ in settled[1:]), key=lambda f: f.cost)
 
@@ -50,9 +57,9 @@ def as_shown(problem: OutputError, shown: OutputError) -> OutputError:
 
 
 def _settled(
-    search: Search, fitted: Fitted, shown: OutputError, steps: Sequence[float], noises: Sequence[float]
+    search: Search, fitted: Fitted, shown: OutputError, steps: Sequence[float], noises: Sequence[float], *, share: float
 ) -> tuple[Fitted, OutputError]:
-    """The fit that expects the rounding which is shown, and the problem that it solves."""
+    """The fit that expects the rounding which is shown, and the problem that it solves; each round may cost `share`."""
     problem = shown
     for _ in range(ROUNDS):
         residuals = shown.residuals(fitted.vector, fitted.candidate.active)
@@ -61,5 +68,5 @@ def _settled(
             for t, r, step, noise in zip(shown.targets, residuals, steps, noises, strict=True)
         )
         problem = replace(shown, targets=targets)
-        fitted = search.refit(fitted, problem)
+        fitted = search.refit(fitted, problem, share=share)
     return fitted, problem

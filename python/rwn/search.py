@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import hints
+from rwn.budget import equal_shares, shares_by_rank
 from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
 from rwn.effects import Effect
 from rwn.fitted import Fitted
@@ -73,7 +74,7 @@ class Search:
         look = self.look(base)
         rows = self._race(self._glance(base, racers, keep), iterations=4 * self.patience, problem=look)
         start = base.cost if look is self.problem else self.refit(base, look).cost
-        rows = apart(promising(best_of_each(rows, keep), start), look.samples)
+        rows = apart(promising(best_of_each(rows, keep, orders=keep), start), look.samples)
         best_here = best * start / base.cost if np.isfinite(best) else best
         near = self._over_rough(rows, look, start, best_here)
         finals = self._to_the_end(near, look, best_here=best_here, best=best)
@@ -94,7 +95,7 @@ class Search:
             return list(racers)
         crowded = self._sighted(crowded, self.part(base, GLANCE))
         part = self.part(base, GLANCE) if base.added or self.patience > 1 else self.look(base)
-        rows = best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep)
+        rows = best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep, orders=keep + 1)
         return [*(r for r in racers if counts[kind_of(r)] <= keep), *(racer for racer, _ in rows)]
 
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
@@ -132,10 +133,14 @@ class Search:
         self, racers: Sequence[Racer], *, iterations: int, problem: OutputError | None = None
     ) -> list[Row]:
         """Some iterations of every racer; each row starts the next leg where this one ended."""
-        return side_by_side(lambda racer: self._leg(racer, iterations, problem), racers)
+        shares = equal_shares(self.problem.work, len(racers))
+        return side_by_side(
+            lambda pair: self._leg(pair[0], iterations, problem, share=pair[1]), zip(racers, shares, strict=True)
+        )
 
-    def _leg(self, racer: Racer, iterations: int, problem: OutputError | None = None) -> Row:
-        m = fit(problem or self.problem, racer.candidate, max_iterations=iterations, tolerance=RESOLUTION)
+    def _leg(self, racer: Racer, iterations: int, problem: OutputError | None = None, *, share: float) -> Row:
+        here = problem or self.problem
+        m = fit(here, racer.candidate, max_iterations=iterations, tolerance=RESOLUTION, share=share)
         return racer._replace(candidate=racer.candidate.starting_at(m.values)), m
 
     def _to_the_end(
@@ -147,25 +152,33 @@ class Search:
         are known on the look and on all recordings.
         """
         bar = hopeless_from(rows, best_here)
-        rows = side_by_side(
-            lambda row: self._leg(row[0], IN_PASSING, look) if _goes_on(row[1], bar) else row, rows
-        )
+
+        def here(row: Row, share: float) -> Row:
+            return self._leg(row[0], IN_PASSING, look, share=share) if _goes_on(row[1], bar) else row
+
+        rows = self._by_rank(here, rows)
         bar = hopeless_from(rows, best_here)
-        rows = side_by_side(lambda row: self._on_all(row, look, bar), rows)
+
+        def on_all(row: Row, share: float) -> Row:
+            racer, m = row
+            if look is self.problem and not _under_way(m):
+                return row
+            return self._leg(racer, TO_THE_END if _goes_on(m, bar) else HARDLY, share=share)
+
+        rows = self._by_rank(on_all, rows)
         bar = hopeless_from(rows, best)
 
-        def late(row: Row) -> Row:
+        def late(row: Row, share: float) -> Row:
             racer, m = row
             hardly = _under_way(m) and m.iterations <= HARDLY
-            return self._leg(racer, TO_THE_END) if hardly and _goes_on(m, bar) else row
+            return self._leg(racer, TO_THE_END, share=share) if hardly and _goes_on(m, bar) else row
 
-        return side_by_side(late, rows)
+        return self._by_rank(late, rows)
 
-    def _on_all(self, row: Row, look: OutputError, bar: float) -> Row:
-        racer, m = row
-        if look is self.problem and not _under_way(m):
-            return row
-        return self._leg(racer, TO_THE_END if _goes_on(m, bar) else HARDLY)
+    def _by_rank(self, leg: Callable[[Row, float], Row], rows: Sequence[Row]) -> list[Row]:
+        """A leg of every row, which may cost the more the better the row is."""
+        shares = shares_by_rank(self.problem.work, [m.cost for _, m in rows])
+        return side_by_side(lambda pair: leg(*pair), zip(rows, shares, strict=True))
 
     def _over_rough(
         self, rows: Sequence[Row], problem: OutputError, base_cost: float, best: float
@@ -173,30 +186,33 @@ class Search:
         """Starts whose error is rough, that have gained something and are not hopeless, brought near their minimum."""
         bar = min(SLIGHT * base_cost, max(hopeless_from(rows, best), STEEP * base_cost))
 
-        def near(row: Row) -> Minimum:
+        def near(row: Row, share: float) -> Row:
             racer, m = row
-            return settled(problem, racer.candidate, m, turns=1) if m.cost < bar else m
+            if m.cost < bar:
+                m = settled(problem, racer.candidate, m, turns=1, share=share)
+            return racer._replace(candidate=racer.candidate.starting_at(m.values)), m
 
-        ends = side_by_side(near, rows)
-        return [
-            (racer._replace(candidate=racer.candidate.starting_at(m.values)), m)
-            for (racer, _), m in zip(rows, ends, strict=True)
-        ]
+        return self._by_rank(near, rows)
 
-    def refit(self, this: Fitted, problem: OutputError, *, iterations: int = TO_THE_END) -> Fitted:
+    def refit(
+        self, this: Fitted, problem: OutputError, *, iterations: int = TO_THE_END, share: float = np.inf
+    ) -> Fitted:
         """The same explanation fitted to another problem (other weights, other recordings)."""
         start = this.candidate.starting_at(this.minimum.values)
-        return Fitted(added=this.added, candidate=start, minimum=fit(problem, start, max_iterations=iterations))
+        end = fit(problem, start, max_iterations=iterations, share=share)
+        return Fitted(added=this.added, candidate=start, minimum=end)
 
     def refit_all(self, these: Sequence[Fitted]) -> list[Fitted]:
         """Explanations of another search fitted to this one's problem, the hopeless ones by a few iterations."""
         bar = HOPELESS * min((this.cost for this in these), default=np.inf)
 
-        def again(this: Fitted) -> Fitted:
+        def again(pair: tuple[Fitted, float]) -> Fitted:
+            this, share = pair
             hopeless = bool(this.added) and this.cost > bar
-            return self.refit(this, self.problem, iterations=HARDLY if hopeless else TO_THE_END)
+            return self.refit(this, self.problem, iterations=HARDLY if hopeless else TO_THE_END, share=share)
 
-        return side_by_side(again, these)
+        shares = shares_by_rank(self.problem.work, [this.cost for this in these])
+        return side_by_side(again, zip(these, shares, strict=True))
 
     def _starts(self, base: Fitted, name: str, *, orders: int) -> list[Racer]:
         effect = self.nominal.table[name]

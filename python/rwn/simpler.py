@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from rwn.budget import equal_shares
 from rwn.candidate import candidate, fit
 from rwn.effects import table
 from rwn.fitted import Fitted
@@ -37,13 +38,15 @@ def _simpler(search: Search, best: Fitted) -> list[Fitted]:
     sets = [best.added, *(tuple(n for n in best.added if n != name) for name in best.added)]
     plain = [tuple(sorted(plainer(names))) for names in sets]
 
-    def less(names: tuple[str, ...]) -> Fitted:
+    def less(pair: tuple[tuple[str, ...], float]) -> Fitted:
+        names, share = pair
         starts = {n: best.values_of(n) if n in best.added else _plain_values(best) for n in names}
         this = candidate(search.nominal, names, search.scales, starts, best.motor)
-        end = settled(search.problem, this, fit(search.problem, this), turns=1)
+        end = settled(search.problem, this, fit(search.problem, this, share=share), turns=1, share=share)
         return Fitted(added=names, candidate=this, minimum=end)
 
-    return side_by_side(less, dict.fromkeys([*sets[1:], *plain]))
+    others = list(dict.fromkeys([*sets[1:], *plain]))
+    return side_by_side(less, zip(others, equal_shares(search.problem.work, len(others)), strict=True))
 
 
 def _replaces(name: str) -> set[str]:

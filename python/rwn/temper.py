@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from rwn import evidence
+from rwn.budget import one_stage
 from rwn.diagnosis import BELIEVABLE
 from rwn.fitted import Fitted
 from rwn.search import Search
@@ -24,7 +25,7 @@ def tempered(search: Search, fitted: Fitted) -> Search:
     if search.problem.colour == 1.0 and farthest(fitted) < BELIEVABLE:
         return search
     colour = _colour(search, fitted)
-    free = search.refit(fitted, replace(search.problem, colour=1.0))
+    free = search.refit(fitted, replace(search.problem, colour=1.0), share=one_stage(search.problem.work))
     if _colour(search, free) < WHITE:  # what was left were the priors' own doing
         colour = 1.0
     # exactly 1 would forget that the fits had run away once

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rwn.budget import one_stage
 from rwn.fitted import Fitted
 from rwn.output_error import Target
 from rwn.search import Search, foremost
@@ -25,12 +26,12 @@ def retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Sear
     other, again = search, best
     for _ in range(MOST_TRACKS):
         tried = _tracked(other, again)
-        refitted = tried.refit(again, tried.problem)
+        refitted = tried.refit(again, tried.problem, share=one_stage(search.problem.work))
         if refitted.cost > again.cost - 2.0:
             break
         other, again = tried, refitted
     free = replace(search, problem=replace(search.problem, targets=tuple(map(_on_its_own, search.problem.targets))))
-    freed = free.refit(again, free.problem)
+    freed = free.refit(again, free.problem, share=one_stage(search.problem.work))
     if freed.cost < again.cost - 2.0:
         other, again = free, freed
     if other is search:

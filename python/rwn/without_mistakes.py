@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple, Protocol
 
+from rwn import _core
 from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
 from rwn.gear_ratio import gear_ratio
 from rwn.mistakes import GEAR, Mistake, without
@@ -55,11 +56,13 @@ def explained(
 ) -> tuple[list[Mistake], Explanation]:
     """Mistakes of the recordings, and what explains these when they are undone."""
 
+    work = _core.Work()
+
     def explanation(
         of: Sequence[Recording], at_once: int = MOST_EFFECTS, *, names: Sequence[str] | None = None,
         after: Explanation | None = None,
     ) -> Explanation:  # fmt: skip
-        return explain(prepare(of, model), progress=say, at_once=at_once, names=names, after=after)
+        return explain(prepare(of, model, work=work), progress=say, at_once=at_once, names=names, after=after)
 
     if model.kind == "lti":  # its gain is in no unit that could be doubted
         return [], explanation(recordings)

@@ -1,0 +1,43 @@
+"""What the search for an explanation may cost, counted in the core: the same on every machine and in every run.
+
+A stage of the search may take a tenth of what is left, so that no budget is ever used up; where little is left, what
+would be tried next is not.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rwn import _core
+
+TOTAL = 15e9  # about 20 s of one core of 2026, and of two cores 12 s: a diagnosis has 20 s
+STAGE = 0.1  # of what is left, for the fits of a stage together
+LEAST = 0.1  # of the total, that counts as left at least
+RESERVE = 0.3  # of the total, that is left for what is promising rather than spent on what has not been tried
+
+
+def left(work: _core.Work) -> float:
+    """What is left of the total."""
+    return max(TOTAL - work.done, LEAST * TOTAL)
+
+
+def affords_more(work: _core.Work) -> bool:
+    """Whether what has not been tried may be tried."""
+    return left(work) > RESERVE * TOTAL
+
+
+def one_stage(work: _core.Work) -> float:
+    """What a fit may cost that is a stage by itself."""
+    return STAGE * left(work)
+
+
+def equal_shares(work: _core.Work, count: int) -> list[float]:
+    """What each of `count` fits may cost where none is more promising than another."""
+    return [one_stage(work) / max(count, 1)] * count
+
+
+def shares_by_rank(work: _core.Work, costs: list[float]) -> list[float]:
+    """What each fit may cost, given how far each is from an explanation: the second best half as much as the best."""
+    rank = np.argsort(np.argsort(costs, kind="stable"), kind="stable")
+    weights = 1.0 / (1.0 + rank)
+    return [float(w) for w in one_stage(work) * weights / max(weights.sum(), 1.0)]
