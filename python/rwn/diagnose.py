@@ -190,10 +190,9 @@ def _warnings(
             "model was fitted to what is new in it"
         )
     if found.cut_short:
-        most = max(len(h.fitted.added) for h in found.hypotheses)
         texts.append(
-            f"more effects at once than {most} were not tried, since the search had cost what it may: recordings of "
-            "fewer samples, without the parts that say little, leave room for them"
+            "more effects at once were not tried, since the search had cost what it may: recordings of fewer samples, "
+            "without the parts that say little, leave room for them"
         )
     if rests_on_what_was_declared(found, chosen):
         texts.append(

@@ -10,6 +10,7 @@ class Integrator {
  public:
   using State = DriveState<S, kind, masses>;
   static constexpr std::size_t w = State::w;
+  static constexpr int n = State::n;
 
   Integrator(const Motor<S>& motor, const ActiveEffect<S>* effects, int count, double angle_per_position)
       : equations_(motor, effects, count, angle_per_position) {}

@@ -105,14 +105,12 @@ class Operators {
       if (std::abs(o.h - h) <= 1e-9 * h && o.regime == regime) return o;
     }
     Step<S>& slot = next_of(steps_, next_step_);
-    ++counts.matrices;
     make(slot, h, regime);
     return slot;
   }
 
   /// The values, of a length that does not come back.
   const Step<Value>& values_over(double h, const Regime& regime) {
-    ++counts.matrices_of_values;
     make(passing_, h, regime);
     return passing_;
   }
@@ -156,6 +154,7 @@ class Operators {
   template <class T>
   void make(Step<T>& o, double h, const Regime& regime) {
     const SmallMatrix<T, n> a = as<T>(system(regime).a);
+    (std::is_same_v<T, S> ? counts.matrices : counts.matrices_of_values) += equations_.varies() ? 2 : 1;
     const PhiFunctions<T, n> f = phi_functions<T, n>(scaled(a, h));
     o.h = h;
     o.regime = regime;

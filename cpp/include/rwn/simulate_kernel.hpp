@@ -78,7 +78,7 @@ class Simulation {
     Plant integrator = plant();
     if (!integrator.sound()) return 0;
     const int finite = run(integrator);
-    *slice_.work += cost_of<S, N, masses>(integrator.counts(), finite);
+    *slice_.work += cost_of<S, N, Plant::n>(integrator.counts(), finite);
     return finite;
   }
 

@@ -29,6 +29,7 @@ template <class S>
 class TransferFunction {
  public:
   static constexpr std::size_t w = 0;  // the measured output in x
+  static constexpr int n = 2;          // states, as far as costs go
 
   struct State {
     std::array<S, max_order> x{};  // scaled: x_i / rate^{i-1}
