@@ -34,7 +34,7 @@ def unrounded_fits(
         for t, r, step in zip(problem.targets, residuals, steps, strict=True)
     ]
     these = [nominal, *foremost(fits)]
-    shares = shares_by_rank(problem.work, [f.cost for f in these])
+    shares = shares_by_rank(problem.work, [f.cost if f.added else 0.0 for f in these])
 
     def on_average(pair: tuple[Fitted, float]) -> tuple[Fitted, OutputError]:
         return _settled(search, pair[0], problem, steps, noises, share=pair[1])

@@ -211,7 +211,8 @@ class Search:
             hopeless = bool(this.added) and this.cost > bar
             return self.refit(this, self.problem, iterations=HARDLY if hopeless else TO_THE_END, share=share)
 
-        shares = shares_by_rank(self.problem.work, [this.cost for this in these])
+        # the nominal model is what all are compared with
+        shares = shares_by_rank(self.problem.work, [this.cost if this.added else 0.0 for this in these])
         return side_by_side(again, zip(these, shares, strict=True))
 
     def _starts(self, base: Fitted, name: str, *, orders: int) -> list[Racer]:
