@@ -10,7 +10,7 @@ import numpy as np
 
 from rwn import _core
 
-TOTAL = 15e9  # about 20 s of one core of 2026, and of two cores 12 s: a diagnosis has 20 s
+TOTAL = 13e9  # about 16 s of one core of 2026, and of two cores 10 s: a diagnosis has 20 s
 STAGE = 0.1  # of what is left, for the fits of a stage together
 LEAST = 0.1  # of the total, that counts as left at least
 RESERVE = 0.3  # of the total, that is left for what is promising rather than spent on what has not been tried

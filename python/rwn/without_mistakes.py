@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import NamedTuple, Protocol
 
 from rwn import _core
+from rwn.budget import affords_more
 from rwn.explain import MOST_EFFECTS, Explanation, Progress, explain
 from rwn.gear_ratio import gear_ratio
 from rwn.mistakes import GEAR, Mistake, without
@@ -144,7 +145,7 @@ def _followed(
         undone = mistake
         beneath = explanation(without(right, undone), 1, names=names)
         mistake, left = sharpened(replace(doubt, mistake=undone), right, model, beneath)
-        if mistake is undone:
+        if mistake is undone or not affords_more(beneath.setup.problem.work):
             break
     return Followed(mistake, beneath, left, mistake is undone)
 

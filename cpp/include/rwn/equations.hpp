@@ -57,6 +57,9 @@ class Equations {
   bool dry() const { return dry_; }            // there is friction that holds
   bool finishes() const { return finishes_; }  // effects have memories that follow the motion
 
+  /// Whether the equation of the winding is another than R, L and Ke make it.
+  bool electrical() const { return kind == Kind::dc && winds_; }
+
   /// A gap opens and closes.
   bool plays() const {
     if constexpr (masses == 2) return second_.play();
@@ -212,9 +215,6 @@ class Equations {
 
   /// 2^level; the level is 0 nearly always.
   static double times(int level) { return level == 0 ? 1.0 : std::ldexp(1.0, level); }
-
-  /// Whether the equation of the winding is another than R, L and Ke make it.
-  bool electrical() const { return kind == Kind::dc && winds_; }
 
   static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
 

@@ -5,6 +5,7 @@ namespace rwn {
 
 struct StepCounts {
   long linear = 0, nonlinear = 0;             // steps
+  long electrical = 0;                        // nonlinear ones of a winding whose equation is not that of R, L and Ke
   long series = 0, series_of_values = 0;      // parts of a length gone along (rwn/flow.hpp)
   long matrices = 0, matrices_of_values = 0;  // sets of phi functions (rwn/exponential.hpp)
 };
@@ -15,10 +16,11 @@ template <class S, int N, int n>
 long cost_of(const StepCounts& c, int samples) {
   constexpr long linear = n > 2 ? 15 + 13 * N : 8 + 8 * N;
   constexpr long nonlinear = n > 2 ? 250 + 40 * N : 130 + 30 * N;
+  constexpr long electrical = 80 + 25 * N;
   constexpr long series_of_values = 90, series = 90 + 28 * N;
   constexpr long matrices_of_values = 6 * n * n * n + 20 * n, matrices = matrices_of_values * (1 + N);
-  return 20L * samples + linear * c.linear + nonlinear * c.nonlinear + series * c.series +
-         series_of_values * c.series_of_values + matrices * c.matrices + matrices_of_values * c.matrices_of_values;
+  return 20L * samples + linear * c.linear + nonlinear * c.nonlinear + electrical * c.electrical +
+         series * c.series + series_of_values * c.series_of_values + matrices * c.matrices + matrices_of_values * c.matrices_of_values;
 }
 
 }  // namespace rwn

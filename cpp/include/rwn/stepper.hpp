@@ -46,6 +46,7 @@ class Stepper {
     const Regime regime = equations_.regime(s, level);
     const double length = value_of(h);
     ++operators_.counts.nonlinear;
+    if (equations_.electrical()) ++operators_.counts.electrical;
     if (use_ == Use::intervals) return nonlinear_step(s, h, level, operators_.over(length, regime));
     const double reach = operators_.system(regime).norm * length;
     if (use_ == Use::search) {
