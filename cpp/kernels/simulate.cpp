@@ -33,9 +33,9 @@ int run(Kind kind, const SimulationSlice& slice) {
 
 }  // namespace
 
-/// Derivatives by so many (0, 4, 8, 12 or 16) `columns`; returns the number of samples that stayed finite.
-int simulate_slice(Kind kind, int columns, const SimulationSlice& slice) {
-  switch (columns) {
+/// Returns the number of samples that stayed finite.
+int simulate_slice(Kind kind, const SimulationSlice& slice) {
+  switch (slice.width) {
     case 0:
       return run<0>(kind, slice);
     case 4:

@@ -10,14 +10,14 @@
 namespace rwn {
 
 namespace baseline {
-int simulate_slice(Kind kind, int width, const SimulationSlice& slice);
+int simulate_slice(Kind kind, const SimulationSlice& slice);
 }
 #ifdef RWN_X86
 namespace avx2 {
-int simulate_slice(Kind kind, int width, const SimulationSlice& slice);
+int simulate_slice(Kind kind, const SimulationSlice& slice);
 }
 namespace avx512 {
-int simulate_slice(Kind kind, int width, const SimulationSlice& slice);
+int simulate_slice(Kind kind, const SimulationSlice& slice);
 }
 #endif
 
@@ -36,12 +36,12 @@ const std::array<int, effect_count + 1>& offsets() {
   return first;
 }
 
-int simulate_slice(Kind kind, int width, const SimulationSlice& slice) {
+int simulate_slice(Kind kind, const SimulationSlice& slice) {
 #ifdef RWN_X86
-  if (isa() == Isa::avx512 && width % 8 == 0) return avx512::simulate_slice(kind, width, slice);
-  if (isa() != Isa::baseline) return avx2::simulate_slice(kind, width, slice);  // vectors that would stay half empty
+  if (isa() == Isa::avx512 && slice.width % 8 == 0) return avx512::simulate_slice(kind, slice);
+  if (isa() != Isa::baseline) return avx2::simulate_slice(kind, slice);  // vectors that would stay half empty
 #endif
-  return baseline::simulate_slice(kind, width, slice);
+  return baseline::simulate_slice(kind, slice);
 }
 
 void require(bool condition, const char* message) {
@@ -179,12 +179,13 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         programs.data(),
                         first_own_parameter(),
                         &formula_failed,
-                        &work};
+                        &work,
+                        0};
   int finite = slice.samples;
   do {
-    const int width = width_for(columns - slice.column, slice.masses);
-    finite = std::min(finite, simulate_slice(task.kind, width, slice));
-    slice.column += std::max(width, 1);
+    slice.width = width_for(columns - slice.column, slice.masses);
+    finite = std::min(finite, simulate_slice(task.kind, slice));
+    slice.column += std::max(slice.width, 1);
   } while (slice.column < columns && finite == slice.samples);
 
   if (task.work != nullptr) task.work->add(work);

@@ -39,6 +39,7 @@ struct SimulationSlice {
   int first_own;           // place of the parameters of slot 0
   bool* formula_failed;    // set where a user's formula gave no finite number
   long* work;              // what the run costs is added here
+  int width;               // derivatives at once: 0, 4, 8, 12 or 16; a kernel may hold more
 };
 
 template <class S, int N, Kind kind, int masses = 1>
@@ -78,7 +79,7 @@ class Simulation {
     Plant integrator = plant();
     if (!integrator.sound()) return 0;
     const int finite = run(integrator);
-    *slice_.work += cost_of<S, N, Plant::n>(integrator.counts(), finite);
+    *slice_.work += cost_of<S, Plant::n>(integrator.counts(), finite, slice_.width);
     return finite;
   }
 

@@ -10,15 +10,17 @@ struct StepCounts {
   long matrices = 0, matrices_of_values = 0;  // sets of phi functions (rwn/exponential.hpp)
 };
 
-/// In the units of rwn/work.hpp, of a run with n states and N derivatives: fitted to what runs of all kinds took, within
-/// a quarter for most. A template like all of the kernels, so that no two of them share it.
-template <class S, int N, int n>
-long cost_of(const StepCounts& c, int samples) {
-  constexpr long linear = n > 2 ? 15 + 13 * N : 8 + 8 * N;
-  constexpr long nonlinear = n > 2 ? 250 + 40 * N : 130 + 30 * N;
-  constexpr long electrical = 80 + 25 * N;
-  constexpr long series_of_values = 90, series = 90 + 28 * N;
-  constexpr long matrices_of_values = 6 * n * n * n + 20 * n, matrices = matrices_of_values * (1 + N);
+/// In the units of rwn/work.hpp, of a run with n states and derivatives by so many parameters as were asked for (what a
+/// kernel's width adds differs by machine): fitted to what runs of all kinds took, within a quarter for most. A template
+/// like all of the kernels, so that no two of them share it.
+template <class S, int n>
+long cost_of(const StepCounts& c, int samples, int derivatives) {
+  const long N = derivatives;
+  const long linear = n > 2 ? 15 + 13 * N : 8 + 8 * N;
+  const long nonlinear = n > 2 ? 250 + 40 * N : 130 + 30 * N;
+  const long electrical = 80 + 25 * N;
+  const long series_of_values = 90, series = 90 + 28 * N;
+  const long matrices_of_values = 6 * n * n * n + 20 * n, matrices = matrices_of_values * (1 + N);
   return 20L * samples + linear * c.linear + nonlinear * c.nonlinear + electrical * c.electrical +
          series * c.series + series_of_values * c.series_of_values + matrices * c.matrices + matrices_of_values * c.matrices_of_values;
 }
