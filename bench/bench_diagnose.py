@@ -2,9 +2,8 @@
 
 Makes blind trials of a development seed with 20 000 training samples each, five with a backlash, which none of these
 has, and five that took longest before searches kept to a budget, and diagnoses them one after the other, without
-held-out recordings, on two threads. Run on an idle machine;
-"stolen" is the share of the processor time asked for that a virtual machine's host gave to others (/proc/stat). Of
-several RUNS of each the quickest counts:
+held-out recordings, on two threads. Run on an idle machine; "stolen" is the share of the processor time asked for that
+a virtual machine's host gave to others (/proc/stat). Of several RUNS of each the quickest counts:
 python bench/bench_diagnose.py [COUNT [RUNS]]
 """
 
