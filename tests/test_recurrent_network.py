@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import rwn
@@ -23,6 +23,11 @@ def signals(inputs: int, samples: int, seed: int) -> tuple[np.ndarray, np.ndarra
     return x, np.tanh(3 * x.sum(axis=1)) + 0.1 * rng.normal(size=samples)
 
 
+def loop_gain(network: rwn.RecurrentNetwork) -> float:
+    """Largest gain of a wavelet's feedback; above 1 rounding errors may grow with every sample."""
+    return float(np.max(np.abs(network.c / network.d), initial=0.0) * network.wavelet.max_derivative)
+
+
 @settings(max_examples=12, deadline=None)
 @given(shapes)
 def test_training_agrees_with_the_twin(shape: tuple[int, int, int, str]) -> None:
@@ -32,6 +37,7 @@ def test_training_agrees_with_the_twin(shape: tuple[int, int, int, str]) -> None
     rates = dict(zip(network.groups, (1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5), strict=True))
     got = rwn.train_recurrent(network, x, y, rates=Fixed(rates), cycles=2)
     wanted, errors = twin.train(network, x, y, rates=np.array(list(rates.values())), cycles=2)
+    assume(loop_gain(wanted) < 1.0)
     assert relative_error(got.network.theta, wanted.theta) < 1e-12
     assert relative_error(got.mse_learning, np.mean(errors**2, axis=1)) < 1e-12
     assert got.mse_frozen[-1] == pytest.approx(wanted.mse(x, y), rel=1e-12)
