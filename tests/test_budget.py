@@ -98,6 +98,20 @@ def test_where_the_budget_is_spent_single_effects_are_tried_and_no_more() -> Non
     assert whole.closest.cost <= found.closest.cost
 
 
+def test_pairs_that_are_known_are_weighed_though_nothing_is_left_to_try_more() -> None:
+    names = ["unbalance", "quadratic-drag"]
+    both = recorded(1, lambda speed, angle: -0.004 * np.sin(angle) - 1e-5 * speed * abs(speed), 1000)
+
+    def setup(spent: float) -> Setup:
+        return prepare([both], rwn.Model(kind="dc", parameters=MOTOR), work=_spent(spent))
+
+    pairs = explain(setup(0.0), progress=lambda *_: None, names=names)
+    again = explain(setup(0.9), progress=lambda *_: None, names=names, after=pairs)
+    assert explain(setup(0.9), progress=lambda *_: None, names=names).cut_short
+    assert set(again.closest.added) == set(pairs.closest.added) == set(names)
+    assert not again.cut_short  # what is left is noise: nothing more would have been tried
+
+
 def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     model = rwn.Model(kind="dc", parameters=MOTOR)
     wavy = recorded(1, lambda speed, angle: 0.004 * np.sin(3.0 * angle) * np.cos(7.0 * angle) - 1e-7 * speed**3, 1000)

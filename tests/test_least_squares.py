@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.least_squares import FitStatus, Minimum, Normal, Unknown, minimise
+from rwn.least_squares import DAMPING, FitStatus, Minimum, Normal, Unknown, minimise
 
 UNKNOWNS = tuple(Unknown(name=name, unit="", index=k, lower=-5.0, upper=5.0) for k, name in enumerate("xy"))
 
@@ -71,3 +71,22 @@ def test_what_priors_alone_decide_is_found_too() -> None:
     found = minimise(evaluate, np.array([2.3, 6.0 / 2.3]), unknowns)
     assert found.status is FitStatus.CONVERGED
     np.testing.assert_allclose(found.values, np.sqrt(6.0), rtol=2e-3)
+
+
+def test_a_fit_in_legs_need_not_try_again_what_was_refused() -> None:
+    """From 3 the undamped step towards the root of the arctangent leads farther off."""
+    unknown = (Unknown(name="x", unit="", index=0, lower=-20.0, upper=20.0),)
+
+    def evaluate(values: NDArray[np.float64]) -> Normal:
+        error, slope = np.arctan(values), -1.0 / (1.0 + values**2)
+        return Normal(chi2=float(error @ error), gradient=slope * error, curvature=np.outer(slope, slope))
+
+    def in_legs(*, kept: bool) -> float:
+        values, damping = np.array([3.0]), DAMPING
+        for _ in range(30):
+            leg = minimise(evaluate, values, unknown, max_iterations=1, tolerance=1e-6, damping=damping)
+            values, damping = leg.values, max(leg.damping, DAMPING) if kept else DAMPING
+        return float(values[0])
+
+    assert in_legs(kept=False) == 3.0
+    assert abs(in_legs(kept=True)) < 1e-3

@@ -110,6 +110,16 @@ def test_a_race_goes_on_with_what_may_still_win(
     assert run == legs
 
 
+def test_the_next_leg_starts_where_the_last_one_ended_and_tries_nothing_again_that_was_refused(lagging: Setup) -> None:
+    search = Search.of(lagging)
+    fitted = search.fit_nominal()
+    racer = Racer("lag", 0.0, 0, fitted.candidate)
+    again = racer.after(replace(fitted.minimum, values=1.1 * fitted.minimum.values, damping=0.5))
+    np.testing.assert_array_equal(again.candidate.start, 1.1 * fitted.minimum.values)
+    assert (again.name, again.order, again.begin, again.damping) == ("lag", 0.0, 0, 0.5)
+    assert racer.after(replace(fitted.minimum, damping=1e-9)).damping == racer.damping  # no bolder than at first
+
+
 def test_a_model_that_is_exact_is_adequate() -> None:
     """What rwn simulates itself leaves nothing at all: an error of exactly zero."""
     voltage = np.repeat(np.random.default_rng(1).uniform(-10.0, 10.0, 10), 100)

@@ -36,6 +36,12 @@ def equal_shares(work: _core.Work, count: int) -> list[float]:
     return [one_stage(work) / max(count, 1)] * count
 
 
+def shares_of_steps(work: _core.Work, costs: list[float]) -> list[float]:
+    """What fits may cost that are to come equally far, given what a step of each costs."""
+    total = max(sum(costs), 1.0)
+    return [one_stage(work) * cost / total for cost in costs]
+
+
 def shares_by_rank(work: _core.Work, costs: list[float]) -> list[float]:
     """What each fit may cost, given how far each is from an explanation: the second best half as much as the best."""
     rank = np.argsort(np.argsort(costs, kind="stable"), kind="stable")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.effects import Effect, Parameter, motor_index, motor_parameters, parameter_vector, table
-from rwn.least_squares import Minimum, Unknown, minimise
+from rwn.least_squares import DAMPING, Minimum, Unknown, minimise
 from rwn.output_error import CountedNormal, OutputError
 
 Array = NDArray[np.float64]
@@ -94,8 +94,9 @@ def candidate(
 
 
 def fit(
-    problem: OutputError, this: Candidate, *, max_iterations: int = 60, tolerance: float = 1e-2, share: float = np.inf
-) -> Minimum:
+    problem: OutputError, this: Candidate, *, max_iterations: int = 60, tolerance: float = 1e-2,
+    damping: float = DAMPING, share: float = np.inf,
+) -> Minimum:  # fmt: skip
     """Fits the unknowns of a candidate to the recordings, by one iteration at least; `share`: what it may cost."""
     own = problem.metered()
 
@@ -106,7 +107,7 @@ def fit(
         return own.normal(this.with_values(values), this.active, ())
 
     end = minimise(
-        evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance,
+        evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance, damping=damping,
         prior_scale=problem.colour, probe=probe, enough=lambda: own.work.done >= share,
     )  # fmt: skip
     problem.work.add(own.work.done)

@@ -104,11 +104,12 @@ def explain(
     for size in range(2, at_once + 1):
         if complete:
             break
-        if not affords_more(search.problem.work):
-            cut_short = True
+        known = pairs if size == 2 else NOTHING
+        cut_short = not affords_more(search.problem.work)
+        if cut_short and not known.fits:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
-        found = _beside(search, layer, wanted, fits, pairs if size == 2 else NOTHING)
+        found = _beside(search, layer, wanted, fits, known)
         more, pairs = found.fits, found if size == 2 else pairs
         gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
         complete = gained < WORTH * left.variance
@@ -142,7 +143,7 @@ def explain(
         pairs=pairs,
         speed_steps=steps_shown(search.problem, setup.problem, best),
         complete=names is None and (complete or at_once >= MOST_EFFECTS),
-        cut_short=cut_short,
+        cut_short=cut_short and not left.at_the_floor,
         strained=tuple(f for f in strained if f.cost < best.cost),
     )
 
@@ -221,7 +222,7 @@ def _beside(
     """
     found, tried, names = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted)
     for place, base in enumerate(layer):
-        if place and not affords_more(search.problem.work):
+        if (place or known.fits) and not affords_more(search.problem.work):
             break
         parts = _all_there_is(search, found)
         beside = [n for n in names if n in parts] if parts and not parts & set(base.added) else names

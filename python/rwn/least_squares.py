@@ -14,6 +14,7 @@ Array = NDArray[np.float64]
 
 LEAST = 1e-4  # of what a step promises, that it has to keep to be taken
 UNDAMPED = 1e-10  # damping that holds no step back, even along what priors alone decide
+DAMPING = 1e-3  # that a fit begins with
 RELIEF = 1e-2  # what damping is lowered by where a step promises little
 
 
@@ -78,6 +79,7 @@ class Minimum:
     data_information: Array  # (p, p) the same without priors
     status: FitStatus
     iterations: int
+    damping: float = DAMPING  # of the last step, or that the next one wants
 
 
 class _Search:
@@ -156,7 +158,7 @@ def minimise(
     *,
     max_iterations: int = 60,
     tolerance: float = 1e-2,
-    damping: float = 1e-3,
+    damping: float = DAMPING,
     prior_scale: float = 1.0,
     probe: Evaluate | None = None,
     doubt: int = 1,
@@ -176,7 +178,7 @@ def minimise(
     z = np.clip(z, search.lower, search.upper)
     cost, normal = search.at(z)
     if not np.isfinite(cost):
-        return _minimum(search, z, normal, cost, cost, FitStatus.DIVERGED, 0)
+        return _minimum(search, z, normal, cost, cost, FitStatus.DIVERGED, 0, damping)
     gradient, curvature = search.slopes(z, normal)
     first = cost
     growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
@@ -213,7 +215,7 @@ def minimise(
             if misses > 8:
                 status = FitStatus.STALLED
                 break
-    return _minimum(search, z, normal, cost, first, status, count)
+    return _minimum(search, z, normal, cost, first, status, count, damping)
 
 
 def _promise(step: Array, gradient: Array, curvature: Array) -> float:
@@ -254,7 +256,7 @@ def _reach(search: _Search) -> Array:
 
 
 def _minimum(
-    search: _Search, z: Array, normal: Normal, cost: float, first: float, status: FitStatus, count: int
+    search: _Search, z: Array, normal: Normal, cost: float, first: float, status: FitStatus, count: int, damping: float
 ) -> Minimum:
     return Minimum(
         values=search.values(z),
@@ -265,4 +267,5 @@ def _minimum(
         data_information=normal.curvature,
         status=status,
         iterations=count,
+        damping=damping,
     )

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rwn.candidate import Candidate
-from rwn.least_squares import Minimum
+from rwn.least_squares import DAMPING, Minimum
 from rwn.rough import rough
 
 HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
@@ -17,7 +17,7 @@ MET = 1.0  # squared error in units of its variance, within which two starts hav
 
 
 class Racer(NamedTuple):
-    """A start of one effect; starts of different kinds (all but the candidate) do not compete before they are fitted.
+    """A start of one effect; starts of different kinds (the first three) do not compete before they are fitted.
 
     Those of a drive's ends compete with the same first guess of the motor: a lag and a time constant of the motor that
     have changed places fit nearly as well, and lie next to a motor that the missing lag has bent.
@@ -27,6 +27,11 @@ class Racer(NamedTuple):
     order: float  # periods per revolution; 0: not periodic
     begin: int  # 0 from the motor as the base has it, 1 from any other
     candidate: Candidate
+    damping: float = DAMPING  # that its next leg begins with
+
+    def after(self, m: Minimum) -> Racer:
+        """The same where a leg ended; steps that were too long there are not tried again."""
+        return self._replace(candidate=self.candidate.starting_at(m.values), damping=max(m.damping, DAMPING))
 
 
 Row = tuple[Racer, Minimum]

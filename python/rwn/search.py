@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import hints
-from rwn.budget import equal_shares, shares_by_rank
+from rwn.budget import shares_by_rank, shares_of_steps
 from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
 from rwn.effects import Effect
 from rwn.fitted import Fitted
@@ -35,6 +35,7 @@ TO_THE_END = 60  # iterations, most of them never needed
 STEEP = 0.5  # share of its first cost that a fit may have left after these, to go on whatever the others have
 GLANCE, LOOK = 2500, 6000  # samples on which starts of one effect are told apart, beside others and alone
 SIGHTED = 4  # starts that are worth an iteration where many are looked at
+MEASURED = 0.1  # of every recording, that says what a step of a fit costs
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 
 
@@ -133,15 +134,18 @@ class Search:
         self, racers: Sequence[Racer], *, iterations: int, problem: OutputError | None = None
     ) -> list[Row]:
         """Some iterations of every racer; each row starts the next leg where this one ended."""
-        shares = equal_shares(self.problem.work, len(racers))
+        costs = side_by_side(lambda racer: _cost_of_a_step(problem or self.problem, racer.candidate), racers)
+        shares = shares_of_steps(self.problem.work, costs)
         return side_by_side(
             lambda pair: self._leg(pair[0], iterations, problem, share=pair[1]), zip(racers, shares, strict=True)
         )
 
     def _leg(self, racer: Racer, iterations: int, problem: OutputError | None = None, *, share: float) -> Row:
         here = problem or self.problem
-        m = fit(here, racer.candidate, max_iterations=iterations, tolerance=RESOLUTION, share=share)
-        return racer._replace(candidate=racer.candidate.starting_at(m.values)), m
+        m = fit(
+            here, racer.candidate, max_iterations=iterations, tolerance=RESOLUTION, damping=racer.damping, share=share
+        )
+        return racer.after(m), m
 
     def _to_the_end(
         self, rows: Sequence[Row], look: OutputError, *, best_here: float, best: float
@@ -190,7 +194,7 @@ class Search:
             racer, m = row
             if m.cost < bar:
                 m = settled(problem, racer.candidate, m, turns=1, share=share)
-            return racer._replace(candidate=racer.candidate.starting_at(m.values)), m
+            return racer.after(m), m
 
         return self._by_rank(near, rows)
 
@@ -276,6 +280,15 @@ class Search:
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
     """The explanations that are worth fitting again under other conditions, best first."""
     return sorted(fits, key=lambda f: f.cost)[:KEPT]
+
+
+def _cost_of_a_step(problem: OutputError, this: Candidate) -> float:
+    """What it costs to simulate all recordings once, with derivatives; measured on the beginning of each."""
+    targets = tuple(t.until(max(int(MEASURED * t.time.size), 1)) for t in problem.targets)
+    own = replace(problem, targets=targets).metered()
+    own.normal(this.vector, this.active, this.by)
+    problem.work.add(own.work.done)
+    return own.work.done / MEASURED
 
 
 def _has_room(this: Candidate, name: str) -> bool:

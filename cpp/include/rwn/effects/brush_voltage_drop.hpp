@@ -22,7 +22,7 @@ struct BrushVoltageDrop {
                                          Parameter{.name = "transition_current",
                                                    .unit = "A",
                                                    .meaning = "current over which the drop builds up",
-                                                   .lower = 1e-3,
+                                                   .lower = 5e-3,  // already as good as abrupt
                                                    .upper = 0.2,
                                                    .start = 0.02,
                                                    .scale = Scale::current,
