@@ -55,22 +55,24 @@ def test_what_swings_is_more_than_noise(periods: float) -> None:
     assert quiet.at_the_floor  # where it is not loud it may be noise
 
 
-def test_a_shaft_is_seen_beside_a_drag() -> None:
+@pytest.mark.parametrize(("stiffness", "noise"), [(4.0, 0.2), (20.0, 0.05)], ids=["7 samples", "3 samples"])
+def test_a_shaft_is_seen_beside_a_drag(stiffness: float, noise: float) -> None:
+    """However few samples it swings within: a backlash that is never left is no shaft."""
     motor = {
         "resistance": 2.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
         "inertia": 2e-5, "viscous_friction": 2e-6,
     }  # fmt: skip
     missing = {
         "quadratic-drag": {"drag_coefficient": 1e-6},
-        "shaft-compliance": {"stiffness": 4.0, "damping": 1e-3, "load_inertia": 8e-6},
+        "shaft-compliance": {"stiffness": stiffness, "damping": 1e-3, "load_inertia": 8e-6},
     }
     draw = np.random.default_rng(8)
     time = np.arange(3000) / 1000.0
     voltage = np.repeat(draw.uniform(2.0, 12.0, 60), 50)
     seen = rwn.Recording(name="shaft.csv", time=time, signals={"voltage": voltage})
     done = rwn.simulate(Model(kind="dc", parameters=motor, effects=missing), seen)
-    signals = {"voltage": voltage, "speed": done.signals["speed"] + 0.2 * draw.standard_normal(time.size)}
+    signals = {"voltage": voltage, "speed": done.signals["speed"] + noise * draw.standard_normal(time.size)}
     model = Model(kind="dc", parameters=motor, uncertainty=dict.fromkeys(motor, 0.05))
     setup = prepare([rwn.Recording(name="shaft.csv", time=time, signals=signals)], model)
-    found = explain(setup, progress=lambda *_: None, names=sorted(missing), at_once=2)
+    found = explain(setup, progress=lambda *_: None, names=[*sorted(missing), "backlash"], at_once=2)
     assert set(found.hypotheses[0].fitted.added) == set(missing)

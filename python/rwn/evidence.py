@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 AT_THE_FLOOR = 1.4  # coloured energy of a residual that may still be measurement noise
 RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2,
-LOUD = 2.0  # where the residual has at least so much variance in units of the noise
+LOUD = 1.3  # where the residual has at least so much variance in units of the noise
 MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it is worth
 
 

@@ -28,7 +28,7 @@ struct Parameter {
   double upper = 0.0;
   double start = 0.0;  // first guess
   Scale scale = Scale::none;
-  std::array<double, 8> scan{};  // other first guesses worth trying; zeros at the end do not count
+  std::array<double, 9> scan{};  // other first guesses worth trying; zeros at the end do not count
   bool inverse = false;          // the effect vanishes as this grows, not as it goes to zero
   bool strength = false;         // zero means that the effect is absent
   bool fixed = false;            // a constant of nature or convention, never fitted

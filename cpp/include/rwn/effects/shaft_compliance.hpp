@@ -16,7 +16,7 @@ struct ShaftCompliance {
                                                    .upper = 1e4,
                                                    .start = 1.0,
                                                    .scale = Scale::stiffness,
-                                                   .scan = {3e-4, 1e-3, 4e-3, 0.015, 0.05, 0.15, 0.5, 2.0},
+                                                   .scan = {3e-4, 1e-3, 4e-3, 0.015, 0.05, 0.15, 0.5, 2.0, 8.0},
                                                    .strength = true},
                                          Parameter{.name = "damping",
                                                    .unit = "N m s/rad",
