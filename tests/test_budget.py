@@ -11,7 +11,7 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn import _core, budget
-from rwn.candidate import candidate, fit
+from rwn.candidate import candidate, cost_of_a_step, fit
 from rwn.explain import explain
 from rwn.output_error import OutputError
 from rwn.prepare import Setup, prepare
@@ -50,6 +50,16 @@ def test_a_run_costs_by_its_length_its_derivatives_and_its_equations() -> None:
     assert once < _cost(problem, 4) < _cost(problem, 4, "stribeck-friction") < _cost(problem, 4, "backlash")
 
 
+def test_what_a_step_costs_is_told_from_the_beginning_of_the_recordings() -> None:
+    setup = _setup()
+    for name in ("quadratic-drag", "shaft-compliance"):
+        this = candidate(setup.nominal, (name,), setup.scales)
+        own = setup.problem.metered()
+        own.normal(this.vector, this.active, this.by)
+        assert cost_of_a_step(setup.problem, this) == pytest.approx(own.work.done, rel=0.2)
+    assert 0 < setup.problem.work.done < own.work.done  # measuring is counted too
+
+
 def test_what_a_search_costs_does_not_depend_on_threads() -> None:
     costs = []
     for jobs in (1, 2):
@@ -81,6 +91,8 @@ def test_shares_are_those_of_a_stage() -> None:
     assert sum(shares) == pytest.approx(stage)
     assert shares[1] == pytest.approx(2.0 * shares[2]) == pytest.approx(3.0 * shares[0])
     assert budget.shares_by_rank(work, []) == []
+    assert budget.shares_of_steps(work, [1.0, 3.0]) == pytest.approx([0.25 * stage, 0.75 * stage])
+    assert budget.shares_of_steps(work, []) == []
 
 
 def test_something_is_left_however_much_was_spent() -> None:

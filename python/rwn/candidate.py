@@ -14,6 +14,10 @@ from rwn.output_error import CountedNormal, OutputError
 
 Array = NDArray[np.float64]
 
+LEAST_LEVEL = 1e-3  # of a friction, relative to the largest torque, that says how strong its elaborations may be
+TORQUE_TO_EMF = 0.02  # Kt = Ke in SI but for losses that the equations do not hold
+MEASURED = 0.1  # of every recording, that says what a step of a fit costs
+
 
 @dataclass(frozen=True, kw_only=True)
 class Nominal:
@@ -114,6 +118,15 @@ def fit(
     return end
 
 
+def cost_of_a_step(problem: OutputError, this: Candidate) -> float:
+    """What it costs to simulate all recordings once, with derivatives; measured on the beginning of each."""
+    targets = tuple(t.until(max(int(MEASURED * t.time.size), 1)) for t in problem.targets)
+    own = replace(problem, targets=targets).metered()
+    own.normal(this.vector, this.active, this.by)
+    problem.work.add(own.work.done)
+    return own.work.done / MEASURED
+
+
 def _motor_unknown(name: str, nominal: Nominal) -> Unknown:
     value = nominal.motor[name]
     if name not in motor_parameters():  # a coefficient of a transfer function, of either sign
@@ -132,10 +145,6 @@ def _motor_unknown(name: str, nominal: Nominal) -> Unknown:
         tied_to="back_emf_constant" if name == "torque_constant" and _same_constant(nominal) else "",
         tie_std=TORQUE_TO_EMF,
     )
-
-
-LEAST_LEVEL = 1e-3  # of a friction, relative to the largest torque, that says how strong its elaborations may be
-TORQUE_TO_EMF = 0.02  # Kt = Ke in SI but for losses that the equations do not hold
 
 
 def _same_constant(nominal: Nominal) -> bool:

@@ -13,6 +13,10 @@ from rwn.least_squares import DAMPING, Minimum
 from rwn.rough import rough
 
 HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
+SIGHTED = 4  # starts that are worth an iteration where derivatives mislead from afar,
+PHASES = 2  # of each order of a periodic effect,
+MANY = 12  # starts of another effect that are all worth one,
+BEST_OF_MANY = 8  # and those that are where there are more
 MET = 1.0  # squared error in units of its variance, within which two starts have come to the same end
 
 
@@ -45,6 +49,25 @@ def misleads(racer: Racer) -> bool:
 
 def kind_of(racer: Racer) -> Kind:
     return racer.name, racer.order, racer.begin
+
+
+def better_looked_at(racers: Sequence[Racer]) -> list[Racer]:
+    """Starts that are not worth an iteration each before their errors are known."""
+    counts = Counter(map(kind_of, racers))
+    return [r for r in racers if misleads(r) or counts[kind_of(r)] > MANY]
+
+
+def worth_an_iteration(ranked: Sequence[Racer]) -> list[Racer]:
+    """Of starts that were looked at, best first, the foremost of each kind."""
+    met: Counter[Kind] = Counter()
+    kept = []
+    for racer in ranked:
+        kind = kind_of(racer)
+        most = BEST_OF_MANY if not misleads(racer) else PHASES if racer.order else SIGHTED
+        if met[kind] < most:
+            kept.append(racer)
+        met[kind] += 1
+    return kept
 
 
 def best_of_each(rows: Sequence[Row], keep: int, orders: int) -> list[Row]:

@@ -12,13 +12,24 @@ from numpy.typing import NDArray
 
 from rwn import hints
 from rwn.budget import shares_by_rank, shares_of_steps
-from rwn.candidate import Candidate, Nominal, candidate, first_unit, fit
+from rwn.candidate import Candidate, Nominal, candidate, cost_of_a_step, first_unit, fit
 from rwn.effects import Effect
 from rwn.fitted import Fitted
 from rwn.least_squares import FitStatus, Minimum
 from rwn.output_error import OutputError, Target
 from rwn.prepare import Setup
-from rwn.racer import HOPELESS, Kind, Racer, Row, apart, best_of_each, hopeless_from, kind_of, misleads, promising
+from rwn.racer import (
+    HOPELESS,
+    Racer,
+    Row,
+    apart,
+    best_of_each,
+    better_looked_at,
+    hopeless_from,
+    kind_of,
+    promising,
+    worth_an_iteration,
+)
 from rwn.rough import settled
 from rwn.threads import side_by_side
 
@@ -34,8 +45,6 @@ HARDLY = 1  # the same where it looks hopeless
 TO_THE_END = 60  # iterations, most of them never needed
 STEEP = 0.5  # share of its first cost that a fit may have left after these, to go on whatever the others have
 GLANCE, LOOK = 2500, 6000  # samples on which starts of one effect are told apart, beside others and alone
-SIGHTED = 4  # starts that are worth an iteration where many are looked at
-MEASURED = 0.1  # of every recording, that says what a step of a fit costs
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 
 
@@ -100,17 +109,16 @@ class Search:
         return [*(r for r in racers if counts[kind_of(r)] <= keep), *(racer for racer, _ in rows)]
 
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
-        """Where derivatives mislead from afar, the SIGHTED best of an effect's starts before anything is fitted.
+        """Where derivatives mislead from afar, the few best of an effect's starts before anything is fitted.
 
-        That is for periodic effects, each order by itself, and where a contact makes the error rough.
+        That is for periodic effects, each order by itself, and where a contact makes the error rough. Of any other
+        effect with many starts the better ones.
         """
-        astray = [r for r in racers if misleads(r)]
-        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray)
-        groups: dict[Kind, list[tuple[float, int]]] = {}
-        for k, (racer, cost) in enumerate(zip(astray, ends, strict=True)):
-            groups.setdefault(kind_of(racer), []).append((cost, k))
-        best = {k for group in groups.values() for _, k in sorted(group)[:SIGHTED]}
-        return [*(r for r in racers if not misleads(r)), *(r for k, r in enumerate(astray) if k in best)]
+        looked_at = better_looked_at(racers)
+        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), looked_at)
+        ranked = [r for r, _ in sorted(zip(looked_at, ends, strict=True), key=lambda pair: pair[1])]
+        kinds = set(map(kind_of, looked_at))
+        return [*(r for r in racers if kind_of(r) not in kinds), *worth_an_iteration(ranked)]
 
     def look(self, base: Fitted) -> OutputError:
         """The part of the problem on which effects are told apart: all of it where it is short."""
@@ -134,7 +142,7 @@ class Search:
         self, racers: Sequence[Racer], *, iterations: int, problem: OutputError | None = None
     ) -> list[Row]:
         """Some iterations of every racer; each row starts the next leg where this one ended."""
-        costs = side_by_side(lambda racer: _cost_of_a_step(problem or self.problem, racer.candidate), racers)
+        costs = side_by_side(lambda racer: cost_of_a_step(problem or self.problem, racer.candidate), racers)
         shares = shares_of_steps(self.problem.work, costs)
         return side_by_side(
             lambda pair: self._leg(pair[0], iterations, problem, share=pair[1]), zip(racers, shares, strict=True)
@@ -280,15 +288,6 @@ class Search:
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
     """The explanations that are worth fitting again under other conditions, best first."""
     return sorted(fits, key=lambda f: f.cost)[:KEPT]
-
-
-def _cost_of_a_step(problem: OutputError, this: Candidate) -> float:
-    """What it costs to simulate all recordings once, with derivatives; measured on the beginning of each."""
-    targets = tuple(t.until(max(int(MEASURED * t.time.size), 1)) for t in problem.targets)
-    own = replace(problem, targets=targets).metered()
-    own.normal(this.vector, this.active, this.by)
-    problem.work.add(own.work.done)
-    return own.work.done / MEASURED
 
 
 def _has_room(this: Candidate, name: str) -> bool:
