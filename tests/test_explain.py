@@ -40,17 +40,17 @@ def _fitted(setup: Setup, name: str) -> Fitted:
     return search.explain(search.fit_nominal(), [name])[0]
 
 
-def test_a_law_on_a_limit_of_its_parameters_is_known(setup: Setup) -> None:
-    fitted = _fitted(setup, "stribeck-friction")
-    names = [u.name for u in fitted.candidate.unknowns]
-    k = names.index("stribeck-friction.stribeck_speed")
-    values = fitted.minimum.values.copy()
-    values[k] = fitted.candidate.unknowns[k].upper
-    strained = replace(fitted, minimum=replace(fitted.minimum, values=values))
-    assert strained.limits_met == ("stribeck-friction.stribeck_speed",)
-    values = values.copy()
-    values[k] *= 0.9
-    assert replace(fitted, minimum=replace(fitted.minimum, values=values)).limits_met == ()
+@pytest.mark.parametrize(
+    ("name", "shape", "limit"), [("stribeck-friction", "stribeck_speed", "upper"), ("backlash", "gap", "lower")]
+)
+def test_a_law_on_a_limit_of_its_parameters_is_known(setup: Setup, name: str, shape: str, limit: str) -> None:
+    """Friction that never falls is Coulomb's, and a backlash without a gap a shaft."""
+    fitted = _fitted(setup, name)
+    k = [u.name for u in fitted.candidate.unknowns].index(f"{name}.{shape}")
+    for at, met in ((1.0, (f"{name}.{shape}",)), (0.9 if limit == "upper" else 1.1, ())):
+        values = fitted.minimum.values.copy()
+        values[k] = at * getattr(fitted.candidate.unknowns[k], limit)
+        assert replace(fitted, minimum=replace(fitted.minimum, values=values)).limits_met == met
 
 
 @pytest.mark.parametrize(("begin", "end", "none"), [(0.3, 0.6, False), (0.0005, 0.9995, True), (0.998, 0.9985, True)])

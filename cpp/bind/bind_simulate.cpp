@@ -23,6 +23,7 @@ py::dict describe(const Parameter& p) {
   d["cyclic"] = p.cyclic;
   d["order"] = p.order;
   d["window"] = p.window;
+  d["resonance"] = p.resonance;
   d["lattice"] = p.lattice;
   d["idealised"] = p.idealised;
   d["replaces"] = p.replaces < 0 ? py::object(py::none())

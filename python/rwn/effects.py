@@ -31,6 +31,7 @@ class Parameter:
     cyclic: bool
     order: bool
     window: bool
+    resonance: bool
     lattice: bool
     idealised: bool
     replaces: str | None

@@ -14,9 +14,7 @@ from rwn.rough import rough
 
 HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
 SIGHTED = 4  # starts that are worth an iteration where derivatives mislead from afar,
-PHASES = 2  # of each order of a periodic effect,
-MANY = 12  # starts of another effect that are all worth one,
-BEST_OF_MANY = 8  # and those that are where there are more
+PHASES = 2  # and of each order of a periodic effect
 MET = 1.0  # squared error in units of its variance, within which two starts have come to the same end
 
 
@@ -51,22 +49,14 @@ def kind_of(racer: Racer) -> Kind:
     return racer.name, racer.order, racer.begin
 
 
-def better_looked_at(racers: Sequence[Racer]) -> list[Racer]:
-    """Starts that are not worth an iteration each before their errors are known."""
-    counts = Counter(map(kind_of, racers))
-    return [r for r in racers if misleads(r) or counts[kind_of(r)] > MANY]
-
-
 def worth_an_iteration(ranked: Sequence[Racer]) -> list[Racer]:
-    """Of starts that were looked at, best first, the foremost of each kind."""
+    """Of starts whose derivatives mislead, by what they leave, least first, the foremost of each kind."""
     met: Counter[Kind] = Counter()
     kept = []
     for racer in ranked:
-        kind = kind_of(racer)
-        most = BEST_OF_MANY if not misleads(racer) else PHASES if racer.order else SIGHTED
-        if met[kind] < most:
+        met[kind_of(racer)] += 1
+        if met[kind_of(racer)] <= (PHASES if racer.order else SIGHTED):
             kept.append(racer)
-        met[kind] += 1
     return kept
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rwn import hints
 from rwn.budget import shares_by_rank, shares_of_steps
 from rwn.candidate import Candidate, Nominal, candidate, cost_of_a_step, first_unit, fit
-from rwn.effects import Effect
+from rwn.effects import Effect, motor_index
 from rwn.fitted import Fitted
 from rwn.least_squares import FitStatus, Minimum
 from rwn.output_error import OutputError, Target
@@ -24,12 +24,13 @@ from rwn.racer import (
     Row,
     apart,
     best_of_each,
-    better_looked_at,
     hopeless_from,
     kind_of,
+    misleads,
     promising,
     worth_an_iteration,
 )
+from rwn.resonances import resonances
 from rwn.rough import settled
 from rwn.threads import side_by_side
 
@@ -111,14 +112,12 @@ class Search:
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
         """Where derivatives mislead from afar, the few best of an effect's starts before anything is fitted.
 
-        That is for periodic effects, each order by itself, and where a contact makes the error rough. Of any other
-        effect with many starts the better ones.
+        That is for periodic effects, each order by itself, and where a contact makes the error rough.
         """
-        looked_at = better_looked_at(racers)
-        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), looked_at)
-        ranked = [r for r, _ in sorted(zip(looked_at, ends, strict=True), key=lambda pair: pair[1])]
-        kinds = set(map(kind_of, looked_at))
-        return [*(r for r in racers if kind_of(r) not in kinds), *worth_an_iteration(ranked)]
+        astray = [r for r in racers if misleads(r)]
+        ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray)
+        ranked = [r for r, _ in sorted(zip(astray, ends, strict=True), key=lambda pair: pair[1])]
+        return [*(r for r in racers if not misleads(r)), *worth_an_iteration(ranked)]
 
     def look(self, base: Fitted) -> OutputError:
         """The part of the problem on which effects are told apart: all of it where it is short."""
@@ -256,7 +255,20 @@ class Search:
         if any(p.window for p in effect.parameters):
             first, last = (p.name for p in effect.parameters if p.window)
             axes.append([{first: a, last: b} for a, b in self._windows(base)])
-        return [{k: v for part in combination for k, v in part.items()} for combination in product(*axes)]
+        scanned: list[Start] = [
+            {k: v for part in combination for k, v in part.items()} for combination in product(*axes)
+        ]
+        return self._second_masses(base, effect) or scanned
+
+    def _second_masses(self, base: Fitted, effect: Effect) -> list[Start]:
+        """What the resonances of the residual of `base` say of a second mass."""
+        names = [p.name for p in effect.parameters if p.resonance]
+        if not names:
+            return []
+        residuals = self.problem.residuals(base.vector, base.candidate.active)
+        inertia = float(base.vector[motor_index("inertia")])
+        found = resonances(self.problem, base.vector, residuals)
+        return [dict(zip(names, resonance.of(inertia), strict=True)) for resonance in found]
 
     def _orders(self, base: Fitted, effect: Effect, lowest: float, count: int) -> list[float]:
         if not any(t.angle.size for t in self.problem.targets):

@@ -35,6 +35,7 @@ struct Parameter {
   bool cyclic = false;           // an angle
   bool order = false;            // a spatial frequency, found from a spectrum over the angle
   bool window = false;           // an instant, found from a change in the residual over time
+  bool resonance = false;        // stiffness, damping and inertia, in this order, found from a resonance of the residual
   bool lattice = false;          // a quantum, read off the recorded values
   bool idealised = false;        // a limit is an idealisation (abrupt, rigid) that is as good a law
   int replaces = -1;             // the nominal motor parameter whose role this one takes over

@@ -17,14 +17,16 @@ struct ShaftCompliance {
                                                    .start = 1.0,
                                                    .scale = Scale::stiffness,
                                                    .scan = {3e-4, 1e-3, 4e-3, 0.015, 0.05, 0.15, 0.5, 2.0, 8.0},
-                                                   .strength = true},
+                                                   .strength = true,
+                                                   .resonance = true},
                                          Parameter{.name = "damping",
                                                    .unit = "N m s/rad",
                                                    .meaning = "torque per rate of twist",
                                                    .lower = 0.0,
                                                    .upper = 100.0,
                                                    .start = 0.1,
-                                                   .scale = Scale::damping},
+                                                   .scale = Scale::damping,
+                                                   .resonance = true},
                                          Parameter{.name = "load_inertia",
                                                    .unit = "kg m^2",
                                                    .meaning = "part of the inertia that is behind it",
@@ -32,7 +34,8 @@ struct ShaftCompliance {
                                                    .upper = 0.95,
                                                    .start = 0.4,
                                                    .scale = Scale::inertia,
-                                                   .scan = {0.25, 0.6}}};
+                                                   .scan = {0.25, 0.6},
+                                                   .resonance = true}};
 
   template <class S>
   static Joint<S> joint(const S* p, const Motor<S>&) {
