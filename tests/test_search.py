@@ -61,6 +61,15 @@ def test_starts_of_a_drives_end_compete_per_first_guess_of_the_motor(lagging: Se
     assert kinds == {"speed-sensor-lag": {0, 1}, "backlash": {0}}
 
 
+def test_a_start_that_a_part_has_led_astray_goes_on_from_where_it_began(lagging: Setup) -> None:
+    search = Search.of(lagging)
+    begun = search._starts(search.fit_nominal(), "quadratic-drag", orders=3)[0]
+    values = begun.candidate.start.copy()
+    values[0] *= 3.0
+    lost = begun._replace(candidate=begun.candidate.starting_at(values))
+    assert search._nearer([(lost, begun), (begun, lost)], search.problem) == [begun, begun]
+
+
 ON_LOOK, ON_ALL = "look", "all"
 
 

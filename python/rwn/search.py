@@ -5,15 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
-from rwn import hints
 from rwn.budget import shares_by_rank, shares_of_steps
-from rwn.candidate import Candidate, Nominal, candidate, cost_of_a_step, first_unit, fit
-from rwn.effects import Effect, motor_index
+from rwn.candidate import Candidate, Nominal, candidate, cost_of_a_step, fit
 from rwn.fitted import Fitted
 from rwn.least_squares import FitStatus, Minimum
 from rwn.output_error import OutputError, Target
@@ -30,13 +26,9 @@ from rwn.racer import (
     promising,
     worth_an_iteration,
 )
-from rwn.resonances import resonances
 from rwn.rough import settled
+from rwn.starts import Starts
 from rwn.threads import side_by_side
-
-Array = NDArray[np.float64]
-Start = Mapping[str, float]
-
 
 RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
 KEPT = 12  # explanations that are worth fitting again
@@ -106,8 +98,18 @@ class Search:
             return list(racers)
         crowded = self._sighted(crowded, self.part(base, GLANCE))
         part = self.part(base, GLANCE) if base.added or self.patience > 1 else self.look(base)
-        rows = best_of_each(self._race(crowded, iterations=self.patience, problem=part), keep, orders=keep + 1)
-        return [*(r for r in racers if counts[kind_of(r)] <= keep), *(racer for racer, _ in rows)]
+        rows = self._race(crowded, iterations=self.patience, problem=part)
+        began = {id(racer): start for start, (racer, _) in zip(crowded, rows, strict=True)}
+        kept = [(racer, began[id(racer)]) for racer, _ in best_of_each(rows, keep, orders=keep + 1)]
+        return [*(r for r in racers if counts[kind_of(r)] <= keep), *self._nearer(kept, self.look(base))]
+
+    def _nearer(self, pairs: Sequence[tuple[Racer, Racer]], look: OutputError) -> list[Racer]:
+        """Of each pair the one that leaves less: a fit to a part may have bent the motor, so that the rest is lost."""
+
+        def nearer(pair: tuple[Racer, Racer]) -> Racer:
+            return min(pair, key=lambda r: look.error(r.candidate.vector, r.candidate.active))
+
+        return side_by_side(nearer, pairs)
 
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
         """Where derivatives mislead from afar, the few best of an effect's starts before anything is fitted.
@@ -227,74 +229,8 @@ class Search:
         return side_by_side(again, zip(these, shares, strict=True))
 
     def _starts(self, base: Fitted, name: str, *, orders: int) -> list[Racer]:
-        effect = self.nominal.table[name]
-        periodic = next((p.name for p in effect.parameters if p.order), "")
-        known = {other: base.values_of(other) for other in base.added}
-        return [
-            Racer(
-                name,
-                start.get(periodic, 0.0),
-                min(k, 1) if effect.at_an_end else 0,
-                candidate(self.nominal, (*base.added, name), self.scales, {**known, name: start}, begin),
-            )
-            for start in self._guesses(base, effect, orders)
-            for k, begin in enumerate((base.motor, *(({},) if _bent(base) else ()), *self.nominal.starts))
-        ]
-
-    def _guesses(self, base: Fitted, effect: Effect, orders: int) -> list[Start]:
-        """Starting values (SI) of one effect: what its table scans, and hints from the residual of `base`."""
-        axes: list[list[Start]] = []
-        motor = {**self.nominal.motor, **base.motor}
-        for p in effect.parameters:
-            if p.order:
-                axes.append([{p.name: order} for order in self._orders(base, effect, p.lower, orders)])
-            elif p.window:
-                continue
-            elif p.scan:
-                axes.append([{p.name: s * first_unit(effect, p, motor, self.scales)} for s in p.scan])
-        if any(p.window for p in effect.parameters):
-            first, last = (p.name for p in effect.parameters if p.window)
-            axes.append([{first: a, last: b} for a, b in self._windows(base)])
-        scanned: list[Start] = [
-            {k: v for part in combination for k, v in part.items()} for combination in product(*axes)
-        ]
-        return self._second_masses(base, effect) or scanned
-
-    def _second_masses(self, base: Fitted, effect: Effect) -> list[Start]:
-        """What the resonances of the residual of `base` say of a second mass."""
-        names = [p.name for p in effect.parameters if p.resonance]
-        if not names:
-            return []
-        residuals = self.problem.residuals(base.vector, base.candidate.active)
-        inertia = float(base.vector[motor_index("inertia")])
-        found = resonances(self.problem, base.vector, residuals)
-        return [dict(zip(names, resonance.of(inertia), strict=True)) for resonance in found]
-
-    def _orders(self, base: Fitted, effect: Effect, lowest: float, count: int) -> list[float]:
-        if not any(t.angle.size for t in self.problem.targets):
-            return []
-        problem = hints.along_the_shaft(self.problem, base.vector, base.candidate.active)
-        grid = hints.order_grid(problem)
-        grid = grid[grid >= lowest]  # once per revolution is an unbalance
-        if not any(t.speed.size for t in problem.targets):
-            spectrum = hints.torque_spectrum(problem, base.vector, base.candidate.active, grid)
-            return hints.orders_of(spectrum, grid, count)
-        residuals = problem.residuals(base.vector, base.candidate.active)
-        found: list[float] = []
-        wanted: tuple[tuple[bool, int], ...] = ((False, count),)  # with the current or without, and how many orders
-        if effect.site == "flux" and all(t.current.size for t in problem.targets):
-            found = hints.orders_of(hints.flux_spectrum(problem, base.vector, grid), grid, count)
-            wanted = ((True, 1),)
-        elif effect.site == "flux":  # a current that was not recorded is known badly
-            wanted = ((True, count), (False, count))
-        for with_current, most in wanted:
-            spectrum = hints.angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
-            found += hints.orders_of(spectrum, grid, most)
-        return list(dict.fromkeys(found))
-
-    def _windows(self, base: Fitted) -> list[tuple[float, float]]:
-        residuals = self.problem.residuals(base.vector, base.candidate.active)
-        return hints.windows(self.problem, base.vector, residuals)
+        here = Starts(problem=self.problem, nominal=self.nominal, scales=self.scales)
+        return here.of(base, name, orders=orders)
 
 
 def foremost(fits: Sequence[Fitted]) -> list[Fitted]:
@@ -314,11 +250,3 @@ def _goes_on(m: Minimum, bar: float) -> bool:
 
 def _under_way(m: Minimum) -> bool:
     return m.status is FitStatus.ITERATION_LIMIT
-
-
-def _bent(base: Fitted) -> bool:
-    """Whether a fit has moved the motor so far that what is missing may have bent it: then its start is worth a try."""
-    return any(
-        u.prior is not None and u.prior > 0.0 and abs(v - u.prior) > 0.5 * u.prior_std * u.prior
-        for u, v in zip(base.candidate.unknowns, base.minimum.values, strict=True)
-    )
