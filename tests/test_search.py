@@ -14,7 +14,7 @@ from rwn.model import Model
 from rwn.output_error import OutputError
 from rwn.prepare import Setup, prepare
 from rwn.racer import Racer, Row
-from rwn.search import HARDLY, IN_PASSING, TO_THE_END, Search
+from rwn.search import ASTRAY, HARDLY, IN_PASSING, TO_THE_END, Search
 
 TRUE = {
     "resistance": 0.84, "inductance": 1e-4, "torque_constant": 0.116, "back_emf_constant": 0.116, "inertia": 3.84e-4,
@@ -61,13 +61,19 @@ def test_starts_of_a_drives_end_compete_per_first_guess_of_the_motor(lagging: Se
     assert kinds == {"speed-sensor-lag": {0, 1}, "backlash": {0}}
 
 
-def test_a_start_that_a_part_has_led_astray_goes_on_from_where_it_began(lagging: Setup) -> None:
+@pytest.mark.parametrize(("factor", "astray"), [(1.0, False), (1.02, False), (1.2, True)])
+def test_a_start_that_a_glance_has_led_far_astray_goes_on_from_where_it_began(
+    lagging: Setup, factor: float, astray: bool
+) -> None:
     search = Search.of(lagging)
-    begun = search._starts(search.fit_nominal(), "quadratic-drag", orders=3)[0]
-    values = begun.candidate.start.copy()
-    values[0] *= 3.0
-    lost = begun._replace(candidate=begun.candidate.starting_at(values))
-    assert search._nearer([(lost, begun), (begun, lost)], search.problem) == [begun, begun]
+    before = search._starts(search.fit_nominal(), "quadratic-drag", orders=3)[0]
+    values = before.candidate.start.copy()
+    values[0] *= factor
+    after = before._replace(candidate=before.candidate.starting_at(values))
+    errors = [search.problem.error(r.candidate.vector, r.candidate.active) for r in (after, before)]
+    assert errors[0] >= errors[1]
+    assert (errors[0] > ASTRAY * errors[1]) == astray
+    assert search._not_astray([(after, before)], search.problem) == [before if astray else after]
 
 
 ON_LOOK, ON_ALL = "look", "all"

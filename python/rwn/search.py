@@ -38,6 +38,7 @@ HARDLY = 1  # the same where it looks hopeless
 TO_THE_END = 60  # iterations, most of them never needed
 STEEP = 0.5  # share of its first cost that a fit may have left after these, to go on whatever the others have
 GLANCE, LOOK = 2500, 6000  # samples on which starts of one effect are told apart, beside others and alone
+ASTRAY = 10.0  # what a start may leave of the others after a glance, in units of what it left before
 GLANCED = 0.25  # least share of a recording's squared error that has to lie in them
 
 
@@ -101,15 +102,19 @@ class Search:
         rows = self._race(crowded, iterations=self.patience, problem=part)
         began = {id(racer): start for start, (racer, _) in zip(crowded, rows, strict=True)}
         kept = [(racer, began[id(racer)]) for racer, _ in best_of_each(rows, keep, orders=keep + 1)]
-        return [*(r for r in racers if counts[kind_of(r)] <= keep), *self._nearer(kept, self.look(base))]
+        return [*(r for r in racers if counts[kind_of(r)] <= keep), *self._not_astray(kept, self.look(base))]
 
-    def _nearer(self, pairs: Sequence[tuple[Racer, Racer]], look: OutputError) -> list[Racer]:
-        """Of each pair the one that leaves less: a fit to a part may have bent the motor, so that the rest is lost."""
+    def _not_astray(self, pairs: Sequence[tuple[Racer, Racer]], look: OutputError) -> list[Racer]:
+        """Of each pair, after and before a glance, the latter where a fit to a part has lost the rest.
 
-        def nearer(pair: tuple[Racer, Racer]) -> Racer:
-            return min(pair, key=lambda r: look.error(r.candidate.vector, r.candidate.active))
+        One that is merely worse there has often learned something.
+        """
 
-        return side_by_side(nearer, pairs)
+        def chosen(pair: tuple[Racer, Racer]) -> Racer:
+            after, before = (look.error(r.candidate.vector, r.candidate.active) for r in pair)
+            return pair[1] if after > ASTRAY * before else pair[0]
+
+        return side_by_side(chosen, pairs)
 
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
         """Where derivatives mislead from afar, the few best of an effect's starts before anything is fitted.
