@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import rwn
 from made_up_motor import MOTOR
 from rwn.model import Model
-from rwn.prepare import Setup, prepare
+from rwn.prepare import Setup, prepare, windowed
 from rwn.resonances import Resonance, resonances
 from rwn.search import Search
 
@@ -57,8 +57,12 @@ def test_a_shaft_of_such_numbers_rings_so() -> None:
     assert damping / (2.0 * reduced * 300.0) == pytest.approx(0.1)
 
 
-def test_where_no_speed_was_recorded_there_is_none_to_read_off() -> None:
-    assert _found(_seen(Resonance(200.0, 0.05, 0.4), without=("speed",))) == []
+def test_without_a_free_run_of_a_recorded_speed_there_is_none_to_read_off() -> None:
+    shaft = Resonance(200.0, 0.05, 0.4)
+    assert _found(_seen(shaft, without=("speed",))) == []
+    seen = _seen(shaft)
+    problem = replace(seen.problem, targets=tuple(map(windowed, seen.problem.targets)))
+    assert _found(replace(seen, problem=problem)) == []
 
 
 def test_a_shaft_that_rings_long_is_found_from_its_resonance() -> None:

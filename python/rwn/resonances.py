@@ -52,7 +52,7 @@ class _Part(NamedTuple):
 def resonances(
     problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]], count: int = 2
 ) -> list[Resonance]:
-    """The resonances that explain most of the speed residual, best first; none where speed is not recorded.
+    """The resonances that explain most of the speed residual, best first; none without a free run of a recorded speed.
 
     `motor`: parameter vector of the model with one mass that left `residuals`, a dict of (n,) for each recording.
     """
@@ -73,7 +73,7 @@ def _parts(problem: OutputError, motor: Array, residuals: Sequence[dict[str, Arr
     from scipy.signal import lfilter  # late: the command line starts without it
 
     for target, residual in zip(problem.targets, residuals, strict=True):
-        if "speed" not in residual:
+        if "speed" not in residual or target.restart_every:  # where the motion restarts nothing rings for long
             continue
         speed, step = target.speed - residual["speed"], float(np.median(np.diff(target.time)))
         a, b = drive_filter(problem, motor, step)
