@@ -78,7 +78,11 @@ def test_where_derivatives_mislead_the_foremost_of_each_kind_get_an_iteration() 
     straight = [*starts("quadratic-drag", 2), *starts("shaft-compliance", 18)]
     astray = [
         *starts("cogging-torque", 5, 7.0), *starts("cogging-torque", 1, 14.0), *starts("backlash", SIGHTED + 1),
+        *starts("input-delay", 24),
     ]  # fmt: skip
     assert [r for r in (*straight, *astray) if misleads(r)] == astray
     kept = Counter((r.name, r.order) for r in worth_an_iteration(astray))
-    assert kept == {("cogging-torque", 7.0): PHASES, ("cogging-torque", 14.0): 1, ("backlash", 0.0): SIGHTED}
+    assert kept == {
+        ("cogging-torque", 7.0): PHASES, ("cogging-torque", 14.0): 1, ("backlash", 0.0): SIGHTED,
+        ("input-delay", 0.0): SIGHTED,
+    }  # fmt: skip

@@ -24,6 +24,7 @@ py::dict describe(const Parameter& p) {
   d["order"] = p.order;
   d["window"] = p.window;
   d["resonance"] = p.resonance;
+  d["many_minima"] = p.many_minima;
   d["lattice"] = p.lattice;
   d["idealised"] = p.idealised;
   d["replaces"] = p.replaces < 0 ? py::object(py::none())

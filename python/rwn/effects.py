@@ -32,6 +32,7 @@ class Parameter:
     order: bool
     window: bool
     resonance: bool
+    many_minima: bool
     lattice: bool
     idealised: bool
     replaces: str | None

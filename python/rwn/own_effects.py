@@ -241,7 +241,7 @@ def _as_parameter(p: OwnParameter, among: Sequence[OwnParameter]) -> Parameter:
     return Parameter(
         name=p.name, unit=p.unit, meaning=p.meaning, lower=p.lower, upper=p.upper, start=p.start, scale="none",
         scan=_scan(p, among), inverse=False, strength=p.strength, fixed=p.fixed, cyclic=False, order=False,
-        window=False, resonance=False, lattice=False, idealised=False, replaces=None,
+        window=False, resonance=False, many_minima=False, lattice=False, idealised=False, replaces=None,
     )  # fmt: skip
 
 

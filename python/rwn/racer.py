@@ -42,7 +42,8 @@ Kind = tuple[str, float, int]
 
 def misleads(racer: Racer) -> bool:
     """Whether the derivatives at a start may point away from the minimum."""
-    return bool(racer.order or rough(racer.candidate, racer.name))
+    bumpy = any(p.many_minima for p in racer.candidate.table[racer.name].parameters)
+    return bool(racer.order or bumpy or rough(racer.candidate, racer.name))
 
 
 def kind_of(racer: Racer) -> Kind:

@@ -119,7 +119,7 @@ class Search:
     def _sighted(self, racers: Sequence[Racer], part: OutputError) -> list[Racer]:
         """Where derivatives mislead from afar, the few best of an effect's starts before anything is fitted.
 
-        That is for periodic effects, each order by itself, and where a contact makes the error rough.
+        That is for periodic effects, each order by itself, for delays, and where a contact makes the error rough.
         """
         astray = [r for r in racers if misleads(r)]
         ends = side_by_side(lambda r: part.error(r.candidate.vector, r.candidate.active), astray)

@@ -28,7 +28,7 @@ struct Parameter {
   double upper = 0.0;
   double start = 0.0;  // first guess
   Scale scale = Scale::none;
-  std::array<double, 9> scan{};  // other first guesses worth trying; zeros at the end do not count
+  std::array<double, 24> scan{};  // other first guesses worth trying; zeros at the end do not count
   bool inverse = false;          // the effect vanishes as this grows, not as it goes to zero
   bool strength = false;         // zero means that the effect is absent
   bool fixed = false;            // a constant of nature or convention, never fitted
@@ -36,6 +36,7 @@ struct Parameter {
   bool order = false;            // a spatial frequency, found from a spectrum over the angle
   bool window = false;           // an instant, found from a change in the residual over time
   bool resonance = false;        // stiffness, damping and inertia, in this order, found from a resonance of the residual
+  bool many_minima = false;      // of the error along it: first guesses are looked at before anything is fitted
   bool lattice = false;          // a quantum, read off the recorded values
   bool idealised = false;        // a limit is an idealisation (abrupt, rigid) that is as good a law
   int replaces = -1;             // the nominal motor parameter whose role this one takes over

@@ -14,8 +14,11 @@ struct InputDelay {
                                                    .upper = 500.0,
                                                    .start = 1.3,
                                                    .scale = Scale::time_step,
-                                                   .scan = {0.4, 1.4, 3.5, 12.0, 40.0, 120.0},
-                                                   .strength = true}};
+                                                   .scan = {0.2,  0.4,  0.6,  0.85, 1.15, 1.5,  1.85, 2.2,
+                                                            2.5,  2.85, 3.3,  3.7,  4.5,  5.5,  6.5,  8.0,
+                                                            10.0, 13.0, 17.0, 23.0, 32.0, 50.0, 80.0, 120.0},
+                                                   .strength = true,
+                                                   .many_minima = true}};
   static constexpr bool varies = false;
 
   template <class S>
