@@ -11,8 +11,9 @@ import pytest
 import rwn
 from rwn import words
 from rwn.diagnosis import Beneath
+from rwn.explain import explain
 from rwn.mistakes import without as undone
-from rwn.out_of_step import suspected
+from rwn.out_of_step import first_effects, rivals, suspected
 from rwn.prepare import prepare
 from rwn.without_mistakes import explained
 from rwn.wrong_scale import wrong_scale
@@ -239,3 +240,13 @@ def test_a_drive_that_is_hardly_moved_says_nothing(model: rwn.Model, right: rwn.
     found = rwn.diagnose([replace(right, signals=signals)], model)
     assert found.verdict == "insufficient-excitation"
     assert "no motion" in found.next_experiment
+
+
+def test_what_fits_best_alone_is_a_rival_though_its_law_is_on_a_limit(model: rwn.Model) -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    found = explain(prepare([recording], model), progress=lambda *_: None, at_once=1)
+    least = min(found.alone.fits, key=lambda f: f.cost).added
+    others = tuple(h for h in found.hypotheses if not set(h.fitted.added) & set(least))
+    strained = replace(found, hypotheses=others)  # what is on a limit is no hypothesis
+    assert set(least) <= set(first_effects(strained)) <= set(rivals(strained))
+    assert set(others[0].fitted.added) <= set(first_effects(strained))

@@ -84,9 +84,10 @@ def rivals(*explanations: Explanation) -> list[str]:
 
 
 def first_effects(*explanations: Explanation) -> list[str]:
-    """The effects of the first hypotheses of each."""
-    first = [name for of in explanations for h in of.hypotheses[:FIRST] for name in h.fitted.added]
-    return list(dict.fromkeys(first))
+    """The effects of the first hypotheses of each, and those that by themselves leave least, strained or not."""
+    first = [h.fitted for of in explanations for h in of.hypotheses[:FIRST]]
+    least = [f for of in explanations for f in sorted(of.alone.fits, key=lambda f: f.cost)[:FIRST]]
+    return list(dict.fromkeys(name for f in (*first, *least) for name in f.added))
 
 
 def believed(doubt: Suspicion, *, left: float, physics: float) -> bool:
