@@ -12,8 +12,9 @@ import rwn
 from rwn import words
 from rwn.diagnosis import Beneath
 from rwn.explain import explain
+from rwn.mistakes import SHIFT, Mistake
 from rwn.mistakes import without as undone
-from rwn.out_of_step import first_effects, rivals, suspected
+from rwn.out_of_step import LITTLE, SLIGHT, Suspicion, believed, first_effects, rivals, suspected
 from rwn.prepare import prepare
 from rwn.without_mistakes import explained
 from rwn.wrong_scale import wrong_scale
@@ -250,3 +251,12 @@ def test_what_fits_best_alone_is_a_rival_though_its_law_is_on_a_limit(model: rwn
     strained = replace(found, hypotheses=others)  # what is on a limit is no hypothesis
     assert set(least) <= set(first_effects(strained)) <= set(rivals(strained))
     assert set(others[0].fitted.added) <= set(first_effects(strained))
+
+
+@pytest.mark.parametrize(("physics", "told"), [(0.087, True), (0.03, False), (0.0, False)])
+def test_a_delay_that_leaves_noise_alone_beats_an_effect_that_leaves_more(physics: float, told: bool) -> None:
+    """An early speed looks much like that of a motor before its shaft, but for a tenth of the noise."""
+    mistake = Mistake(name=SHIFT, signals=("speed",), delay=-7, step=5e-4, meaning="")
+    doubt = Suspicion(mistake=mistake, noise={}, before=8.0, after=0.012)
+    assert not believed(doubt, left=doubt.after, physics=physics)
+    assert believed(doubt, left=doubt.after, physics=physics, little=min(LITTLE, doubt.after + SLIGHT)) == told

@@ -90,9 +90,12 @@ def first_effects(*explanations: Explanation) -> list[str]:
     return list(dict.fromkeys(name for f in (*first, *least) for name in f.added))
 
 
-def believed(doubt: Suspicion, *, left: float, physics: float) -> bool:
-    """Whether the mistake, which leaves `left` by itself or with what is beneath it, explains more than physics."""
-    return left < BETTER * physics and left < (1.0 - REMOVED) * doubt.before and physics > LITTLE
+def believed(doubt: Suspicion, *, left: float, physics: float, little: float = LITTLE) -> bool:
+    """Whether the mistake, which leaves `left` by itself or with what is beneath it, explains more than physics.
+
+    `little`: what physics may leave so that nothing is left to explain.
+    """
+    return left < BETTER * physics and left < (1.0 - REMOVED) * doubt.before and physics > little
 
 
 def sharpened(

@@ -113,10 +113,12 @@ def _settled(
     """
     alone = explanation(right, 1)
     physics = unexplained(doubt, alone)
-    if physics <= LITTLE:
+    little = min(LITTLE, doubt.after + SLIGHT)  # an effect does not do where a delay alone leaves less
+    if physics <= little:
         return None, alone
     if doubt.after <= LITTLE:
-        return (doubt.mistake, None) if believed(doubt, left=doubt.after, physics=physics) else (None, alone)
+        told = believed(doubt, left=doubt.after, physics=physics, little=little)
+        return (doubt.mistake, None) if told else (None, alone)
     pairs = explanation(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(doubt, pairs) <= LITTLE
     names = first_effects(alone, pairs) if enough else None
