@@ -221,8 +221,12 @@ def test_priors_give_way_where_nothing_but_noise_is_left() -> None:
     search = Search.of(prepare([noisy], sheet))
     for noise, gives_way in ((0.05, True), (0.01, False)):  # at the noise, and where something is missing
         strong = replace(search, problem=replace(search.problem, noise={"speed": noise}, colour=1000.0))
-        left = tempered(strong, strong.fit_nominal()).problem.colour
-        assert (left < 1.1) == gives_way
+        held = strong.fit_nominal()
+        other, free = tempered(strong, held)
+        assert (other.problem.colour < 1.1) == gives_way == (free is not held)
+        if gives_way:  # the search need not find the way once more
+            assert free.value("viscous_friction") == pytest.approx(motor["viscous_friction"], rel=0.01)
+            assert held.value("viscous_friction") > 1.2 * motor["viscous_friction"]
 
 
 def test_a_strong_cog_is_found() -> None:

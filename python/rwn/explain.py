@@ -153,7 +153,7 @@ def _begun(setup: Setup) -> tuple[Search, Fitted]:
     search = Search.of(setup)
     search = with_noise(search, search.fit_nominal())
     nominal = search.fit_nominal()
-    within = tempered(search, nominal)
+    within, _ = tempered(search, nominal)
     return (search, nominal) if within is search else (within, within.fit_nominal())
 
 
@@ -186,7 +186,7 @@ def _at_its_floor(search: Search, best: Fitted) -> bool:
 
     Those of the search go with what was best before it: under them a right pair is held off its minimum.
     """
-    own = tempered(with_noise(search, best), best)
+    own, best = tempered(with_noise(search, best), best)
     again = own.refit(best, own.problem, share=one_stage(own.problem.work))
     return evidence.statistics(own.problem, again).at_the_floor
 
@@ -273,12 +273,14 @@ def with_noise(search: Search, fitted: Fitted) -> Search:
 def _reweighted(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
     """The same fits under the noise levels that the best one leaves, where they differ."""
     best = min([nominal, *fits], key=lambda f: f.cost)
-    other = tempered(with_noise(search, best), best)
+    other, free = tempered(with_noise(search, best), best)
     change = max(abs(np.log(v / search.problem.noise[s])) for s, v in other.problem.noise.items())
     change = max(change, abs(np.log(other.problem.colour / search.problem.colour)) / 30.0)
     if change < 0.03:
         return search, nominal, fits
-    first, *rest = other.refit_all([nominal, *foremost(fits)])
+    # each by the cost that it raced with: the others may gain as much once priors weigh less
+    begun = replace(best, minimum=replace(best.minimum, values=free.minimum.values))
+    first, *rest = other.refit_all([begun if f is best else f for f in (nominal, *foremost(fits))])
     return other, first, sorted(rest, key=lambda f: f.cost)
 
 

@@ -20,16 +20,19 @@ from rwn.search import Search
 WHITE = 2.0  # variance times correlation time below which nothing but noise is left
 
 
-def tempered(search: Search, fitted: Fitted) -> Search:
-    """`search` with priors weighed against what `fitted` leaves, once a fit has left what is believable."""
+def tempered(search: Search, fitted: Fitted) -> tuple[Search, Fitted]:
+    """`search` with priors weighed against what `fitted` leaves, once a fit has left what is believable.
+
+    With it `fitted`, or where it goes without that weight if it leaves noise alone there.
+    """
     if search.problem.colour == 1.0 and farthest(fitted) < BELIEVABLE:
-        return search
+        return search, fitted
     colour = _colour(search, fitted)
     free = search.refit(fitted, replace(search.problem, colour=1.0), share=one_stage(search.problem.work))
     if _colour(search, free) < WHITE:  # what was left were the priors' own doing
-        colour = 1.0
+        colour, fitted = 1.0, free
     # exactly 1 would forget that the fits had run away once
-    return replace(search, problem=replace(search.problem, colour=max(colour, 1.0 + 1e-9)))
+    return replace(search, problem=replace(search.problem, colour=max(colour, 1.0 + 1e-9))), fitted
 
 
 def _colour(search: Search, fitted: Fitted) -> float:
