@@ -14,7 +14,7 @@ from rwn.diagnosis import Beneath
 from rwn.explain import explain
 from rwn.mistakes import SHIFT, Mistake
 from rwn.mistakes import without as undone
-from rwn.out_of_step import LITTLE, SLIGHT, Suspicion, believed, first_effects, rivals, suspected
+from rwn.out_of_step import Suspicion, believed, first_effects, rivals, suspected
 from rwn.prepare import prepare
 from rwn.without_mistakes import explained
 from rwn.wrong_scale import wrong_scale
@@ -259,4 +259,4 @@ def test_a_delay_that_leaves_noise_alone_beats_an_effect_that_leaves_more(physic
     mistake = Mistake(name=SHIFT, signals=("speed",), delay=-7, step=5e-4, meaning="")
     doubt = Suspicion(mistake=mistake, noise={}, before=8.0, after=0.012)
     assert not believed(doubt, left=doubt.after, physics=physics)
-    assert believed(doubt, left=doubt.after, physics=physics, little=min(LITTLE, doubt.after + SLIGHT)) == told
+    assert believed(doubt, left=doubt.after, physics=physics, little=doubt.little) == told

@@ -47,6 +47,11 @@ class Suspicion:
     before: float  # squared error above the noise, in units of it, of the refitted model
     after: float  # the same with the mistake undone
 
+    @property
+    def little(self) -> float:
+        """What a single effect may leave if it is to do in place of the mistake: no more than that by itself leaves."""
+        return min(LITTLE, self.after + SLIGHT)
+
 
 def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None:
     """A shift or a gear that explains a good part of what the refitted model leaves; physics may yet do better."""

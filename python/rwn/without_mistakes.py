@@ -113,11 +113,10 @@ def _settled(
     """
     alone = explanation(right, 1)
     physics = unexplained(doubt, alone)
-    little = min(LITTLE, doubt.after + SLIGHT)  # an effect does not do where a delay alone leaves less
-    if physics <= little:
+    if physics <= doubt.little:
         return None, alone
     if doubt.after <= LITTLE:
-        told = believed(doubt, left=doubt.after, physics=physics, little=little)
+        told = believed(doubt, left=doubt.after, physics=physics, little=doubt.little)
         return (doubt.mistake, None) if told else (None, alone)
     pairs = explanation(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(doubt, pairs) <= LITTLE
