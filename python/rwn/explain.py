@@ -96,8 +96,7 @@ def explain(
     alone = after.alone if after else _each_alone(setup, wanted, progress)
     search, nominal, fits = alone.search, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
     before = evidence.statistics(search.problem, nominal)
-    best = min([nominal, *fits], key=lambda f: f.cost)
-    left = evidence.statistics(search.problem, best)
+    _, left = _best_of(search, [nominal, *fits])
     layer = _varied(fits)
     complete, paired, cut_short = left.at_the_floor or not layer, False, False
     pairs = after.pairs if after else NOTHING
@@ -116,8 +115,7 @@ def explain(
         if complete:
             break
         fits, paired = [*fits, *more], True
-        best = min(fits, key=lambda f: f.cost)
-        left = evidence.statistics(search.problem, best)
+        best, left = _best_of(search, fits)
         layer = sorted(more, key=lambda f: f.cost)[:2]
         complete = left.at_the_floor or _at_its_floor(search, best)
     if paired:
@@ -125,8 +123,7 @@ def explain(
     fits = with_simpler(search, nominal, fits) if names is None else fits
     strained = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, setup))]
-    best = min([nominal, *fits], key=lambda f: f.cost)
-    left = evidence.statistics(search.problem, best)
+    best, left = _best_of(search, [nominal, *fits])
     weighted, finals, counted = final_fits(search, [nominal, *fits], left)
     hypotheses = evidence.weigh([nominal, *fits], counted, rivals=len(wanted), prior=_prior(setup), finals=finals)
     # disturbances are no account of what the nominal model lacks: it is shown as plainly fitted
@@ -146,6 +143,12 @@ def explain(
         cut_short=cut_short and not left.at_the_floor,
         strained=tuple(f for f in strained if f.cost < best.cost),
     )
+
+
+def _best_of(search: Search, fits: Sequence[Fitted]) -> tuple[Fitted, Statistics]:
+    """The explanation that fits best, and what it leaves."""
+    best = min(fits, key=lambda f: f.cost)
+    return best, evidence.statistics(search.problem, best)
 
 
 def _begun(setup: Setup) -> tuple[Search, Fitted]:
