@@ -17,11 +17,11 @@ from pathlib import Path
 import numpy as np
 
 import rwn
-from rwn.trials import scene
-from rwn.trials.adapter import train_files
-from rwn.trials.dossier import write_trial
-from rwn.trials.plan import Plan, plans
-from rwn.trials.trial import make_trial
+from rwn.studies.trials import scene
+from rwn.studies.trials.adapter import train_files
+from rwn.studies.trials.dossier import write_trial
+from rwn.studies.trials.plan import Plan, plans
+from rwn.studies.trials.trial import make_trial
 
 SEED, COUNT, RUNS = 77, 20, 1
 SAMPLES = (19_500, 20_500)

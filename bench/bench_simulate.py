@@ -22,9 +22,9 @@ import numpy as np
 
 import rwn
 from rwn import _core
-from rwn.candidate import Nominal, candidate, fit
-from rwn.effects import motor_index, parameter_vector, table
-from rwn.prepare import prepare
+from rwn.fit.hypothesis import Nominal, candidate, fit
+from rwn.fit.preparation import prepare
+from rwn.model.vocabulary import motor_index, parameter_vector, table
 
 N = 200_000
 STEP = 1e-3

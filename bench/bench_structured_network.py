@@ -20,8 +20,8 @@ import numpy as np
 
 import rwn
 from rwn import _core
-from rwn.arrays import Array
-from rwn.rates import Fixed, Thesis
+from rwn.networks.arrays import Array
+from rwn.networks.rates import Fixed, Thesis
 from rwn.reference import structured_network as twin
 from structured_rivals import jax_cycle, numba_cycle
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn.diagnosis import (
+from rwn.report.diagnosis import (
     Alternative,
     Beneath,
     Diagnosis,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import rwn
-from rwn.own_effects import OwnEffect, OwnParameter
+from rwn.model.own_effects import OwnEffect, OwnParameter
 
 Array = NDArray[np.float64]
 Torque = Callable[[float, float], float]  # of speed and angle

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rwn
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
 
 MOTOR = rwn.MotorParameters(
     resistance=0.4, inductance=0.8e-3, torque_constant=0.055, inertia=1.8e-4, viscous_friction=0.06

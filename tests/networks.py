@@ -6,9 +6,9 @@ import numpy as np
 from hypothesis import strategies as st
 
 from rwn import ConventionalNetwork, Wavelet
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
+from rwn.networks.wavelets import WAVELETS
 from rwn.reference.conventional_network import ConventionalNetwork as Twin
-from rwn.wavelets import WAVELETS
 
 wavelets = st.builds(Wavelet, st.sampled_from(WAVELETS), st.sampled_from([1.75, 5.0]))
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from rwn.trials.effects.torque import LOAD_VISCOUS_SHARE
+from rwn.studies.trials.effects.torque import LOAD_VISCOUS_SHARE
 
 Array = NDArray[np.float64]
 

@@ -15,9 +15,9 @@ import pytest
 import made_up
 import rwn
 from rwn import cli
-from rwn.diagnosis import Diagnosis, Estimate
-from rwn.model import Model, read_model
-from rwn.recording import Recording, read_recording, write_csv
+from rwn.model.model import Model, read_model
+from rwn.recording.recording import Recording, read_recording, write_csv
+from rwn.report.diagnosis import Diagnosis, Estimate
 
 MODEL = """[motor]
 kind = "dc"

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.diagnosis import Diagnosis
+from rwn.report.diagnosis import Diagnosis
 
 DEMO = Path(rwn.__file__).parent / "demo"
 EMPS = "data/nonlinear_benchmarks/EMPS"

@@ -16,7 +16,7 @@ import typer
 from rwn.errors import InputError, unknown
 
 if TYPE_CHECKING:
-    from rwn.diagnosis import Diagnosis
+    from rwn.report.diagnosis import Diagnosis
 
 app = typer.Typer(
     name="rwn",
@@ -49,10 +49,10 @@ def diagnose(
     overwrite: Overwrite = False,
 ) -> None:
     """Locate the mismatch, name the missing physics, model it and show that the simulation improves."""
-    from rwn.check import read_recordings
-    from rwn.model import read_model
-    from rwn.output import output_folder
-    from rwn.provenance import source
+    from rwn.model.model import read_model
+    from rwn.model.recordings import read_recordings
+    from rwn.report.files import output_folder
+    from rwn.report.provenance import source
 
     _refuse_strays(sys.argv)
     with output_folder(out, overwrite=overwrite) as aside:
@@ -93,10 +93,10 @@ def simulate(
     overwrite: Overwrite = False,
 ) -> None:
     """Run a model freely from the input signal of a recording."""
-    from rwn.check import read_recordings
-    from rwn.model import read_model
-    from rwn.output import output_file
-    from rwn.recording import write_csv
+    from rwn.model.model import read_model
+    from rwn.model.recordings import read_recordings
+    from rwn.recording.recording import write_csv
+    from rwn.report.files import output_file
 
     with output_file(out, overwrite=overwrite) as aside:
         drive = read_model(model)
@@ -118,10 +118,10 @@ def identify(
     """Fit the parameters of a model, effects included, within their declared uncertainty."""
     from contextlib import nullcontext
 
-    from rwn import words
-    from rwn.check import read_recordings
-    from rwn.model import read_model, write_model
-    from rwn.output import output_file
+    from rwn.model.model import read_model, write_model
+    from rwn.model.recordings import read_recordings
+    from rwn.report import text as words
+    from rwn.report.files import output_file
 
     with output_file(out, overwrite=overwrite) if out else nullcontext() as aside:
         nominal = read_model(model)
@@ -140,8 +140,8 @@ def effects(
     model: Annotated[Path | None, typer.Option("--model", help="A model file: its own effects as well.")] = None,
 ) -> None:
     """The effects that rwn can name: site, equation, parameters, source."""
-    from rwn import effects as known
-    from rwn.model import read_model
+    from rwn.model import vocabulary as known
+    from rwn.model.model import read_model
 
     table = read_model(model).effect_table if model else known.table()
     if name is None:
@@ -181,8 +181,8 @@ def evidence(
     overwrite: Overwrite = False,
 ) -> None:
     """Diagnose recordings of real machines: what was found, and the error on recordings that were not fitted."""
-    from rwn.machines.runner import run_machines
-    from rwn.output import output_folder
+    from rwn.report.files import output_folder
+    from rwn.studies.machines.runner import run_machines
 
     with output_folder(out, overwrite=overwrite) as aside:
         table = run_machines(names or [], data, aside)
@@ -202,13 +202,13 @@ def _rwn() -> Any:
 
 
 def _progress() -> Any:
-    from rwn.progress import Progress
+    from rwn.report.progress import Progress
 
     return Progress(sys.stderr)
 
 
 def _write_results(found: Diagnosis, folder: Path) -> None:
-    from rwn.model import write_model
+    from rwn.model.model import write_model
     from rwn.report import write_report
 
     (folder / "diagnosis.json").write_bytes(found.to_json())
@@ -218,7 +218,7 @@ def _write_results(found: Diagnosis, folder: Path) -> None:
 
 
 def _print_verdict(found: Diagnosis, out: Path) -> None:
-    from rwn import words
+    from rwn.report import text as words
 
     typer.echo(words.verdict_sentence(found))
     for effect in found.effects:

@@ -9,26 +9,28 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn import _core, curves, excitation
+from rwn import _core
 from rwn._core import __version__
-from rwn.conclusion import Conclusion, conclude
-from rwn.correct import corrected_model, found_effects, nominal_fit
-from rwn.diagnosis import Alternative, Beneath, Diagnosis, Estimate, FoundEffect, HeldoutRow, Location, Verdict
-from rwn.effects import table
-from rwn.evidence import Hypothesis
-from rwn.experiments import separated_by
-from rwn.explain import Explanation, Progress
-from rwn.locate import regions, unknown_inputs
-from rwn.mistakes import Mistake, without
-from rwn.model import Model
-from rwn.prepare import proof_target
-from rwn.proof import LEFT_OUT
-from rwn.recording import Recording
-from rwn.temper import farthest
-from rwn.threads import crew
-from rwn.unknown_law import laws
-from rwn.verdict import is_certain, rests_on_what_was_declared, whole
-from rwn.without_mistakes import explained
+from rwn.correct import excitation
+from rwn.correct.corrected_model import corrected_model, found_effects, nominal_fit
+from rwn.correct.next_experiment import separated_by
+from rwn.decide.decision import Conclusion, conclude
+from rwn.decide.verdict import is_certain, rests_on_what_was_declared, whole
+from rwn.faults.fault import Mistake, without
+from rwn.faults.resolve import explained
+from rwn.fit.preparation import proof_target
+from rwn.fit.prior_weight import farthest
+from rwn.fit.residuals import Hypothesis
+from rwn.locate.dependence import laws
+from rwn.locate.unknown_inputs import regions, unknown_inputs
+from rwn.model.model import Model
+from rwn.model.vocabulary import table
+from rwn.name.forward import Explanation, Progress
+from rwn.parallel import crew
+from rwn.prove.proof import LEFT_OUT
+from rwn.recording.recording import Recording
+from rwn.report import figures as curves
+from rwn.report.diagnosis import Alternative, Beneath, Diagnosis, Estimate, FoundEffect, HeldoutRow, Location, Verdict
 
 QUANTISATION = "sensor-quantization"
 

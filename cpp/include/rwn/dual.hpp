@@ -167,7 +167,11 @@ struct Dual {
     y.d = -b.d;
     return y;
   }
-  RWN_INLINE friend Dual operator-(const Dual& a) { return 0.0 - a; }
+  RWN_INLINE friend Dual operator-(const Dual& a) {
+    Dual y(-a.v);  // minus zero is kept
+    y.d = -a.d;
+    return y;
+  }
   RWN_INLINE friend Dual operator*(const Dual& a, const Dual& b) {
     Dual y(a.v * b.v);
     y.d = b.v * a.d + a.v * b.d;

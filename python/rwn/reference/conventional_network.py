@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
 from rwn.reference.wavelets import WAVELETS
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
 from rwn.reference.wavelets import WAVELETS
 
 

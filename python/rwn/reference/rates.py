@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rwn.arrays import Array
-from rwn.rates import Normalised, Thesis
+from rwn.networks.arrays import Array
+from rwn.networks.rates import Normalised, Thesis
+from rwn.networks.structured_network import StructuredNetwork
 from rwn.reference.structured_network import StructuredRun
-from rwn.structured_network import StructuredNetwork
 
 
 def plant_gain(A: Array) -> float:

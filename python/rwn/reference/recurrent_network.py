@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from rwn.arrays import Array
-from rwn.recurrent_network import RecurrentNetwork
+from rwn.networks.arrays import Array
+from rwn.networks.recurrent_network import RecurrentNetwork
 from rwn.reference.wavelets import WAVELETS
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
+from rwn.networks.structured_network import StructuredNetwork
 from rwn.reference.structured_network import StructuredRun
-from rwn.structured_network import StructuredNetwork
 
 
 def train(

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
+from rwn.networks.structured_network import StructuredNetwork
 from rwn.reference import structured_network
-from rwn.structured_network import StructuredNetwork
 
 
 def train(

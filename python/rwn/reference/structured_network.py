@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
+from rwn.networks.structured_network import StructuredNetwork
 from rwn.reference.wavelets import WAVELETS
-from rwn.structured_network import StructuredNetwork
 
 
 class StructuredRun:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
 from rwn.reference.conventional_network import ConventionalNetwork
 
 Run = tuple[ConventionalNetwork, list[float]]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rwn.arrays import Array
+from rwn.networks.arrays import Array
 
 
 class Derivatives(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rwn.diagnosis import Diagnosis
+from rwn.report.diagnosis import Diagnosis
 from rwn.report.page import page
 
 __all__ = ["write_report"]

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from pathlib import Path
 
-from rwn import words
-from rwn.diagnosis import Diagnosis, Plot
 from rwn.report import tables
+from rwn.report import text as words
+from rwn.report.diagnosis import Diagnosis, Plot
 from rwn.report.plots import figure
 
 _VERDICTS = {

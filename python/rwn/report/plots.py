@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn import words
-from rwn.diagnosis import Plot, Trace
+from rwn.report import text as words
+from rwn.report.diagnosis import Plot, Trace
 
 Array = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 
-from rwn import words
-from rwn.diagnosis import Diagnosis, FoundEffect, HeldoutRow, Region
+from rwn.report import text as words
+from rwn.report.diagnosis import Diagnosis, FoundEffect, HeldoutRow, Region
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]], *, numbers_from: int = 1) -> str:

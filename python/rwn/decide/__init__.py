@@ -1,0 +1,3 @@
+"""From ranked explanations and their proof to a verdict."""
+
+from __future__ import annotations

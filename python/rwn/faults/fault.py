@@ -1,0 +1,87 @@
+"""Mistakes in the recordings themselves, the commonest mismatch: unit, sign, gear ratio, channels out of step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.recording.recording import Recording
+from rwn.report.diagnosis import RECORDING, Estimate, FoundEffect
+
+Array = NDArray[np.float64]
+
+UNIT = "wrong-unit"
+SIGN = "wrong-sign"
+GEAR = "wrong-gear-ratio"
+SHIFT = "time-shift"
+MOTION = ("speed", "position")  # signals of one shaft
+LINE = 4  # samples
+SURE = 0.99  # probability that is stated of a mistake; those that fit alike share it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mistake:
+    """recorded(t) = factor * true(t - delay) for each of `signals`."""
+
+    name: str  # UNIT | SIGN | GEAR | SHIFT
+    signals: tuple[str, ...]
+    meaning: str
+    factor: float = 1.0
+    spread: float = 0.0  # relative standard deviation of the factor
+    delay: int = 0  # samples by which the signals come late
+    step: float = 0.0  # sample time [s]
+    also: tuple[str, ...] = ()  # other mistakes that these recordings do not tell from it
+
+    def undo(self, recording: Recording) -> Recording:
+        """The recording as it should have been; where a signal came late, all are cut to what is left.
+
+        Where one came early, what it was before its first sample is not known: the run begins where the input does.
+        """
+        n = len(recording) - max(self.delay, 0)
+        signals = {name: np.array(values[:n]) for name, values in recording.signals.items()}
+        moved = [name for name in self.signals if name in signals]
+        for name in moved:
+            signals[name] = _moved(np.array(recording.signals[name]), self.delay)[:n] / self.factor
+        early = dict.fromkeys(moved, -self.delay) if self.delay < 0 else {}
+        known = {**recording.known_from, **early}
+        return replace(recording, time=recording.time[:n], signals=signals, known_from=known)
+
+    def levels(self, noise: Mapping[str, float]) -> dict[str, float]:
+        """Noise levels of the signals once it is undone."""
+        return {s: level / (abs(self.factor) if s in self.signals else 1.0) for s, level in noise.items()}
+
+    def found(self) -> FoundEffect:
+        """How a diagnosis reports it."""
+        parameters = {}
+        if self.factor not in (1.0, -1.0):
+            low, high = sorted(self.factor * (1.0 + times * self.spread) for times in (-1.96, 1.96))
+            interval = (low, high) if self.spread > 0.0 else None
+            parameters["factor"] = Estimate(value=self.factor, unit="1", interval=interval)
+        if self.delay:
+            parameters["shift"] = Estimate(value=self.delay * self.step, unit="s")
+        return FoundEffect(
+            name=self.name, equation=RECORDING, probability=SURE / (1 + len(self.also)), parameters=parameters,
+            meaning=self.meaning,
+        )  # fmt: skip
+
+
+def without(recordings: Sequence[Recording], mistake: Mistake) -> list[Recording]:
+    """The recordings as they should have been."""
+    return [mistake.undo(r) for r in recordings]
+
+
+def _moved(values: Array, delay: int) -> Array:
+    if delay < 0:
+        return np.concatenate([_before(values, -delay), values[:delay]])
+    return values[delay:]
+
+
+def _before(values: Array, samples: int) -> Array:
+    """A guess at the samples before the first: along the line through as many that follow, and some more."""
+    count = min(samples + LINE, values.size)
+    slope, first = np.polyfit(np.arange(count), values[:count], 1)
+    before: Array = first + slope * np.arange(-samples, 0)
+    return before

@@ -1,0 +1,297 @@
+"""Signals of a wrong unit, sign or gear ratio: their size against what the model as given simulates.
+
+Nothing is refitted: a fit would bend the motor until it ran ten times too fast. All is judged from the energy of each
+signal, of its simulation and of their product, so that a factor is tried without simulating anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Mistake, without
+from rwn.fit.hypothesis import candidate
+from rwn.fit.preparation import motion, prepare, smoothing_over
+from rwn.fit.problem import Target
+from rwn.model.model import Model
+from rwn.model.vocabulary import motor_index
+from rwn.recording.recording import Recording
+from rwn.recording.smoothing import smooth
+
+Array = NDArray[np.float64]
+
+REMOVED = {UNIT: 0.85, SIGN: 0.85, GEAR: 0.95}  # share of the misfit that undoing has to remove; a gear bends nothing
+LEFT = 0.3  # misfit that it may leave; 0.3 is a correlation of 0.85
+FAR = 1.4  # size of a signal against its simulation from which its scale is doubted
+SAME = 0.05  # relative difference between a size and a unit's factor that nothing has to account for
+WIDEST = 0.3  # the same where the data sheet is poor and physics is missing
+PLAIN = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
+GEARED = 2.0  # size from which a gear is believed: what slows a motor by so much does not leave its transients alike
+GEAR_LIKE = 1.5  # size from which a gear is tried beside physics
+SURELY = 3.0  # standard deviations of the data sheet that a gear ratio has to be away from 1
+ONE_SIDED = 0.02  # of a signal's largest value: as much of the other sign is noise
+SPEED_UNITS = {
+    60.0 / (2.0 * np.pi): "rpm taken for rad/s",
+    2.0 * np.pi / 60.0: "rad/s taken for rpm",
+    180.0 / np.pi: "degrees per second taken for rad/s",
+    np.pi / 180.0: "rad/s taken for degrees per second",
+    1.0 / (2.0 * np.pi): "revolutions per second taken for rad/s",
+    2.0 * np.pi: "rad/s taken for revolutions per second",
+}
+ANGLE_UNITS = {
+    180.0 / np.pi: "degrees taken for rad",
+    np.pi / 180.0: "rad taken for degrees",
+    1.0 / (2.0 * np.pi): "revolutions taken for rad",
+    2.0 * np.pi: "rad taken for revolutions",
+}
+THOUSANDS = {1e3: "thousandths of the unit (milli) taken for the unit", 1e-3: "the unit taken for thousandths (milli)"}
+LEAST_FORCE = 0.3  # correlation of a force with what the motion takes, below which nothing is said of its scale
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """Of a signal and its simulation: the ratio of their sizes, and their correlation."""
+
+    ratio: float
+    correlation: float
+
+    @classmethod
+    def of(cls, pairs: Sequence[tuple[Array, Array]]) -> Likeness:
+        """From recorded and simulated samples of every recording; where no direction is shown, of the magnitudes."""
+        recorded = np.concatenate([r for r, _ in pairs])
+        simulated = np.concatenate([s for _, s in pairs])
+        known = np.isfinite(recorded) & np.isfinite(simulated)
+        recorded, simulated = recorded[known], simulated[known]
+        if _one_sided(recorded) and not _one_sided(simulated):
+            simulated = np.abs(simulated)
+        yy, xx = float(recorded @ recorded), float(simulated @ simulated)
+        if min(xx, yy) <= 0.0:
+            return cls(1.0, 0.0)
+        return cls(float(np.sqrt(yy / xx)), float(recorded @ simulated) / float(np.sqrt(xx * yy)))
+
+    @property
+    def far(self) -> bool:
+        return self.correlation < 0.0 or abs(np.log(self.ratio)) > np.log(FAR)
+
+    def misfit(self, factor: float) -> float:
+        """Mean square of what is left with `factor` undone, over the sizes of both; 0 if they are the same."""
+        ratio = self.ratio / abs(factor)
+        return float(ratio + 1.0 / ratio - 2.0 * np.sign(factor) * self.correlation)
+
+
+def _one_sided(signal: Array) -> bool:
+    least = ONE_SIDED * float(np.max(np.abs(signal), initial=0.0))
+    return bool(np.all(signal >= -least) or np.all(signal <= least))
+
+
+def wrong_scale(recordings: Sequence[Recording], model: Model) -> Mistake | None:
+    """A unit, sign or gear ratio that is plainly wrong; None where the scale of every signal is believable."""
+    if model.kind == "axis":
+        return _of_axis(recordings, model)
+    seen = _likeness(recordings, model)
+    if not any(one.far for one in seen.values()):
+        return None
+    best, least = None, np.inf
+    for mistake in _doubted(seen, model):
+        undone = _undone(mistake, seen, recordings, model)
+        judged = [s for s in seen if s in mistake.signals] or list(seen)  # all signals depend on the voltage
+        before = float(np.mean([seen[s].misfit(1.0) for s in judged]))
+        left = float(np.mean([undone[s] for s in judged]))
+        everywhere = float(np.mean(list(undone.values())))
+        most = (1.0 - REMOVED[mistake.name]) * before
+        if left < (most if _plain(mistake.factor) else min(most, LEFT)) and everywhere < least:
+            best, least = mistake, everywhere
+    return best
+
+
+def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Mistake]:
+    """Gear ratios too small to be plain, which physics might explain as well; of a motor alone."""
+    if model.kind != "dc":
+        return
+    seen = _likeness(recordings, model)
+    moving = tuple(s for s in MOTION if s in seen)
+    ratio = _mean([seen[s] for s in moving]).ratio if moving else 1.0
+    if abs(np.log(ratio)) > np.log(GEAR_LIKE):
+        yield from _gears(moving, ratio, _spread(model))
+
+
+def _undone(
+    mistake: Mistake, seen: Mapping[str, Likeness], recordings: Sequence[Recording], model: Model
+) -> dict[str, float]:
+    """Misfit of every signal without the mistake."""
+    if mistake.signals == ("voltage",):
+        return {s: one.misfit(1.0) for s, one in _likeness(without(recordings, mistake), model).items()}
+    return {s: one.misfit(mistake.factor if s in mistake.signals else 1.0) for s, one in seen.items()}
+
+
+def _likeness(recordings: Sequence[Recording], model: Model) -> dict[str, Likeness]:
+    """Of each recorded signal to its free run from the model as given; of a position by its slope, free of drift."""
+    setup = prepare(recordings, model)
+    start = candidate(setup.nominal, (), setup.scales)
+    pairs: dict[str, list[tuple[Array, Array]]] = {s: [] for s in setup.whole.targets[0].recorded}
+    for target in setup.whole.targets:
+        free = replace(target, angle=np.empty(0))
+        simulated = setup.whole.simulate(free, start.vector, start.active).signals
+        for s in target.recorded:
+            alike = (_slope(target), simulated["speed"]) if s == "position" else (target.signal(s), simulated[s])
+            pairs[s].append(alike)
+    return {s: Likeness.of(of) for s, of in pairs.items()}
+
+
+def _slope(target: Target) -> Array:
+    step = float(np.median(np.diff(target.time)))
+    return smooth(target.position, smoothing_over(target), derivative=1, step=step)
+
+
+def _doubted(seen: Mapping[str, Likeness], model: Model) -> Iterator[Mistake]:
+    """What may be wrong: each signal by itself, the motion as a whole, and the voltage, which all depend on."""
+    moving = tuple(s for s in MOTION if s in seen)
+    groups = dict.fromkeys([*((s,) for s in seen), moving])
+    for group in sorted(groups):
+        if any(seen[s].far for s in group):
+            yield from _scales(group, _mean([seen[s] for s in group]), model, whole=group == moving)
+    yield _turned(("voltage",))
+    yield from _in_units(("voltage",), THOUSANDS)
+
+
+def _mean(of: Sequence[Likeness]) -> Likeness:
+    """Geometric mean of the sizes."""
+    ratio = float(np.exp(np.mean([np.log(one.ratio) for one in of])))
+    return Likeness(ratio, float(np.mean([one.correlation for one in of])))
+
+
+def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool) -> Iterator[Mistake]:
+    """Sign and units of a group of signals that its size allows, and a gear ratio where it is all of the motion."""
+    yield _turned(group)
+    units = {f: text for f, text in _units(group, model).items() if _allowed(f, group, seen, model)}
+    if not whole:
+        yield from _in_units(group, units)
+        return
+    geared = abs(np.log(seen.ratio)) > max(np.log(GEARED), SURELY * _spread(model))
+    for unit in _in_units(group, units):  # numbers too large by a unit are common, a sensor on a faster shaft is not
+        as_well = geared and abs(unit.factor) < 1.0
+        text = f"{unit.meaning}, or of a shaft that turns {seen.ratio:.3g} times as fast as the motor"
+        yield replace(unit, also=(GEAR,), meaning=text) if as_well else unit
+    if geared and not units:
+        yield from _gears(group, seen.ratio, _spread(model))
+
+
+def _gears(group: tuple[str, ...], ratio: float, spread: float) -> Iterator[Mistake]:
+    yield gear(group, ratio, spread)
+    yield gear(group, -ratio, spread)
+
+
+def _turned(group: tuple[str, ...]) -> Mistake:
+    return Mistake(name=SIGN, signals=group, factor=-1.0, meaning=f"{' and '.join(group)} of the wrong sign")
+
+
+def _in_units(group: tuple[str, ...], units: Mapping[float, str]) -> Iterator[Mistake]:
+    """Each unit, with either sign."""
+    label = " and ".join(group)
+    for factor, text in units.items():
+        yield Mistake(name=UNIT, signals=group, factor=factor, meaning=f"{label} in {text}")
+        yield Mistake(
+            name=UNIT, signals=group, factor=-factor, meaning=f"{label} in {text}, and of the wrong sign"
+        )
+
+
+def gear(group: tuple[str, ...], factor: float, spread: float) -> Mistake:
+    """A motion `factor` times that of the motor, which is known to `spread` (relative standard deviation)."""
+    turned = ", and of the wrong sign" if factor < 0.0 else ""
+    text = f"{' and '.join(group)} of a shaft that turns {abs(factor):.3g} times as fast as the motor{turned}"
+    return Mistake(name=GEAR, signals=group, factor=factor, spread=spread, meaning=text)
+
+
+def as_gear(unit: Mistake, model: Model) -> Mistake:
+    """What is told as a unit, as the ratio of a gear in its place."""
+    return gear(unit.signals, unit.factor, _spread(model))
+
+
+def _units(group: tuple[str, ...], model: Model) -> dict[float, str]:
+    if group[0] in MOTION and not model.linear:
+        return SPEED_UNITS if "speed" in group else ANGLE_UNITS
+    return THOUSANDS
+
+
+def _allowed(factor: float, group: tuple[str, ...], seen: Likeness, model: Model) -> bool:
+    """Whether what the data sheet and missing physics leave open makes a signal's size of a unit's factor.
+
+    Missing physics slows a motor: where numbers are too large, it may be slower than its model by more than faster.
+    """
+    off = float(np.log(seen.ratio / factor))
+    if _plain(factor):
+        return bool(abs(off) < np.log(PLAIN) / 2.0)
+    if group[0] in MOTION and factor > 1.0:
+        return -WIDEST < off < max(SURELY * _spread(model), SAME)
+    return abs(off) < _leeway(seen, model)
+
+
+def _plain(factor: float) -> bool:
+    return bool(abs(np.log(abs(factor))) > np.log(PLAIN))
+
+
+def _spread(model: Model) -> float:
+    """Relative standard deviation that the data sheet leaves the speed at a voltage."""
+    return float(model.uncertainty.get("back_emf_constant", 0.0))
+
+
+def _leeway(seen: Likeness, model: Model) -> float:
+    """Relative difference from a unit's factor that the data sheet and missing physics, by what it bends, may make."""
+    missing = max(1.0 - seen.correlation**2, 0.0)
+    return float(np.clip(2.0 * np.sqrt(_spread(model) ** 2 + missing), SAME, WIDEST))
+
+
+# ---- an axis, whose force is recorded --------------------------------------------------------------------------------
+
+
+def _of_axis(recordings: Sequence[Recording], model: Model) -> Mistake | None:
+    """The same from the driving force against what the motion takes."""
+    seen = _force_likeness(recordings, model)
+    if abs(seen.correlation) < LEAST_FORCE or (seen.correlation > 0.0 and abs(np.log(seen.ratio)) < np.log(2.0 * FAR)):
+        return None
+    before = relative_error(recordings, model)
+    given = "force" if "force" in recordings[0].signals else "torque"
+    moving = tuple(s for s in MOTION if s in recordings[0].signals)
+    best, least = None, min((1.0 - REMOVED[UNIT]) * before, LEFT)
+    for mistake in chain(_any_scale((given,), model), _any_scale(moving, model)):
+        after = relative_error(without(recordings, mistake), model)
+        if after < least:
+            best, least = mistake, after
+    return best
+
+
+def _any_scale(group: tuple[str, ...], model: Model) -> Iterator[Mistake]:
+    yield _turned(group)
+    yield from _in_units(group, _units(group, model))
+
+
+def _force_likeness(recordings: Sequence[Recording], model: Model) -> Likeness:
+    setup = prepare(recordings, model)
+    vector = candidate(setup.nominal, (), setup.scales).vector
+    pairs = []
+    for target in setup.whole.targets:
+        speed, acceleration = motion(target)
+        takes = vector[motor_index("inertia")] * acceleration + vector[motor_index("viscous_friction")] * speed
+        pairs.append((target.input, takes))
+    return Likeness.of(pairs)
+
+
+def relative_error(recordings: Sequence[Recording], model: Model) -> float:
+    """Squared error of the model as given over the energy of the signals, mean over the signals.
+
+    It does not depend on units, so that recordings with and without a mistake undone can be compared.
+    """
+    setup = prepare(recordings, model)
+    start = candidate(setup.nominal, (), setup.scales)
+    error: dict[str, float] = {}
+    energy: dict[str, float] = {}
+    residuals = setup.problem.residuals(start.vector, start.active)
+    for target, residual in zip(setup.problem.targets, residuals, strict=True):
+        for s, r in residual.items():
+            error[s] = error.get(s, 0.0) + float(np.nansum(r**2))
+            energy[s] = energy.get(s, 0.0) + float(np.sum(target.signal(s) ** 2))
+    return float(np.mean([error[s] / max(energy[s], 1e-300) for s in error]))

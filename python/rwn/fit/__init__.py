@@ -1,0 +1,3 @@
+"""Parameters from recordings: the problem, hypotheses, their fits and what these leave."""
+
+from __future__ import annotations

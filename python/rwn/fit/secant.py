@@ -1,0 +1,118 @@
+"""Fits where the error is rough: a contact met a little earlier changes all that follows, and derivatives mislead.
+
+Seen from farther off the error is smooth: a bowl with ripples. Gauss-Newton steps with secants over steps longer than
+the ripples go down it, coarse to fine (graduated optimisation: Blake, Zisserman 1987), before derivatives take over.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.fit.hypothesis import Candidate, fit
+from rwn.fit.levenberg_marquardt import Minimum, Unknown, minimise
+from rwn.fit.problem import CountedNormal, OutputError
+from rwn.parallel import side_by_side
+
+Array = NDArray[np.float64]
+
+SECANTS = (0.2, 0.06, 0.02)  # relative steps, coarse to fine
+STEPS = 6  # along each of them
+ITERATIONS = 12  # with derivatives
+GAIN = 2e-3  # least relative gain in cost that is worth another turn, or step
+NEAR_ZERO = 0.02  # of its range or its prior: what a parameter near zero is stepped by, as if it were that large
+
+
+def rough(this: Candidate, *names: str) -> list[int]:
+    """The unknowns of effects that idealise a contact, all or among `names`; empty where the error is smooth."""
+    owners = {name for name in names or this.effects if any(p.idealised for p in this.table[name].parameters)}
+    return [k for k, u in enumerate(this.unknowns) if u.name.partition(".")[0] in owners and u.lower > 0.0]
+
+
+def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int, share: float = np.inf) -> Minimum:
+    """The fit of `this` from the end of another, by turns as long as they gain; `start` where its error is smooth.
+
+    `share`: what it may cost, the beginning of every part aside.
+    """
+    best, own = start, problem.metered()
+    for _ in range(turns if rough(this) else 0):
+        values = best.values
+        for relative in SECANTS:
+            found = _by_secants(own, this.starting_at(values), relative, share)
+            values = found.values
+            if found.cost > (1.0 - GAIN) * found.first:
+                break  # the bowl is left, and what remains are ripples
+        again = fit(own, this.starting_at(values), max_iterations=ITERATIONS, share=share - own.work.done)
+        gained = again.cost < (1.0 - GAIN) * best.cost
+        best = min(best, again, key=lambda m: m.cost)
+        if not gained or own.work.done >= share:
+            break
+    problem.work.add(own.work.done)
+    return best
+
+
+def _by_secants(problem: OutputError, this: Candidate, relative: float, share: float) -> Minimum:
+    """Where Levenberg-Marquardt ends with the slopes of secants over `relative` steps in place of derivatives.
+
+    Or where the problem's meter has come to `share`.
+    """
+
+    def slope(values: Array, k: int) -> Array | float:
+        low, high = _sides(this.unknowns[k], float(values[k]), relative)
+        if high <= low:
+            return 0.0
+        below, above = (_weighted(problem, this, _with(values, k, v)) for v in (low, high))
+        return (below - above) / (high - low)  # the error is recorded minus simulated
+
+    def probe(values: Array) -> CountedNormal:
+        error = _weighted(problem, this, values)
+        return _normal(error, np.empty((error.size, 0)))
+
+    def evaluate(values: Array) -> CountedNormal:
+        error = _weighted(problem, this, values)
+        slopes = np.zeros((error.size, values.size))
+        for k, column in enumerate(side_by_side(lambda k: slope(values, k), range(values.size))):
+            slopes[:, k] = column
+        return _normal(error, slopes)
+
+    with _overflowing():
+        return minimise(
+            evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * problem.samples,
+            prior_scale=problem.colour, probe=probe, doubt=0, enough=lambda: problem.work.done >= share,
+        )  # fmt: skip
+
+
+def _normal(error: Array, slopes: Array) -> CountedNormal:
+    chi2 = float(error @ error)
+    return CountedNormal(
+        chi2=chi2, gradient=slopes.T @ error, curvature=slopes.T @ slopes, count=error.size,
+        finite=bool(np.isfinite(chi2)),
+    )  # fmt: skip
+
+
+def _overflowing() -> np.errstate:
+    """A run that leaves the finite numbers is a step taken back."""
+    return np.errstate(over="ignore", invalid="ignore")
+
+
+def _sides(unknown: Unknown, value: float, relative: float) -> tuple[float, float]:
+    """Ends of the secant about a value, within its limits."""
+    size = abs(value)
+    if not unknown.logarithmic:
+        span = unknown.upper - unknown.lower
+        size = max(size, NEAR_ZERO * span if np.isfinite(span) else 0.0, NEAR_ZERO * abs(unknown.prior or 0.0))
+    return max(value - relative * size, unknown.lower), min(value + relative * size, unknown.upper)
+
+
+def _with(values: Array, k: int, value: float) -> Array:
+    moved = values.copy()
+    moved[k] = value
+    return moved
+
+
+def _weighted(problem: OutputError, this: Candidate, values: Array) -> Array:
+    """Weighted errors of all recordings and signals, end to end; nothing where nothing was recorded."""
+    with _overflowing():  # of every thread its own
+        errors = problem.residuals(this.with_values(values), this.active)
+        weighted: Array = np.nan_to_num(np.concatenate([r[s] / problem.noise[s] for r in errors for s in r]))
+    return weighted

@@ -1,0 +1,174 @@
+"""What an unknown torque depends on: a wavelet network over each state, judged on samples that it was not fitted to.
+
+The networks stand beside the nominal equations, so they are made orthogonal to them (arXiv 2511.01321): what a change
+of inertia, friction or torque constant would explain is taken out of the error and of every wavelet first. A motor's
+speed error is explained through its linear answer to a torque, so that no measurement is differentiated; of an axis,
+the torque that inverse dynamics leave over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.fit.fit import Fitted
+from rwn.fit.problem import OutputError
+from rwn.locate.unknown_inputs import Unknown
+from rwn.name.initial_guesses.spectra import drive_filter
+from rwn.networks.conventional_network import ConventionalNetwork
+from rwn.networks.wavelets import Wavelet
+from rwn.report.text import quantity
+
+Array = NDArray[np.float64]
+
+WAVELETS = 15
+CLEAR = 0.25  # share of the error's energy from which a dependence is worth words
+ORDERS = np.arange(1, 61)
+COORDINATES = {"speed": "rad/s", "acceleration": "rad/s^2", "current": "A", "time": "s"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Law:
+    """The unknown torque as a function of one state."""
+
+    coordinate: str
+    unit: str
+    share: float  # of the error's energy on samples that were not fitted
+    amplitude: float  # sqrt(2) rms of the function over the samples [N m or N]
+    periods: int  # per revolution; 0 where the state is not the angle
+    x: Array  # (n,) of the curve
+    torque: Array  # (n,)
+
+    def words(self, *, linear: bool) -> str:
+        """One clause: "a torque that depends on angle, 14 periods per revolution, 3 mN m"."""
+        size = quantity(self.amplitude, "N" if linear else "N m", 2)
+        place = f"angle, {self.periods} periods per revolution" if self.periods else self.coordinate
+        return f"a {'force' if linear else 'torque'} that depends on {place}, {size}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Error:
+    """What is to be explained, recordings end to end, and how it answers a torque."""
+
+    states: dict[str, Array]
+    value: Array  # (n,)
+    answer: Callable[[Array], Array]  # torque columns (n, k) to what they do to the error
+    nominal: Array  # (n, 5) answers of the nominal regressors
+
+
+def laws(
+    problem: OutputError, fitted: Fitted, unknown: Sequence[Unknown], *, linear: bool = False
+) -> tuple[Law, ...]:
+    """The dependence on each state, the one that explains most first; states that explain nothing are left out."""
+    error = _error(problem, fitted, unknown)
+    found = [_over(name, error, linear) for name in COORDINATES if np.ptp(error.states[name]) > 0.0]
+    if np.ptp(error.states["angle"]) > 2.0 * np.pi:
+        found.append(_over_angle(error))
+    return tuple(sorted((law for law in found if law.share > 0.02), key=lambda law: -law.share))
+
+
+def _error(problem: OutputError, fitted: Fitted, unknown: Sequence[Unknown]) -> _Error:
+    from scipy.signal import lfilter  # late: the command line starts without it
+
+    states = {name: np.concatenate([getattr(u, name) for u in unknown]) for name in (*COORDINATES, "angle")}
+    ends = np.cumsum([u.time.size for u in unknown])[:-1]
+    by_filter = problem.kind == "dc" and all(t.speed.size for t in problem.targets)
+
+    def answer(columns: Array) -> Array:
+        if not by_filter:
+            return columns
+        parts = []
+        for target, part in zip(problem.targets, np.split(columns, ends), strict=True):
+            a, b = drive_filter(problem, fitted.vector, float(np.median(np.diff(target.time))))
+            parts.append(lfilter([0.0, b], [1.0, -a], part, axis=0))
+        return np.concatenate(parts)
+
+    if by_filter:
+        residuals = problem.residuals(fitted.vector, fitted.candidate.active)
+        value = np.concatenate([r["speed"] for r in residuals])
+    else:
+        value = np.concatenate([u.torque for u in unknown])
+    speed = states["speed"]
+    regressors = [speed, np.sign(speed), states["acceleration"], states["current"], np.ones(speed.size)]
+    return _Error(states=states, value=value, answer=answer, nominal=answer(np.stack(regressors, axis=1)))
+
+
+def _over(name: str, error: _Error, linear: bool) -> Law:
+    low, high = np.percentile(error.states[name], [0.5, 99.5])
+    x = np.clip((error.states[name] - low) / max(high - low, 1e-300), 0.0, 1.0)
+    basis = _wavelets(x)
+    share, weights = _fitted(error.answer(basis), error)
+    grid = np.linspace(0.0, 1.0, 200)
+    curve = _wavelets(grid) @ weights
+    unit = COORDINATES[name].replace("rad", "m") if linear else COORDINATES[name]
+    return Law(
+        coordinate=name, unit=unit, share=share, periods=0, x=low + (high - low) * grid, torque=curve - curve.mean(),
+        amplitude=float(np.sqrt(2.0) * np.std(basis @ weights)),
+    )  # fmt: skip
+
+
+def _over_angle(error: _Error) -> Law:
+    angle = error.states["angle"]
+    pairs = [error.answer(np.stack([np.cos(n * angle), np.sin(n * angle)], axis=1)) for n in ORDERS]
+    explained = []
+    for pair in pairs:
+        gram = pair.T @ pair + 1e-9 * np.trace(pair.T @ pair) * np.eye(2) + 1e-300 * np.eye(2)
+        load = pair.T @ error.value
+        explained.append(float(load @ np.linalg.solve(gram, load)))
+    best = int(np.argmax(explained))
+    order = int(ORDERS[best])
+    share, weights = _fitted(pairs[best], error)
+    grid = np.linspace(0.0, 2.0 * np.pi, 400)
+    curve = np.stack([np.cos(order * grid), np.sin(order * grid)], axis=1) @ weights
+    return Law(
+        coordinate="angle", unit="rad", share=share, periods=order, x=grid, torque=curve,
+        amplitude=float(np.hypot(*weights)),
+    )  # fmt: skip
+
+
+def dyadic_places(count: int) -> tuple[tuple[float, float], ...]:
+    """(centre, dilation) of the first `count` wavelets of a dyadic grid over [0, 1] (2.10-2.11)."""
+    places = [((k + 0.5) / 2**level, 0.7 / 2**level) for level in range(5) for k in range(2**level)]
+    return tuple(places[:count])
+
+
+def _wavelets(x: Array) -> Array:
+    """Outputs (n, wavelets) of single wavelets over [0, 1]."""
+    columns = []
+    for m, d in dyadic_places(WAVELETS):
+        network = ConventionalNetwork(
+            wavelet=Wavelet("mexican-hat"), b=np.zeros(1), a=np.zeros((1, 1)), w=np.ones((1, 1)),
+            m=np.array([[m]]), d=np.array([[d]]),
+        )  # fmt: skip
+        columns.append(network.output(np.ascontiguousarray(x[:, None]))[:, 0])
+    return np.stack(columns, axis=1)
+
+
+def _fitted(basis: Array, error: _Error) -> tuple[float, Array]:
+    """Share explained by a fit to every other block, on the blocks between; weights of the fit to all."""
+    value, nominal = error.value, error.nominal
+    blocks = (np.arange(value.size) * 20 // value.size) % 2 == 0
+    left = energy = 0.0
+    for part in (blocks, ~blocks):
+        weights, (beta, gamma) = _orthogonal(basis[part], value[part], nominal[part])
+        rest = value[~part] - nominal[~part] @ gamma
+        made = (basis[~part] - nominal[~part] @ beta) @ weights
+        left += float(np.sum((rest - made) ** 2))
+        energy += float(np.sum(rest**2))
+    return 1.0 - left / max(energy, 1e-300), _orthogonal(basis, value, nominal)[0]
+
+
+def _orthogonal(basis: Array, value: Array, nominal: Array) -> tuple[Array, tuple[Array, Array]]:
+    """Weights of the wavelets beside the nominal regressors (Frisch, Waugh), and what those take of both."""
+    scale = np.maximum(np.linalg.norm(nominal, axis=0), 1e-300)
+    gram = (nominal / scale).T @ (nominal / scale) + 1e-9 * np.eye(nominal.shape[1])
+    both = np.linalg.solve(gram, (nominal / scale).T @ np.column_stack([basis, value])) / scale[:, None]
+    beta, gamma = both[:, :-1], both[:, -1]
+    own = basis - nominal @ beta
+    normal = own.T @ own
+    ridge = 1e-4 * np.trace(normal) / normal.shape[0] + 1e-300
+    weights: Array = np.linalg.solve(normal + ridge * np.eye(normal.shape[0]), own.T @ (value - nominal @ gamma))
+    return weights, (beta, gamma)

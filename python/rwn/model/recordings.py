@@ -1,0 +1,84 @@
+"""Is a recording usable, and does it fit the model? Every refusal is one line with the row and the remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from rwn.errors import InputError
+from rwn.model.model import Model
+from rwn.recording.recording import Recording, read_recording
+from rwn.recording.signals import SIGNALS
+
+
+def check_recording(recording: Recording, model: Model) -> Recording:
+    """It has the signals that the model needs, in its kind of units, and they move. Raises InputError."""
+    where = recording.source or recording.name
+    drive = model.drive
+    if drive.input not in recording.signals:
+        raise _missing(recording, drive.input, f"the input of a drive of kind '{model.kind}'")
+    if not any(name in recording.signals for name in drive.outputs):
+        raise _missing(recording, drive.outputs[0], "something measured to compare with")
+    if recording.linear != model.linear and any(name in recording.signals for name in ("speed", "position")):
+        has, wants = ("linear", "rotary") if recording.linear else ("rotary", "linear")
+        raise InputError(
+            f"speed or position is in {has} units, the model is {wants}",
+            where=where,
+            expected="rad and rad/s" if wants == "rotary" else "m and m/s",
+            fix="set linear in [motor], or map the column with a scale such as 0.01 m/rad",
+        )
+    return replace(recording, warnings=recording.warnings + _check_movement(recording, model, where))
+
+
+def _missing(recording: Recording, name: str, why: str) -> InputError:
+    has = ", ".join(recording.signals) or "no signal at all"
+    unit = SIGNALS[name].unit or SIGNALS[name].linear_unit
+    return InputError(
+        f"there is no '{name}' ({why}); it has {has}",
+        where=recording.source or recording.name,
+        expected=f"a column '{name} [{unit}]'",
+        fix="add it, or map it under [recording.columns] in the model file",
+    )
+
+
+def _check_movement(recording: Recording, model: Model, where: str) -> tuple[str, ...]:
+    drive = model.drive
+    for name, values in recording.signals.items():
+        if name in drive.outputs and np.ptp(values) == 0.0:
+            raise InputError(
+                f"'{name}' is constant ({values[0]:g})",
+                where=where,
+                expected="a signal that moves",
+                fix="check that the sensor is connected, or leave the column out",
+            )
+    values = recording.signals[drive.input]
+    if np.ptp(values) > 0.0:
+        return ()
+    if values[0] == 0.0 and model.recording.initial == "rest":
+        raise InputError(
+            f"'{drive.input}' is zero throughout, from rest",
+            where=where,
+            expected="an input that drives",
+            fix='record with excitation, or set initial = "estimate" under [recording]',
+        )
+    return (f"{where}: '{drive.input}' is constant: a single step says little about what is missing",)
+
+
+def read_recordings(paths: Iterable[str | Path], model: Model) -> list[Recording]:
+    """Read and check every file against the model. Raises InputError, also for a file given twice."""
+    recordings: list[Recording] = []
+    seen: set[Path] = set()
+    for path in map(Path, paths):
+        if path.resolve() in seen:
+            raise InputError(
+                "the file is given twice",
+                where=path,
+                expected="each recording once",
+                fix="remove one of them: a recording cannot judge itself",
+            )
+        seen.add(path.resolve())
+        recordings.append(check_recording(read_recording(path, layout=model.recording), model))
+    return recordings

@@ -1,0 +1,288 @@
+"""The TOML of a model: parsing, with the name of every slip."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from rwn.errors import InputError, unknown
+from rwn.model.drives import KINDS, LINEAR_AXIS, Nominal
+from rwn.model.model import EffectTable, Model, effect_table, lti_parameters
+from rwn.model.own_effects import OwnEffect, check_own_effects
+from rwn.model.toml_own_effects import from_entry
+from rwn.model.toml_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
+from rwn.recording import units
+from rwn.recording.columns import Column, Layout
+from rwn.recording.signals import COLUMNS, TIME
+
+_PENDULUM = (
+    Nominal(name="mass", unit="kg", meaning="mass of the pendulum", positive=True),
+    Nominal(name="length", unit="m", meaning="distance from the axis to its centre of mass", positive=True),
+)
+
+
+def parse_model(text: str, *, where: str, effects: EffectTable | None = None) -> Model:
+    """The model that `text` describes. Raises InputError."""
+    file = decode(text, where)
+    kind, linear, order = _kind(file.motor, where)
+    nominal = KINDS[kind].parameters or lti_parameters(order)
+    given = {key: value for key, value in file.motor.items() if key not in ("kind", "linear", "order")}
+    if kind == "lti":
+        given = _coefficients(given, order, where)
+    parameters = _values(given, nominal, linear=linear, where=f"{where}, [motor]")
+    drive = LINEAR_AXIS if linear else KINDS[kind]
+    own = {name: from_entry(name, entry, drive, where=where) for name, entry in file.own_effects.items()}
+    check_own_effects(tuple(own.values()), kind, where=f"{where}, [own_effects]")
+    return Model(
+        kind=kind,
+        parameters=parameters,
+        uncertainty=_uncertainty(file.uncertainty, parameters, f"{where}, [uncertainty]"),
+        effects=_effects(file.effects, own, effects, where) if file.effects else {},
+        own_effects=tuple(own.values()),
+        load=_load(file.load, kind, linear, where),
+        linear=linear,
+        order=order,
+        recording=_layout(file.recording, f"{where}, [recording]"),
+        source=where,
+    )
+
+
+def _kind(motor: Mapping[str, Any], where: str) -> tuple[str, bool, int]:
+    place = f"{where}, [motor]"
+    kind, linear, order = motor.get("kind"), motor.get("linear", False), motor.get("order", 0)
+    if not isinstance(kind, str):
+        raise InputError(
+            "there is no kind" if kind is None else f"kind is {kind!r}",
+            where=place,
+            expected="kind = one of " + ", ".join(f'"{k}"' for k in KINDS),
+            fix='add kind = "dc" for a motor fed with a voltage',
+        )
+    if kind not in KINDS:
+        raise unknown("kind", kind, KINDS, where=place)
+    if not isinstance(linear, bool) or (linear and kind != "axis"):
+        raise InputError(
+            f"linear is {linear!r}",
+            where=place,
+            expected='true or false, with kind = "axis" only',
+            fix="remove linear",
+        )
+    if kind == "lti" and "order" not in motor and isinstance(motor.get("denominator"), list):
+        order = len(motor["denominator"]) - 1
+    if kind == "lti" and (isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= 20):
+        raise InputError(
+            f"order is {order!r}",
+            where=place,
+            expected="a whole number from 1 to 20",
+            fix="write for instance order = 3",
+        )
+    if kind != "lti" and "order" in motor:
+        raise unknown("key", "order", [p.name for p in KINDS[kind].parameters], where=place)
+    return kind, linear, order
+
+
+def _coefficients(given: Mapping[str, Any], order: int, where: str) -> dict[str, Any]:
+    """numerator and denominator (highest power first) as b_k and a_k with a leading denominator of 1."""
+    place = f"{where}, [motor]"
+    for key in given:
+        if key not in ("numerator", "denominator"):
+            raise unknown("key", key, ("kind", "order", "numerator", "denominator"), where=place)
+    if not given:
+        return {}
+    lists = {key: given.get(key, []) for key in ("numerator", "denominator")}
+    for key, values in lists.items():
+        if not isinstance(values, list) or not all(
+            type(x) in (int, float) and math.isfinite(x) for x in values
+        ):
+            raise InputError(
+                f"{key} is {values!r}",
+                where=place,
+                expected="a list of numbers, highest power first",
+                fix=f"write for instance {key} = [1.0, 20.0]",
+            )
+    numerator, denominator = lists["numerator"], lists["denominator"]
+    if len(denominator) != order + 1 or denominator[0] == 0 or not 1 <= len(numerator) <= order:
+        raise InputError(
+            f"numerator has {len(numerator)} and denominator {len(denominator)} coefficients",
+            where=place,
+            expected=f"1 to {order} and {order + 1} for order {order}, the first not zero",
+            fix="correct order or the coefficients",
+        )
+    lead = float(denominator[0])
+    b = {f"b{k}": float(x) / lead for k, x in enumerate(reversed(numerator))}
+    return {**b, **{f"a{k}": float(x) / lead for k, x in enumerate(reversed(denominator[1:]))}}
+
+
+def _values(
+    given: Mapping[str, Any], table: Iterable[Nominal], *, linear: bool, where: str
+) -> dict[str, float]:
+    entries = {entry.name: entry for entry in table}
+    for key in given:
+        if key not in entries:
+            raise unknown("key", key, entries, where=where)
+    values: dict[str, float] = {}
+    for name, entry in entries.items():
+        unit = (entry.linear_unit if linear else entry.unit) or entry.unit
+        if name not in given:
+            if entry.required:
+                raise InputError(
+                    f"there is no {name} ({entry.meaning})",
+                    where=where,
+                    expected=f"a number in {unit}",
+                    fix=f"add {name} = ... from the data sheet, and its doubt under [uncertainty]",
+                )
+            continue
+        values[name] = value = _number(given[name], unit, f"{where} {name}")
+        signed = name[0] in "ab" and name[1:].isdigit()  # coefficients of a transfer function
+        if (value < 0 and not signed) or (entry.positive and value == 0):
+            raise InputError(
+                f"{name} is {value:g} {unit}",
+                where=where,
+                expected="a positive number" if entry.positive else "a number that is not negative",
+                fix="correct the value or its unit",
+            )
+    return values
+
+
+def _number(value: Any, unit: str, where: str) -> float:
+    if isinstance(value, str):
+        number = units.quantity(value, unit, where=where)
+    elif isinstance(value, bool) or not isinstance(value, int | float):
+        kind = "true or false" if isinstance(value, bool) else type(value).__name__
+        raise InputError(
+            f"the value is {kind}",
+            where=where,
+            expected=f"a number in {unit}, or text with a unit",
+            fix=f'write for instance 0.4 or "0.4 {unit}"',
+        )
+    else:
+        number = float(value)
+    if not math.isfinite(number):
+        raise InputError(
+            f"the value is {number}",
+            where=where,
+            expected=f"a finite number in {unit}",
+            fix="write the number; where it is unknown, a guess with a large uncertainty",
+        )
+    return number
+
+
+def _uncertainty(
+    given: Mapping[str, Number], parameters: Mapping[str, float], where: str
+) -> dict[str, float]:
+    values: dict[str, float] = {}
+    for name, value in given.items():
+        if name not in parameters:
+            raise unknown("parameter", name, parameters, where=where)
+        values[name] = number = _number(value, "dimensionless", f"{where} {name}")
+        if number < 0:
+            raise InputError(
+                f"{name} is {number:g}",
+                where=where,
+                expected="a relative standard deviation, 0.1 = 10 %",
+                fix="write it without a sign",
+            )
+        if number > 0 and parameters[name] == 0:
+            raise InputError(
+                f"{name} is relative to a nominal value of 0",
+                where=where,
+                expected="a nominal value that is not 0",
+                fix="give a guess in [motor]",
+            )
+    return values
+
+
+def _effects(
+    given: Mapping[str, Mapping[str, Number]],
+    own: Mapping[str, OwnEffect],
+    table: EffectTable | None,
+    where: str,
+) -> dict[str, dict[str, float]]:
+    table = {**(effect_table() if table is None else table), **own}
+    found: dict[str, dict[str, float]] = {}
+    for name, values in given.items():
+        place = f"{where}, [effects.{name}]"
+        if name not in table:
+            raise unknown("effect", name, table, where=f"{where}, [effects]")
+        entries = {p.name: p for p in table[name].parameters}
+        for key in values:
+            if key not in entries:
+                raise unknown("parameter", key, entries, where=place)
+        for key, entry in entries.items():
+            if key not in values and not entry.fixed:
+                raise InputError(
+                    f"there is no {key}",
+                    where=place,
+                    expected=f"a number in {entry.unit}",
+                    fix=f"add {key} = ...",
+                )
+        found[name] = {k: _number(v, _si(entries[k].unit), f"{place} {k}") for k, v in values.items()}
+    second = [name for name in found if getattr(table[name], "second_mass", False)]
+    if len(second) > 1:
+        raise InputError(
+            f"{' and '.join(second)} each bring a second mass",
+            where=f"{where}, [effects]",
+            expected="one of them",
+            fix=f"remove [effects.{second[-1]}]",
+        )
+    return found
+
+
+def _si(unit: str) -> str:
+    return "dimensionless" if unit in ("", "1") else unit
+
+
+def _load(load: LoadTable, kind: str, linear: bool, where: str) -> dict[str, dict[str, float]]:
+    if load.pendulum is None:
+        return {}
+    place = f"{where}, [load.pendulum]"
+    if kind == "lti" or linear:
+        raise InputError(
+            "a pendulum on a drive without a shaft",
+            where=place,
+            expected="a rotary drive of kind dc or axis",
+            fix="remove [load.pendulum]",
+        )
+    return {"pendulum": _values(load.pendulum, _PENDULUM, linear=False, where=place)}
+
+
+def _layout(given: RecordingTable, where: str) -> Layout:
+    columns = {
+        name: _column(name, column, f"{where} columns.{name}") for name, column in given.columns.items()
+    }
+    time = (
+        None if given.sample_time is None else _number(given.sample_time, TIME.unit, f"{where} sample_time")
+    )
+    if time is not None and time <= 0:
+        raise InputError(
+            f"sample_time is {time:g} s",
+            where=where,
+            expected="a positive time",
+            fix="write for instance 0.001",
+        )
+    if given.initial_samples < 1:
+        raise InputError(
+            f"initial_samples is {given.initial_samples}",
+            where=where,
+            expected="a positive whole number",
+            fix="write for instance 20",
+        )
+    return Layout(
+        columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples
+    )
+
+
+def _column(name: str, given: ColumnEntry, where: str) -> Column:
+    if name not in COLUMNS:
+        raise unknown("signal", name, COLUMNS, where=where)
+    scale, unit = (
+        (given.scale, "") if isinstance(given.scale, float | int) else units.split(given.scale, where=where)
+    )
+    if not math.isfinite(scale) or scale == 0:
+        raise InputError(
+            f"scale is {scale:g}",
+            where=where,
+            expected="a finite number that is not 0",
+            fix="write 1, a gear ratio, -1 for a wrong sign, or text with a unit",
+        )
+    return Column(source=given.source, unit=given.unit, scale=float(scale), scale_unit=unit)

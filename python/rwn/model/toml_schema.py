@@ -1,0 +1,111 @@
+"""The tables and types of a model file, and msgspec's refusals in our words."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from typing import Any
+
+import msgspec
+
+from rwn.errors import InputError, closest, unknown
+from rwn.model.toml_own_effects import EffectEntry, ParameterEntry
+from rwn.recording.columns import Initial
+
+Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
+
+
+class ColumnEntry(msgspec.Struct, forbid_unknown_fields=True):
+    source: str
+    unit: str | None = None
+    scale: Number = 1.0
+
+
+class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
+    columns: dict[str, ColumnEntry] = {}
+    sample_time: Number | None = None
+    initial: Initial = "rest"
+    initial_samples: int = 20
+
+
+class LoadTable(msgspec.Struct, forbid_unknown_fields=True):
+    pendulum: dict[str, Number] | None = None
+
+
+class File(msgspec.Struct, forbid_unknown_fields=True):
+    motor: dict[str, Any]
+    uncertainty: dict[str, Number] = {}
+    effects: dict[str, dict[str, Number]] = {}
+    own_effects: dict[str, EffectEntry] = {}
+    load: LoadTable = msgspec.field(default_factory=LoadTable)
+    recording: RecordingTable = msgspec.field(default_factory=RecordingTable)
+
+
+def decode(text: str, where: str) -> File:
+    try:
+        plain = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(
+            f"not valid TOML: {error}",
+            where=where,
+            expected="lines such as inertia = 1.8e-4",
+            fix="correct that line; text needs quotes, numbers a decimal point",
+        ) from error
+    if "motor" not in plain:
+        meant = closest("motor", plain)
+        raise InputError(
+            "there is no table [motor]",
+            where=where,
+            expected='[motor] with kind = "dc"',
+            fix=f"did you mean [motor] by [{meant}]?" if meant else "add it",
+        )
+    try:
+        return msgspec.convert(plain, File)
+    except msgspec.ValidationError as error:
+        raise _worded(str(error), where) from error
+
+
+def _worded(message: str, where: str) -> InputError:
+    """msgspec's `Expected `x`, got `y` - at `$.a.b`` in our words."""
+    what, _, path = message.partition(" - at `$")
+    keys = [key for key in re.split(r"[.\[\]`]+", path) if key and key != "..."]
+    place = f"{where}, [{'.'.join(keys)}]" if keys else where
+    found = re.search(r"unknown field `(.+)`", what)
+    if found:
+        return unknown("key", found[1], _table_at(keys).__struct_fields__, where=place)
+    wrong = re.search(r"[Ee]xpected `(.+?)`, got `(.+?)`", what)
+    if wrong:
+        names = {"float | str": "a number, or text with a unit", "str": "text in quotes", "object": "a table"}
+        got = {
+            "int": "a number",
+            "bool": "true or false",
+            "str": "text",
+            "object": "a table",
+            "array": "a list",
+        }
+        return InputError(
+            f"the value is {got.get(wrong[2], wrong[2])}",
+            where=place,
+            expected=names.get(wrong[1], wrong[1]),
+            fix="correct the value",
+        )
+    return InputError(
+        what.replace("`", "'"), where=place, expected="see docs/models.md", fix="correct the value"
+    )
+
+
+def _table_at(keys: list[str]) -> type[msgspec.Struct]:
+    """The table that a path of keys leads to."""
+    nested: dict[tuple[str, str], type[msgspec.Struct]] = {
+        ("recording", "columns"): ColumnEntry,
+        ("own_effects", "parameters"): ParameterEntry,
+    }
+    for (outer, inner), entry in nested.items():
+        if keys[:1] == [outer] and inner in keys:
+            return entry
+    tables: dict[str, type[msgspec.Struct]] = {
+        "recording": RecordingTable,
+        "load": LoadTable,
+        "own_effects": EffectEntry,
+    }
+    return tables.get(keys[0] if keys else "", File)

@@ -1,0 +1,81 @@
+"""The TOML text of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+
+from rwn.model.model import Model
+from rwn.model.toml_own_effects import to_lines
+from rwn.recording.columns import Layout
+from rwn.recording.units import linear_unit
+
+
+def format_model(model: Model) -> str:
+    """The TOML text of a model, in SI, with units as comments."""
+    lines = ["[motor]", f'kind = "{model.kind}"']
+    lines += ["linear = true"] if model.linear else []
+    lines += [f"order = {model.order}"] if model.kind == "lti" else []
+    lines += _coefficient_lines(model) if model.kind == "lti" else _parameter_lines(model)
+    lines += _table("uncertainty", model.uncertainty)
+    for name, values in model.effects.items():
+        lines += ["", f"[effects.{name}]", *_effect_lines(model, name, values)]
+    for effect in model.own_effects:
+        lines += to_lines(effect)
+    for name, values in model.load.items():
+        lines += _table(f"load.{name}", values)
+    return "\n".join(lines + _layout_lines(model.recording)) + "\n"
+
+
+def _parameter_lines(model: Model) -> list[str]:
+    return _commented(model.parameters, {name: model.unit(name) for name in model.parameters})
+
+
+def _effect_lines(model: Model, name: str, values: Mapping[str, float]) -> list[str]:
+    effect = model.effect_table[name]
+    rotary = model.linear and not effect.own  # a user has written units as they are
+    return _commented(values, {p.name: linear_unit(p.unit) if rotary else p.unit for p in effect.parameters})
+
+
+def _commented(values: Mapping[str, float], units: Mapping[str, str]) -> list[str]:
+    """One line a value, the units below one another; none for pure numbers."""
+    lines = {name: f"{name} = {float(value)!r}" for name, value in values.items()}
+    width = max(map(len, lines.values()), default=0)
+    return [
+        f"{line:<{width}}  # {units[name]}" if units.get(name, "1") != "1" else line
+        for name, line in lines.items()
+    ]
+
+
+def _coefficient_lines(model: Model) -> list[str]:
+    if not model.parameters:
+        return []
+    b = [model.parameters[f"b{k}"] for k in reversed(range(model.order)) if f"b{k}" in model.parameters]
+    a = [1.0, *(model.parameters[f"a{k}"] for k in reversed(range(model.order)))]
+    return [f"numerator = {b!r}", f"denominator = {a!r}"]
+
+
+def _table(name: str, values: Mapping[str, float]) -> list[str]:
+    if not values:
+        return []
+    return ["", f"[{name}]", *(f"{key} = {float(value)!r}" for key, value in values.items())]
+
+
+def _layout_lines(layout: Layout) -> list[str]:
+    if layout == Layout():
+        return []
+    lines = ["", "[recording]", f'initial = "{layout.initial}"']
+    lines += [] if layout.sample_time is None else [f"sample_time = {layout.sample_time!r}  # s"]
+    lines += [] if layout.initial_samples == 20 else [f"initial_samples = {layout.initial_samples}"]
+    for name, column in layout.columns.items():
+        items = [f"source = {_quoted(column.source)}"]
+        items += [] if column.unit is None else [f"unit = {_quoted(column.unit)}"]
+        scale = f'"{column.scale!r} {column.scale_unit}"' if column.scale_unit else repr(column.scale)
+        items += [] if column.scale == 1.0 and not column.scale_unit else [f"scale = {scale}"]
+        lines.append(f"columns.{name} = {{ {', '.join(items)} }}")
+    return lines
+
+
+def _quoted(text: str) -> str:
+    return msgspec.json.encode(text).decode()

@@ -1,0 +1,112 @@
+"""How the files of a bench are laid out: which column is which signal, in which unit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.errors import InputError, closest
+from rwn.recording import units
+from rwn.recording.formats import Table
+from rwn.recording.signals import COLUMNS, Signal, meant
+
+Initial = Literal["rest", "estimate"]
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Column:
+    """Where a signal comes from: a column or variable `source` and its `unit` (None: from the file's header).
+
+    It is multiplied by `scale` [`scale_unit`]: a gear ratio, -1 for a wrong sign, 35.15 N/V for a force.
+    """
+
+    source: str
+    unit: str | None = None
+    scale: float = 1.0
+    scale_unit: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Layout:
+    """The column map (signal -> Column) and what else the files do not say.
+
+    `sample_time` [s]: of files without a time column. `initial`: whether recordings start at rest (position
+    0, no current) or from a state that has to be estimated; `initial_samples`: from how many samples, on recordings
+    that are not fitted (they are not judged by them).
+    """
+
+    columns: Mapping[str, Column] = field(default_factory=dict)
+    sample_time: float | None = None
+    initial: Initial = "rest"
+    initial_samples: int = 20
+
+
+def column_map(table: Table, layout: Layout, by_name: set[str]) -> dict[str, Column]:
+    """Every signal's column: those of the layout, and those that the file calls by the signal's name.
+
+    Raises InputError where a column is nearly called like a signal: that is a slip, not an extra column.
+    """
+    mapping = {name: Column(source=name) for name in by_name if name in table.units}
+    mapping |= layout.columns
+    used = {column.source for column in mapping.values()}
+    for name in table.units:
+        signal = None if name in used else meant(name)
+        if signal is not None and signal not in mapping:
+            raise InputError(
+                f"column '{name}' is no known signal",
+                where=table.path,
+                expected=", ".join(COLUMNS),
+                fix=f"did you mean '{signal}'? rename it, or map it under [recording.columns]",
+            )
+    return mapping
+
+
+def is_linear(table: Table, mapping: Mapping[str, Column]) -> bool:
+    """Whether the recording is of a linear axis: the units of position or speed say so, or a force."""
+    for name in ("position", "speed"):
+        if name in mapping:
+            where = f"{table.path}, column '{mapping[name].source}'"
+            return units.has_dimension(
+                _unit(table, name, mapping[name]), COLUMNS[name].linear_unit, where=where
+            )
+    return "force" in mapping
+
+
+def in_si(table: Table, name: str, column: Column, *, linear: bool) -> Array:
+    """The values of signal `name` in SI."""
+    signal = COLUMNS[name]
+    unit = _unit(table, name, column)
+    scale = units.factor(unit, si_unit(signal, linear), where=f"{table.path}, column '{column.source}'")
+    values: Array = table.columns[column.source] * (column.scale * scale)
+    return values
+
+
+def _unit(table: Table, name: str, column: Column) -> str:
+    if column.source not in table.units:
+        near = closest(column.source, table.units)
+        raise InputError(
+            f"there is no column '{column.source}' (mapped to {name})",
+            where=table.path,
+            expected="one of " + ", ".join(table.units),
+            fix=f"did you mean '{near}'?" if near else "correct [recording.columns]",
+        )
+    unit = column.unit if column.unit is not None else table.units[column.source]
+    if not unit:
+        shown = f"{column.source} [{si_unit(COLUMNS[name], False)}]"
+        raise InputError(
+            f"column '{column.source}' has no unit",
+            where=table.path,
+            expected="name [unit]",
+            fix=f"write '{shown}', or give its unit under [recording.columns]",
+        )
+    return units.product(unit, column.scale_unit)
+
+
+def si_unit(signal: Signal, linear: bool) -> str:
+    """SI unit of a signal on a rotary drive or a linear axis."""
+    return (signal.linear_unit if linear else signal.unit) or signal.unit or signal.linear_unit

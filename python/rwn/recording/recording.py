@@ -1,0 +1,174 @@
+"""A recording: what a bench measured, in SI units, time first."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.errors import InputError
+from rwn.recording.check import check_samples
+from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit
+from rwn.recording.formats import FORMATS, MAX_BYTES, Table
+from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in the SI units of `rwn.signals`.
+
+    `linear`: a linear axis (m, m/s, N) instead of a shaft. `known_from`: first sample of a signal that was measured,
+    where those before it are a guess that nothing is compared with. Arrays are made float64, contiguous and read-only.
+    Raises InputError when lengths differ, an array is not a real vector or a signal's name is unknown.
+    """
+
+    name: str
+    time: Array
+    signals: Mapping[str, Array]
+    source: str = ""
+    linear: bool = False
+    warnings: tuple[str, ...] = ()
+    known_from: Mapping[str, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        time = _vector(self.name, "time", self.time)
+        signals = {name: _vector(self.name, name, values) for name, values in self.signals.items()}
+        for name, values in signals.items():
+            if name not in SIGNALS:
+                raise InputError(
+                    f"unknown signal '{name}'",
+                    where=self.name,
+                    expected=", ".join(SIGNALS),
+                    fix=f"rename it to '{meant(name)}'" if meant(name) else "remove it",
+                )
+            if len(values) != len(time):
+                raise InputError(
+                    f"'{name}' has {len(values)} samples, time has {len(time)}",
+                    where=self.name,
+                    expected="one value per instant",
+                    fix="cut them to the same instants",
+                )
+        object.__setattr__(self, "time", time)
+        object.__setattr__(self, "signals", MappingProxyType(signals))
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def duration(self) -> float:
+        """From the first to the last sample [s]."""
+        return float(self.time[-1] - self.time[0]) if len(self) else 0.0
+
+
+def _vector(name: str, signal: str, values: Any) -> Array:
+    array = np.asarray(values)
+    if array.ndim != 1 or array.dtype.kind not in "fiub":
+        raise InputError(
+            f"'{signal}' is no vector of real numbers (shape {array.shape}, {array.dtype})",
+            where=name,
+            expected="shape (n_t,), real",
+            fix="pass one value per sample",
+        )
+    copy = np.array(array, dtype=np.float64, order="C")
+    copy.flags.writeable = False
+    return copy
+
+
+def read_recording(path: str | Path, *, layout: Layout | None = None) -> Recording:
+    """Read a CSV with `name [unit]` headers, or a .mat file by the column map of `layout`.
+
+    See docs/recordings.md. Raises InputError (file, line, what was expected, how to fix it) for anything that
+    is not a clean recording.
+    """
+    path, layout = Path(path), layout or Layout()
+    reader = FORMATS[_known_suffix(path)]
+    _check_size(path)
+    mapped = {column.source for column in layout.columns.values()}
+    by_name = set() if path.suffix.lower() == ".mat" else set(COLUMNS) - set(layout.columns)
+    try:
+        table = reader(path, mapped | by_name)
+    except OSError as error:
+        raise _unreadable(path, error) from error
+    mapping = column_map(table, layout, by_name)
+    linear = is_linear(table, mapping)
+    values = {name: in_si(table, name, column, linear=linear) for name, column in mapping.items()}
+    time = values.pop(TIME.name, None)
+    time = _counted_time(table, layout) if time is None else time
+    ordered = {name: values[name] for name in SIGNALS if name in values}
+    warnings = check_samples(time, ordered, where=str(path), row=lambda k: f"{path}, {table.row(k)}")
+    return Recording(
+        name=path.name, time=time, signals=ordered, source=str(path), linear=linear, warnings=warnings
+    )
+
+
+def _known_suffix(path: Path) -> str:
+    if path.suffix.lower() in FORMATS:
+        return path.suffix.lower()
+    raise InputError(
+        f"unknown kind of file '{path.suffix}'",
+        where=path,
+        expected=" or ".join(FORMATS),
+        fix="export the recording as CSV",
+    )
+
+
+def _check_size(path: Path) -> None:
+    try:
+        size = path.stat().st_size
+    except OSError as error:
+        raise _unreadable(path, error) from error
+    if path.is_dir():
+        raise InputError(
+            "this is a folder", where=path, expected="a recording file", fix="name the files in it"
+        )
+    if not path.is_file():
+        raise InputError(
+            "this is not a regular file",
+            where=path,
+            expected="a recording file",
+            fix="save the recording to a file first",
+        )
+    if size > MAX_BYTES:
+        raise InputError(
+            f"the file has {size / 2**20:.0f} MB",
+            where=path,
+            expected=f"at most {MAX_BYTES >> 20} MB",
+            fix="cut out the part to be judged, or keep every k-th row",
+        )
+
+
+def _unreadable(path: Path, error: OSError) -> InputError:
+    reason = (error.strerror or str(error)).lower()
+    return InputError(
+        f"cannot read the file ({reason})",
+        where=path,
+        expected="a readable file",
+        fix="check the path and its permissions",
+    )
+
+
+def _counted_time(table: Table, layout: Layout) -> Array:
+    if layout.sample_time is None:
+        raise InputError(
+            "there is no column 'time'",
+            where=table.path,
+            expected="time [s]",
+            fix="add it, or give sample_time under [recording] in the model file",
+        )
+    samples = len(next(iter(table.columns.values()), ()))
+    return np.arange(samples, dtype=np.float64) * layout.sample_time
+
+
+def write_csv(path: str | Path, time: Array, signals: Mapping[str, Array], *, linear: bool = False) -> None:
+    """Write signals in SI as a CSV that `read_recording` reads back."""
+    units = {name: si_unit(COLUMNS[name], linear) for name in (TIME.name, *signals)}
+    header = ",".join(f"{name} [{unit}]" for name, unit in units.items())
+    values = np.column_stack([time, *signals.values()])
+    np.savetxt(path, values, fmt="%.9g", delimiter=",", header=header, comments="")

@@ -1,0 +1,125 @@
+"""How a recorded speed was obtained: by a tachometer, or as a difference of the position over one sample or two."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.recording.lattice import lattice
+
+Array = NDArray[np.float64]
+
+SHORTEST = 20  # samples that say how a speed was obtained
+REPEATED = 0.05  # error of a difference of the recorded position, in units of the noise that it has
+# power near half the sampling rate in units of that near a quarter, where a rounded speed has 0.4 to 1
+VANISHING = 0.05  # central differences have 0.005
+RISING = 1.4  # differences over one sample have 2
+
+
+class SpeedMeasurement(StrEnum):
+    """Of differences: between the positions of which samples."""
+
+    INSTANTANEOUS = "instantaneous"
+    CENTRAL = "central_difference"
+    BACKWARD = "backward_difference"
+    FORWARD = "forward_difference"
+
+    @property
+    def reach(self) -> tuple[int, int]:
+        """Samples before and after the own one."""
+        return REACH[self]
+
+    @property
+    def is_difference(self) -> bool:
+        return self is not SpeedMeasurement.INSTANTANEOUS
+
+
+REACH = {
+    SpeedMeasurement.INSTANTANEOUS: (0, 0),
+    SpeedMeasurement.CENTRAL: (1, 1),
+    SpeedMeasurement.BACKWARD: (1, 0),
+    SpeedMeasurement.FORWARD: (0, 1),
+}
+DIFFERENCES = (SpeedMeasurement.CENTRAL, SpeedMeasurement.BACKWARD, SpeedMeasurement.FORWARD)
+
+
+def speed_measurement(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
+    """How a speed was obtained, as far as the values (n,) show it; instantaneous where they do not.
+
+    A difference of the position that was recorded beside it repeats its noise; one of encoder counts that were not
+    recorded lies on their lattice. Whether such a difference is a backward or a forward one no value tells: the
+    backward one is what a drive can compute as it runs.
+    """
+    if speed.size < SHORTEST:
+        return SpeedMeasurement.INSTANTANEOUS
+    if position.size:
+        errors = {way: _repeats(time, speed, position, way) for way in DIFFERENCES}
+        best = min(errors, key=lambda way: errors[way])
+        if errors[best] < REPEATED:
+            return best
+    return _of_counts(time, speed)
+
+
+def difference(measurement: SpeedMeasurement, time: Array, position: Array) -> Array:
+    """The speed as measured: of `position` (n,) or (n, p) over `time` (n,), over the nearest sample at the ends."""
+    n = time.size
+    before, after = measurement.reach
+    first = np.maximum(np.arange(n) - before, 0)
+    last = np.minimum(np.arange(n) + after, n - 1)
+    at_an_end = first == last
+    last[at_an_end] = np.minimum(first[at_an_end] + 1, n - 1)
+    first[at_an_end] = last[at_an_end] - 1
+    span = time[last] - time[first]
+    change = position[last] - position[first]
+    result: Array = change / (span if position.ndim == 1 else span[:, None])
+    return result
+
+
+def integral(measurement: SpeedMeasurement, time: Array, speed: Array) -> Array:
+    """What a speed has turned since its first sample, (n,): as its differences add up, else by trapezia."""
+    if not speed.size:
+        return speed
+    of_step = {
+        SpeedMeasurement.BACKWARD: speed[1:],
+        SpeedMeasurement.FORWARD: speed[:-1],
+    }.get(measurement, 0.5 * (speed[1:] + speed[:-1]))
+    return np.concatenate([[0.0], np.cumsum(of_step * np.diff(time))])
+
+
+def _repeats(time: Array, speed: Array, position: Array, way: SpeedMeasurement) -> float:
+    """How far a speed is off a difference of the position, in units of the noise that this has."""
+    expected = difference(way, time, position)
+    noise = np.median(np.abs(np.diff(expected, 2)))
+    error = np.median(np.abs(speed - expected))
+    return float(error / noise) if noise > 0.0 else np.inf
+
+
+def _of_counts(time: Array, speed: Array) -> SpeedMeasurement:
+    """By their steps, and by what these hold near half the sampling rate.
+
+    The central difference (q[k+1] - q[k-1]) / 2T vanishes there, whatever gear is between encoder and shaft; that over
+    one sample, with a whole number of counts per revolution, holds most there; what a coarse converter rounds neither.
+    """
+    step = lattice(speed)
+    if step == 0.0:
+        return SpeedMeasurement.INSTANTANEOUS
+    quarter = _power(speed, 0.2, 0.3)
+    if _power(speed, 0.48, 0.5) < VANISHING * quarter:
+        return SpeedMeasurement.CENTRAL
+    counts = 2.0 * np.pi / (step * float(np.median(np.diff(time))))
+    if _whole(counts) and _power(speed, 0.4, 0.5) > RISING * quarter:
+        return SpeedMeasurement.BACKWARD
+    return SpeedMeasurement.INSTANTANEOUS
+
+
+def _whole(counts: float) -> bool:
+    return counts > 3.0 and abs(counts - round(counts)) < max(0.01, 3e-6 * counts)
+
+
+def _power(signal: Array, lowest: float, highest: float) -> float:
+    """Mean power over a band of frequencies, in units of the sampling rate."""
+    power = np.abs(np.fft.rfft((signal - np.mean(signal)) * np.hanning(signal.size))) ** 2
+    rate = np.linspace(0.0, 0.5, power.size)
+    return float(np.mean(power[(rate >= lowest) & (rate <= highest)]))

@@ -1,0 +1,3 @@
+"""Free runs of a model over the input of a recording, and the same equations along its motion."""
+
+from __future__ import annotations

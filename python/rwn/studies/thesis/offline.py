@@ -1,0 +1,228 @@
+"""What the offline experiments (section 2.3.1) share: the two tasks, training over seeds, rows and figures
+of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rwn.networks.arrays import Array
+from rwn.networks.initialisation import DyadicGrid, Heuristic, Initialiser, LeastSquares, LinearStart, SmallRandom
+from rwn.networks.trainers import GradientDescent, Trainer
+from rwn.networks.training import Training
+from rwn.networks.wavelets import Wavelet
+from rwn.studies.thesis.experiment import Curve, Figure, Outcome, Panel, Row, Settings, curve, median_row
+from rwn.studies.thesis.functions import grid, miso, siso
+
+SEEDS = 20
+
+
+@dataclass(frozen=True)
+class Task:
+    """Patterns to approximate, finer ones to test on, and how b, a and w start."""
+
+    x: Array
+    y: Array
+    x_test: Array
+    y_test: Array
+    linear: LinearStart
+
+
+_siso, _siso_fine = np.linspace(-10, 10, 201)[:, None], np.linspace(-10, 10, 2001)[:, None]
+_miso, _miso_fine = grid(0, 1, 21), grid(0, 1, 81)
+SISO = Task(_siso, siso(_siso), _siso_fine, siso(_siso_fine), LeastSquares(scale=0.1))
+MISO = Task(_miso, miso(_miso)[:, None], _miso_fine, miso(_miso_fine)[:, None], SmallRandom(scale=0.1))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Runs:
+    """Trainings of one setting, one per seed."""
+
+    trainings: list[Training]
+
+    @property
+    def mses(self) -> list[float]:
+        """MSE after training; infinite where it diverged."""
+        return [np.inf if t.status == "diverged" else t.frozen_mse for t in self.trainings]
+
+    @property
+    def median(self) -> Training:
+        """The training whose MSE is the (lower) median."""
+        return self.trainings[int(np.argsort(self.mses)[(len(self.mses) - 1) // 2])]
+
+    def row(self, where: str, case: str, thesis: float, *, group: str, iterations: int) -> Row:
+        """The row of these runs."""
+        return median_row(
+            where,
+            case,
+            thesis,
+            self.mses,
+            count=f"{iterations} iterations, {len(self.mses)} seeds",
+            group=group,
+            reason=f"{where}, {case}: {self.reason(thesis)}.",
+        )
+
+    def reason(self, thesis: float) -> str:
+        """When the median run passed the thesis's value."""
+        below = np.flatnonzero(self.median.mse <= thesis)
+        if len(below) == 0:
+            return f"our median run never comes down to {thesis:.3g}"
+        return f"our median run passes {thesis:.3g} at iteration {below[0]} of {len(self.median.mse) - 1}"
+
+
+def train(
+    task: Task,
+    way: Initialiser,
+    trainer: Trainer,
+    *,
+    wavelets: int,
+    seeds: int,
+    wavelet: Wavelet | None = None,
+) -> Runs:
+    """One training per seed; the seed draws the random weights of the start."""
+    starts = [
+        way.start(wavelet or Wavelet(), task.x, task.y, wavelets=wavelets, seed=seed) for seed in range(seeds)
+    ]
+    return Runs(trainings=[trainer.train(start, task.x, task.y) for start in starts])
+
+
+def history_figure(number: int, title: str, runs: dict[str, Runs]) -> Figure:
+    """MSE by iteration of the median run of each setting."""
+    curves = [curve(r.median.mse, label=label) for label, r in runs.items()]
+    panel = Panel(xlabel="iteration", ylabel="MSE", curves=curves, log_x=True, log_y=True)
+    return Figure(number=number, title=title, panels=[panel])
+
+
+def output_panel(task: Task, runs: dict[str, Runs]) -> Panel:
+    """Wanted output and output of the median run of each setting; for one input."""
+    x = task.x_test[:, 0]
+    curves = [curve(task.y_test[:, 0], x, label="wanted", style="k--")]
+    curves += [curve(r.median.network.output(task.x_test)[:, 0], x, label=label) for label, r in runs.items()]
+    return lines(*curves)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """One line of a table that compares the two initialisations."""
+
+    label: str
+    wavelets: int
+    rate: float
+    momentum: float
+    heuristic: float  # the thesis's MSEs
+    dyadic: float
+
+
+# Readings of (2.20): the rate as printed, and times (1 - momentum), as in MATLAB's descent with momentum.
+PRINTED, MATLAB = "", ", mu (1 - gamma)"
+
+
+def descent(reading: str, *, rate: float, momentum: float, iterations: int) -> GradientDescent:
+    """Gradient descent in one of the readings of (2.20)."""
+    effective = rate * (1 - momentum) if reading == MATLAB else rate
+    return GradientDescent(rate=effective, momentum=momentum, iterations=iterations, stall=-1)
+
+
+def compare_initialisers(
+    task: Task,
+    where: str,
+    cases: Sequence[Case],
+    figures: dict[int, str],
+    settings: Settings,
+    *,
+    readings: Sequence[str] = (PRINTED,),
+    iterations: int = 10_000,
+) -> Outcome:
+    """Tables 1, 2, 5, 6: each case with both initialisations, and the claim that dyadic beats heuristic."""
+    seeds, count = settings.pick(SEEDS, 3), settings.pick(iterations, 60)
+    rows: list[Row] = []
+    panels: dict[str, dict[str, Runs]] = {"heuristic": {}, "dyadic-grid": {}}
+    for reading in readings:
+        won = 0
+        for case in cases:
+            trainer = descent(reading, rate=case.rate, momentum=case.momentum, iterations=count)
+            label = case.label + reading
+            for way, thesis in ((Heuristic, case.heuristic), (DyadicGrid, case.dyadic)):
+                runs = train(task, way(linear=task.linear), trainer, wavelets=case.wavelets, seeds=seeds)
+                panels[way.name][label] = runs
+                rows.append(
+                    runs.row(
+                        where, f"{way.name}, {label}", thesis, group=way.name + reading, iterations=count
+                    )
+                )
+            both = (panels[way][label].mses for way in ("dyadic-grid", "heuristic"))
+            won += sum(d < h for d, h in zip(*both, strict=True))
+            settings.progress(len(rows) / ((2 * len(cases) + 1) * len(readings)))
+        pairs = len(cases) * seeds
+        rows.append(claim_row(where, f"dyadic beats heuristic, same seed{reading}", won / pairs, pairs))
+    return Outcome(
+        rows=rows,
+        figures=[
+            history_figure(number, f"{title} ({way})", panels[way])
+            for (number, title), way in zip(figures.items(), panels, strict=True)
+        ],
+    )
+
+
+def claim_row(where: str, case: str, share: float, pairs: int, *, wanted: float = 0.95) -> Row:
+    """A claim: the share of pairs in which it is true."""
+    return Row(
+        where=where, case=f"claim: {case}", ours=share, wanted=wanted, judge="claim", count=f"{pairs} pairs"
+    )
+
+
+WAVELET_CASES: dict[str, Wavelet] = {
+    "gaussian derivative": Wavelet(),
+    "Mexican hat": Wavelet("mexican-hat"),
+    "Morlet (omega0 5)": Wavelet("morlet", 5.0),
+    "Morlet (omega0 1.75)": Wavelet("morlet", 1.75),
+}
+
+
+def compare_wavelets(
+    task: Task, where: str, thesis: tuple[float, float, float], rate: float, wavelets: int, settings: Settings
+) -> tuple[list[Row], dict[str, Runs]]:
+    """Tables 4 and 8: 1000 iterations from the dyadic grid with each wavelet, and the claim that the Gaussian
+    derivative is the best, seed by seed."""
+    seeds, count = settings.pick(SEEDS, 3), settings.pick(1000, 30)
+    trainer = GradientDescent(rate=rate, momentum=0.6, iterations=count, stall=-1)
+    runs: dict[str, Runs] = {}
+    rows = []
+    for (label, wavelet), value in zip(WAVELET_CASES.items(), (*thesis, thesis[2]), strict=True):
+        way = DyadicGrid(linear=task.linear)
+        runs[label] = train(task, way, trainer, wavelets=wavelets, seeds=seeds, wavelet=wavelet)
+        group = "" if "1.75" in label else where
+        rows.append(runs[label].row(where, label, value, group=group, iterations=count))
+        settings.progress(len(runs) / len(WAVELET_CASES))
+    best = np.argmin([r.mses for r in runs.values()], axis=0)
+    rows.append(
+        claim_row(where, "gaussian derivative is the best", float(np.mean(best == 0)), seeds, wanted=0.5)
+    )
+    return rows, runs
+
+
+def compare_trainers(
+    task: Task,
+    where: str,
+    trainers: dict[str, Trainer],
+    thesis: dict[str, float],
+    wavelets: int,
+    settings: Settings,
+) -> tuple[list[Row], dict[str, Runs]]:
+    """Tables 3 and 7: 100 iterations with each trainer from the dyadic grid; thesis: MSE by trainer."""
+    seeds = settings.pick(SEEDS, 3)
+    runs: dict[str, Runs] = {}
+    rows = []
+    for label, trainer in trainers.items():
+        runs[label] = train(task, DyadicGrid(linear=task.linear), trainer, wavelets=wavelets, seeds=seeds)
+        rows.append(runs[label].row(where, label, thesis[label], group=where, iterations=100))
+        settings.progress(len(runs) / len(trainers))
+    return rows, runs
+
+
+def lines(*curves: Curve, xlabel: str = "x", ylabel: str = "f(x)") -> Panel:
+    """A plain panel."""
+    return Panel(xlabel=xlabel, ylabel=ylabel, curves=list(curves))

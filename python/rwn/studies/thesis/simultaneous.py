@@ -1,0 +1,232 @@
+"""Table 20, figures 98-106: inertia, viscous friction and the friction network together.
+
+Open in the thesis, and chosen here: 15 wavelets on a dyadic grid, w normal with deviation 1e-3, c = 0;
+initialised by 300 cycles of the thesis's rule with the wrong J and B held (the thesis has 10 000
+iterations); then at 0.5 of the bound: 5 000 cycles with running maxima, which stand still long before,
+and the thesis's 200 000 with rates held from a pass over the first cycle ("did not change after the
+first"). B of the thesis is the raw v1, which this experiment cannot determine: v1 - B acts as an
+observer gain, since the network is fed with the measured speed. What is determined is the total viscous
+slope <tau_total, speed>/<speed, speed>. The batch fit selects its wavelets from a library by what they
+explain of the recording (the wrong motor given), since on the dyadic grid 60 iterations leave the curve
+5e-5 N m off.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+import rwn
+from rwn.networks.arrays import Array
+from rwn.networks.initialisation import StructuredSelection
+from rwn.networks.rates import Thesis
+from rwn.networks.trainers import StructuredLevenbergMarquardt
+from rwn.studies.thesis.drive import (
+    MOTOR,
+    T,
+    chirp,
+    coulomb,
+    error_percent,
+    friction_network,
+    linear_network,
+    sine,
+    speed_with_friction,
+)
+from rwn.studies.thesis.experiment import Curve, Experiment, Figure, Outcome, Panel, Row, Settings, curve
+from rwn.studies.thesis.linear import thesis_rule
+from rwn.studies.thesis.structured_friction import signal_panel
+from rwn.studies.thesis.within_cycle import first_cycle_panel
+
+NETWORK = ("w", "m", "d", "c")
+LEARN = ("v1", "v2", *NETWORK)
+WRONG = replace(MOTOR, inertia=2.16e-4, viscous_friction=0.048)
+
+
+CYCLES = {"running maxima": 5_000, "held rates": 200_000}
+
+
+def total_slope(torque: Array, speed: Array) -> float:
+    """Slope of a friction torque along a recording [N m s/rad]."""
+    return float(torque @ speed / (speed @ speed))
+
+
+def true_torque(speed: Array) -> Array:
+    """Whole friction of the motor [N m]."""
+    return coulomb(speed) + MOTOR.viscous_friction * speed
+
+
+def online_rows(
+    how: str, run: rwn.OnlineTraining[rwn.StructuredNetwork], y: Array, test: tuple[Array, Array]
+) -> list[Row]:
+    """Rows of one per-sample training."""
+    net = run.network
+    torque = net.torque(y) + net.v[0] * y
+    slope = 100 * (total_slope(torque, y) / total_slope(true_torque(y), y) - 1)
+    rms = float(np.sqrt(np.mean((torque - true_torque(y)) ** 2)))
+    count = f"{len(run.mse_learning)} cycles; {run.status}"
+    stuck = "" if not run.report.warnings else "; ".join(run.report.warnings)
+    reason = f"v1 shares its slope with the network, raw B is not determined. {stuck}".strip()
+    return [
+        Row(
+            where="Table 20",
+            case=f"J, {how}",
+            thesis=11.0,
+            ours=error_percent(net, "inertia"),
+            count=count,
+            judge="percentage-point",
+            unit="%",
+            reason=stuck or "depends on the fraction and the number of cycles",
+        ),
+        Row(
+            where="Table 20",
+            case=f"raw B, {how}",
+            thesis=22.5,
+            ours=error_percent(net, "viscous_friction"),
+            count=count,
+            judge="percentage-point",
+            unit="%",
+            reason=reason,
+        ),
+        Row(where="Table 20", case=f"total slope, {how}", ours=slope, count=count, judge="none", unit="%"),
+        Row(where="Figure 106", case=f"friction rms [N m], {how}", ours=rms, count=count, judge="none"),
+        Row(
+            where="Figure 104",
+            case=f"test MSE, {how}",
+            thesis=0.0017,
+            ours=net.mse(*test),
+            count=count,
+            reason="follows J and B: depends on the fraction and the number of cycles",
+        ),
+    ]
+
+
+def batch_rows(wavelets: int, u: Array, y: Array, iterations: int) -> tuple[list[Row], Array]:
+    """Levenberg-Marquardt with the gauge, static network, selected; the rows and its torque over 400 speeds."""
+    motor = linear_network(inertia=WRONG.inertia, viscous_friction=WRONG.viscous_friction)
+    start = StructuredSelection().start(motor, u, y, wavelets=wavelets, linear=("v1", "v2"))
+    fit = StructuredLevenbergMarquardt(iterations=iterations).fit(
+        start, u, y, learn=("v1", "v2", "w", "m", "d")
+    )
+    true = true_torque(y)
+    values = {
+        "J": (abs(error_percent(fit.network, "inertia")), 0.01, "%"),
+        "total slope": (100 * abs(float(fit.network.v[0]) / total_slope(true, y) - 1), 1e-4, "%"),
+        "friction rms [N m]": (float(np.sqrt(np.mean((fit.friction(y) - true) ** 2))), 4e-5, ""),
+    }
+    rows = [
+        Row(
+            where="Table 20",
+            case=f"{what}, Levenberg-Marquardt with gauge, Nw {wavelets}",
+            ours=value,
+            judge="wanted",
+            wanted=limit,
+            unit=unit,
+            count=f"{len(fit.mse) - 1} iterations; {fit.status}",
+        )
+        for what, (value, limit, unit) in values.items()
+    ]
+    return rows, fit.friction(np.linspace(float(y.min()), float(y.max()), 400))
+
+
+def run(settings: Settings) -> Outcome:
+    """Initialisation of the network, both online trainings, then the batch fit."""
+    u, test_u = chirp(1.0, 0.0, 4.0), sine(1.0, 1.0)
+    y, test = speed_with_friction(u), (test_u, speed_with_friction(test_u))
+    begun = rwn.train_structured(
+        friction_network(y, 15, seed=0, motor=WRONG),
+        u,
+        y,
+        learn=NETWORK,
+        rates=thesis_rule(0.5),
+        cycles=settings.pick(300, 5),
+    )
+    rules = {
+        "running maxima": thesis_rule(0.5),
+        "held rates": Thesis(fraction=0.5, maxima="pre-pass", shared=False),
+    }
+    rows, runs = [], {}
+    for k, (how, rule) in enumerate(rules.items()):
+        runs[how] = rwn.train_structured(
+            begun.network, u, y, learn=LEARN, rates=rule, cycles=settings.pick(CYCLES[how], 5)
+        )
+        rows += online_rows(how, runs[how], y, test)
+        settings.progress(0.3 * (k + 1))
+    curves = {}
+    for wavelets in (15, 31):
+        new, curves[wavelets] = batch_rows(wavelets, u, y, settings.pick(60, 3))
+        rows += new
+    return Outcome(rows=rows, figures=pictures(u, y, begun, runs, curves[15]))
+
+
+def rate_panels(
+    u: Array,
+    y: Array,
+    begun: rwn.StructuredNetwork,
+    run: rwn.OnlineTraining[rwn.StructuredNetwork],
+) -> list[Panel]:
+    """Rates with running maxima over the first cycle, and at the end of every one."""
+    groups = {g: k for k, g in enumerate(rwn.StructuredNetwork.groups) if g in LEARN}
+
+    def first(samples: int) -> Array:
+        part = rwn.train_structured(
+            begun, u[:samples], y[:samples], learn=LEARN, rates=thesis_rule(0.5)
+        )
+        return part.rates
+
+    lines = [curve(run.rates[:, k], label=f"mu {g}") for g, k in groups.items()]
+    by_cycle = Panel(xlabel="cycle", ylabel="rate", title="end of each cycle", curves=lines, log_y=True)
+    return [first_cycle_panel(first, len(y), groups), by_cycle]
+
+
+def pictures(
+    u: Array,
+    y: Array,
+    begun: rwn.OnlineTraining[rwn.StructuredNetwork],
+    runs: dict[str, rwn.OnlineTraining[rwn.StructuredNetwork]],
+    fitted: Array,
+) -> list[Figure]:
+    """Figures 98-106."""
+    w = np.linspace(float(y.min()), float(y.max()), 400)
+    held = runs["held rates"]
+    learned, viscous = held.network.torque(w), float(held.network.v[0]) * w
+    true = curve(true_torque(w), w, label="true", style="k-")
+    motion = [
+        curve(100 * (held.linear[:, 0] / MOTOR.viscous_friction - 1), label="raw B"),
+        curve(100 * (T / held.linear[:, 1] / MOTOR.inertia - 1), label="J"),
+    ]
+
+    def torques(*curves: Curve) -> list[Panel]:
+        return [Panel(xlabel="speed [rad/s]", ylabel="torque [N m]", curves=list(curves))]
+
+    def errors(*curves: Curve) -> list[Panel]:
+        return [Panel(xlabel="cycle", ylabel="MSE while learning [rad2/s2]", log_y=True, curves=list(curves))]
+
+    alone = curve(learned, w, label="network alone", style="--")
+    both = curve(learned + viscous, w, label="network + B, online", style="--")
+    batch = curve(fitted, w, label="Levenberg-Marquardt", style=":")
+    mse = [curve(r.mse_learning, label=how) for how, r in runs.items()]
+    return [
+        Figure(number=98, title="Training signal", panels=[signal_panel(u, y)]),
+        Figure(number=99, title="Torque against speed", panels=torques(true)),
+        Figure(number=100, title="MSE of the initialisation", panels=errors(curve(begun.mse_learning))),
+        Figure(number=101, title="MSE, simultaneous", panels=errors(*mse)),
+        Figure(number=102, title="Learning rates", panels=rate_panels(u, y, begun.network, runs["running maxima"])),
+        Figure(
+            number=103,
+            title="Convergence of B and J",
+            panels=[Panel(xlabel="cycle", ylabel="error [%]", curves=motion)],
+        ),
+        Figure(number=104, title="Network's torque", panels=torques(true, alone)),
+        Figure(number=105, title="Combined friction", panels=torques(both)),
+        Figure(number=106, title="Combined friction and the true one", panels=torques(true, both, batch)),
+    ]
+
+
+EXPERIMENT = Experiment(
+    name="simultaneous",
+    title="Table 20: linear parameters and friction together",
+    run=run,
+    tables=(20,),
+    figures=(98, 99, 100, 101, 102, 103, 104, 105, 106),
+)

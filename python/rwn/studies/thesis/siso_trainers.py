@@ -1,0 +1,44 @@
+"""Table 3, figures 17-18: Levenberg-Marquardt against gradient descent, one input.
+
+Open in the thesis, and chosen here: as for Table 1, with both readings of (2.20); 15 wavelets, 100
+iterations; LM with mu 0.1, beta 2 and gradient descent with mu 0.08, momentum 0.6, as stated. The start
+of LM is not stated: both start from the dyadic grid. One iteration of LM is one Jacobian, however many
+dampings are tried with it.
+"""
+
+from __future__ import annotations
+
+from rwn.networks.trainers import LevenbergMarquardt, Trainer
+from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Settings
+from rwn.studies.thesis.offline import (
+    MATLAB,
+    PRINTED,
+    SISO,
+    compare_trainers,
+    descent,
+    history_figure,
+    output_panel,
+)
+
+TRAINERS: dict[str, Trainer] = {"LM": LevenbergMarquardt(mu=0.1, beta=2.0, iterations=100)}
+TRAINERS |= {
+    "gradient descent" + reading: descent(reading, rate=0.08, momentum=0.6, iterations=100)
+    for reading in (PRINTED, MATLAB)
+}
+THESIS = {label: 0.01081 if label == "LM" else 0.6716 for label in TRAINERS}
+
+
+def run(settings: Settings) -> Outcome:
+    """Trains with both."""
+    rows, runs = compare_trainers(SISO, "Table 3", TRAINERS, THESIS, 15, settings)
+    title = "Output of networks trained with LM and gradient descent"
+    figures = [
+        history_figure(17, "MSE for LM and gradient descent, one input", runs),
+        Figure(number=18, title=title, panels=[output_panel(SISO, runs)]),
+    ]
+    return Outcome(rows=rows, figures=figures)
+
+
+EXPERIMENT = Experiment(
+    name="siso-trainers", title="Table 3: trainers, one input", run=run, tables=(3,), figures=(17, 18)
+)

@@ -1,0 +1,101 @@
+"""`rwn trials make | spoil | run | score`: the proof on recordings whose missing physics is concealed."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import typer
+
+app = typer.Typer(
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    help="Blind trials: make recordings with concealed physics, diagnose them, score the answers.",
+)
+
+Folder = Annotated[Path, typer.Argument(help="Folder of trials, each with a model.toml.", exists=True)]
+Results = Annotated[
+    Path | None, typer.Option(help="Diagnoses go to a folder per trial in here (default: TRIAL/out).")
+]
+Jobs = Annotated[int, typer.Option(min=1, help="Processes.")]
+
+
+@app.command()
+def make(
+    seed: Annotated[int, typer.Option(help="Below 10000: development; from 10000 on: test.")],
+    count: Annotated[int, typer.Option(min=1, help="Number of trials.")],
+    out: Annotated[Path, typer.Option(help="Folder to make.")],
+    split: Annotated[str | None, typer.Option(help="development or test; must agree with the seed.")] = None,
+    jobs: Jobs = 2,
+) -> None:
+    """Make COUNT trials with the independent plant and seal their answers."""
+    from rwn.studies.trials.make import make as make_set
+
+    try:
+        digest = make_set(seed, count, out, split=split, jobs=jobs, progress=_progress)
+    except (ValueError, OSError) as error:
+        _stop(error)
+    typer.echo(f"{count} trials in {out}; SHA-256 of the sealed answers: {digest}")
+
+
+@app.command()
+def spoil(
+    folder: Annotated[Path, typer.Argument(help="A finished set of trials.", exists=True)],
+    out: Annotated[Path, typer.Option(help="Folder to make.")],
+) -> None:
+    """Put a recording mistake (unit, sign, gear ratio, a channel out of step) into every trial of FOLDER."""
+    from rwn.studies.trials.spoil import spoil as spoil_set
+
+    try:
+        digest = spoil_set(folder, out)
+    except (ValueError, OSError) as error:
+        _stop(error)
+    typer.echo(f"the trials with mistakes in {out}; SHA-256 of the sealed answers: {digest}")
+
+
+@app.command()
+def run(folder: Folder, results: Results = None, jobs: Jobs = 2) -> None:
+    """Diagnose every trial of FOLDER that has no diagnosis yet."""
+    from rwn.studies.trials.run import run as run_set
+
+    try:
+        failed = run_set(folder, results=results, jobs=jobs, progress=_progress)
+    except (ValueError, OSError) as error:
+        _stop(error)
+    if failed:
+        typer.echo(f"{len(failed)} failed (see error.txt there): {', '.join(failed)}", err=True)
+        raise typer.Exit(1)
+
+
+@app.command()
+def score(
+    folders: Annotated[list[Path], typer.Argument(help="Folders of trials; several count as one set.", exists=True)],
+    results: Annotated[
+        Path | None,
+        typer.Option(help="Where the diagnoses are; of several FOLDERS, in a folder for each (default: TRIAL/out)."),
+    ] = None,
+    plot: Annotated[Path | None, typer.Option(help="HTML file for the reliability plot.")] = None,
+) -> None:
+    """Open the sealed answers (or the answer.json files) and print how good the diagnoses are."""
+    from rich.console import Console
+
+    from rwn.studies.trials.grade import grade_folders
+    from rwn.studies.trials.tables import reliability_plot, show
+
+    try:
+        graded = grade_folders(folders, results=results)
+    except (ValueError, OSError) as error:
+        _stop(error)
+    show(graded, Console(width=None if sys.stdout.isatty() else 150))  # a file has room
+    if plot is not None:
+        reliability_plot(graded, plot)
+
+
+def _progress(done: int, count: int, name: str) -> None:
+    typer.echo(f"{done}/{count} {name}", err=True)
+
+
+def _stop(error: Exception) -> NoReturn:
+    typer.echo("rwn: " + " ".join(str(error).split()), err=True)
+    raise typer.Exit(2) from None

@@ -1,0 +1,120 @@
+"""Prints a score, and draws its reliability plot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from rwn.studies.trials import score
+from rwn.studies.trials.grade import NO_RESULT, Grade, Graded
+from rwn.studies.trials.plan import FIRST_TEST_SEED
+
+BREAKDOWNS = {
+    "visibility": lambda g: g.level,
+    "mode": lambda g: g.mode,
+    "signals": lambda g: g.signals,
+    "effect": lambda g: g.truth[0],
+}
+
+
+def show(graded: Graded, console: Console) -> None:
+    """Everything that the score says, the promised figures first."""
+    grades = graded.grades
+    console.print(_heading(graded))
+    console.print(_targets(grades))
+    for name, by in BREAKDOWNS.items():
+        console.print(_rows(f"single effects by {name}", name, score.broken_down(grades, by)))
+    spoilt = score.mistakes(grades)
+    if spoilt:
+        console.print(_rows("recording mistakes", "mistake", spoilt))
+    console.print(_calibration(grades))
+    console.print(_rows("parameters of rightly named effects", "parameter", score.parameter_errors(grades)))
+    console.print(_confusion(grades))
+    console.print(_misses(grades))
+
+
+def _heading(graded: Graded) -> str:
+    missing = sum(g.verdict == NO_RESULT for g in graded.grades)
+    trials = f"{len(graded.grades)} trials" + (f" ({missing} WITHOUT A DIAGNOSIS)" if missing else "")
+    if not graded.seeds:
+        return f"{trials} with open answers"
+    note = "" if graded.split == "test" else f" (not evidence: test seeds start at {FIRST_TEST_SEED})"
+    seeds = f"seed{'s' if len(graded.seeds) > 1 else ''} {', '.join(map(str, graded.seeds))}"
+    return f"{trials}, {seeds}, {graded.split} split{note}"
+
+
+def _targets(grades: list[Grade]) -> Table:
+    table = Table("figure", "asked", "found", "met", title="targets")
+    for target in score.targets(grades):
+        table.add_row(
+            target.name, target.asked, target.found, {True: "yes", False: "NO", None: "-"}[target.met]
+        )
+    return table
+
+
+def _rows(title: str, key: str, rows: Mapping[str, Mapping[str, object]]) -> Table:
+    columns = list(next(iter(rows.values()))) if rows else []
+    table = Table(key, *columns, title=title)
+    for name, figures in rows.items():
+        table.add_row(name, *(str(value) for value in figures.values()))
+    return table
+
+
+def _calibration(grades: list[Grade]) -> Table:
+    value, count = score.brier(grades)
+    table = Table("stated", "mean", "right", title=f"reliability; Brier {value:.3f} over {count} named")
+    for each in score.reliability(grades):
+        table.add_row(f"{each.low:.1f}-{each.high:.1f}", f"{each.stated:.3f}", str(each.right))
+    return table
+
+
+def _confusion(grades: list[Grade]) -> Table:
+    table = Table("truth", "answers given", title="confusion (two effects apart)")
+    for truth, given in score.confusion(grades).items():
+        ordered = sorted(given.items(), key=lambda item: -item[1])
+        table.add_row(truth, ", ".join(f"{name} {count}" for name, count in ordered))
+    return table
+
+
+def _misses(grades: list[Grade]) -> Table:
+    """The trials that count against a target."""
+    table = Table("trial", "mode", "visibility", "signals", "truth", "answer", "p", title="misses")
+    for g in grades:
+        if not _missed(g):
+            continue
+        answer = ", ".join(g.names) or g.verdict
+        stated = "" if g.probability is None else f"{g.probability:.2f}"
+        table.add_row(g.case, g.mode, f"{g.visibility:.1f}", g.signals, ", ".join(g.truth), answer, stated)
+    return table
+
+
+def _missed(g: Grade) -> bool:
+    if g.mode == "double":
+        return not score.both_found(g)
+    if g.mode == "novel":
+        return g.confidently_named
+    return g.false_alarm if g.mode == "null" else not score.named_right(g)
+
+
+def reliability_plot(graded: Graded, path: Path) -> None:
+    """Stated probability against the share that was right, as a self-contained HTML file."""
+    import plotly.graph_objects as go
+
+    bins = score.reliability(graded.grades)
+    figure = go.Figure(layout={"template": "simple_white", "width": 560, "height": 520})
+    figure.add_scatter(
+        x=[0, 1], y=[0, 1], mode="lines", line={"dash": "dot", "color": "grey"}, name="calibrated"
+    )
+    figure.add_scatter(
+        x=[each.stated for each in bins],
+        y=[each.right.hits / each.right.count for each in bins],
+        text=[str(each.right) for each in bins],
+        mode="lines+markers",
+        name="first name",
+    )
+    figure.update_xaxes(title="stated probability", range=[0, 1])
+    figure.update_yaxes(title="share right", range=[0, 1])
+    figure.write_html(path, include_plotlyjs=True)

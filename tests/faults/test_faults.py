@@ -1,0 +1,262 @@
+"""Mistakes in the recordings are found before any physics."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.faults.delay import Suspicion, believed, first_effects, rivals, suspected
+from rwn.faults.fault import SHIFT, Mistake
+from rwn.faults.fault import without as undone
+from rwn.faults.resolve import explained
+from rwn.faults.scale import wrong_scale
+from rwn.fit.preparation import prepare
+from rwn.name.forward import explain
+from rwn.report import text as words
+from rwn.report.diagnosis import Beneath
+
+DEMO = Path(rwn.__file__).parent / "demo"
+MOTION = ("speed", "position")
+
+
+@pytest.fixture(scope="module")
+def model() -> rwn.Model:
+    return rwn.read_model(DEMO / "model.toml")
+
+
+@pytest.fixture(scope="module")
+def right(model: rwn.Model) -> rwn.Recording:
+    """A run of the model itself with noise: nothing is wrong and nothing is missing."""
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    rng = np.random.default_rng(1)
+    out = rwn.simulate(model, recording)
+    signals = {"voltage": recording.signals["voltage"]}
+    for name in ("current", "speed"):
+        clean = out.signals[name]
+        signals[name] = clean + 0.01 * clean.std() * rng.standard_normal(clean.size)
+    return replace(recording, signals=signals)
+
+
+def altered(recording: rwn.Recording, names: tuple[str, ...], factor: float = 1.0, delay: int = 0) -> rwn.Recording:
+    signals = {name: np.array(values) for name, values in recording.signals.items()}
+    for name in names:
+        if name in signals:
+            rolled = np.roll(signals[name], delay)
+            if delay > 0:
+                rolled[:delay] = signals[name][0]
+            elif delay < 0:
+                rolled[delay:] = signals[name][-1]
+            signals[name] = factor * rolled
+    return replace(recording, signals=signals)
+
+
+def silent(what: str, done: float) -> None:
+    """Progress that nobody asked for."""
+
+
+def without(recording: rwn.Recording, name: str) -> rwn.Recording:
+    return replace(recording, signals={k: v for k, v in recording.signals.items() if k != name})
+
+
+@pytest.mark.parametrize(
+    ("names", "factor", "name"),
+    [
+        (MOTION, 60.0 / (2.0 * np.pi), "wrong-unit"),
+        (MOTION, 180.0 / np.pi, "wrong-unit"),
+        (MOTION, 1.0 / (2.0 * np.pi), "wrong-unit"),
+        (MOTION, -60.0 / (2.0 * np.pi), "wrong-unit"),
+        (("current",), 1e3, "wrong-unit"),
+        (MOTION, -1.0, "wrong-sign"),
+        (("current",), -1.0, "wrong-sign"),
+        (("voltage",), -1.0, "wrong-sign"),
+    ],
+)
+def test_units_and_signs(
+    model: rwn.Model, right: rwn.Recording, names: tuple[str, ...], factor: float, name: str
+) -> None:
+    wrong = altered(right, names, factor)
+    found = wrong_scale([wrong], model)
+    assert found is not None
+    assert (found.name, found.factor) == (name, pytest.approx(factor))
+    for signal, values in found.undo(wrong).signals.items():
+        assert values == pytest.approx(right.signals[signal])
+
+
+def test_nothing_is_doubted_where_nothing_is_wrong(model: rwn.Model, right: rwn.Recording) -> None:
+    assert wrong_scale([right], model) is None
+    assert wrong_scale([without(right, "current")], model) is None
+
+
+def test_missing_physics_is_no_mistake(model: rwn.Model) -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    assert wrong_scale([recording], model) is None
+    assert rwn.diagnose([recording], model).verdict == "missing-physics"
+
+
+@pytest.mark.parametrize(
+    ("names", "delay", "signal"), [(MOTION, 7, "speed"), (MOTION, -5, "speed"), (("current",), 4, "current")]
+)
+def test_channels_out_of_step(
+    model: rwn.Model, right: rwn.Recording, names: tuple[str, ...], delay: int, signal: str
+) -> None:
+    made, found = explained([altered(right, names, delay=delay)], model, say=silent)
+    assert [(m.name, m.signals[0], m.delay) for m in made] == [("time-shift", signal, delay)]
+    assert not found.hypotheses[0].fitted.added
+
+
+def test_a_channel_out_of_step_is_seen_through_missing_physics(model: rwn.Model) -> None:
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    made, found = explained([altered(friction, ("current",), delay=6)], model, say=silent)
+    assert [(m.name, m.delay) for m in made] == [("time-shift", 6)]
+    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+
+
+def test_nothing_is_compared_where_an_early_channel_was_not_measured(model: rwn.Model) -> None:
+    """Its first value in place of the unknown ones made what lies beneath `unexplained`."""
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    run = replace(friction, time=friction.time[:-6], signals={s: v[:-6] for s, v in friction.signals.items()})
+    early = replace(run, signals={**run.signals, "current": friction.signals["current"][6:]})
+    made, found = explained([early], model, say=silent)
+    assert [(m.name, m.delay) for m in made] == [("time-shift", -6)]
+    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+    assert found.left.at_the_floor
+    (recording,) = undone([early], made[0])
+    assert recording.known_from == {"current": 6}
+    assert np.array_equal(recording.signals["current"][6:], run.signals["current"][6:])
+
+    def errors(guess: float) -> list[float]:
+        current = recording.signals["current"].copy()
+        current[:6] += guess
+        problem = prepare([replace(recording, signals={**recording.signals, "current": current})], model).problem
+        problem = replace(problem, noise=found.setup.problem.noise)
+        best = found.closest
+        (left,) = problem.residuals(best.vector, best.candidate.active)
+        return [problem.error(best.vector, best.candidate.active), float(np.sum(left["current"] ** 2))]
+
+    assert errors(0.0) == errors(1e3)
+
+
+@pytest.mark.parametrize(
+    ("names", "factor"), [(("current",), 1e3), (("speed",), 60.0 / (2.0 * np.pi)), (("speed",), 180.0 / np.pi)]
+)
+def test_units_are_seen_through_physics_that_slows_the_motor(
+    model: rwn.Model, names: tuple[str, ...], factor: float
+) -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    braked = replace(model, parameters={**model.parameters, "viscous_friction": 2.5e-4})
+    out = rwn.simulate(braked, recording).signals
+    signals = {"voltage": recording.signals["voltage"], "current": out["current"], "speed": out["speed"]}
+    found = wrong_scale([altered(replace(recording, signals=signals), names, factor)], model)
+    assert found is not None
+    assert (found.name, found.signals, found.factor) == ("wrong-unit", names, pytest.approx(factor))
+
+
+def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model) -> None:
+    """A delay and one effect explain nearly as much of it as a lag and that effect, but not as much."""
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    time, speed = friction.time, np.array(friction.signals["speed"])
+    share = 1.0 - np.exp(-float(time[1] - time[0]) / 4e-3)
+    for k in range(1, time.size):
+        speed[k] = speed[k - 1] + share * (speed[k] - speed[k - 1])
+    made, found = explained([replace(friction, signals={**friction.signals, "speed": speed})], model, say=silent)
+    assert made == []
+    assert set(found.hypotheses[0].fitted.added) == {"coulomb-friction", "speed-sensor-lag"}
+
+
+def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rwn.Recording) -> None:
+    assert suspected([right], model) is None
+    doubt = suspected([altered(right, ("current",), delay=6)], model)
+    assert doubt is not None
+    assert (doubt.mistake.name, doubt.mistake.delay) == ("time-shift", 6)
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    assert suspected([friction], model) is None, "missing physics is none"
+
+
+@pytest.mark.parametrize("ratio", [0.4, 1.0 / 3.5, -0.3, 4.0])
+def test_gear_ratio(model: rwn.Model, ratio: float) -> None:
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    found = wrong_scale([altered(friction, MOTION, ratio)], model)
+    assert found is not None
+    assert (found.name, found.also) == ("wrong-gear-ratio", ())
+    assert found.factor == pytest.approx(ratio, rel=0.15)  # friction slows the motor too
+
+
+def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Model) -> None:
+    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    wrong = altered(friction, MOTION, 1.0 / 3.5)
+    rough = wrong_scale([wrong], model)
+    made, found = explained([wrong], model, say=silent)
+    assert rough is not None
+    assert [m.name for m in made] == ["wrong-gear-ratio"]
+    assert abs(3.5 * made[0].factor - 1.0) < abs(3.5 * rough.factor - 1.0)
+    interval = made[0].found().parameters["factor"].interval
+    assert interval is not None
+    assert interval[0] < 1.0 / 3.5 < interval[1]
+    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+
+
+def test_a_gear_of_the_size_of_a_unit_is_not_told_from_it(model: rwn.Model, right: rwn.Recording) -> None:
+    found = wrong_scale([altered(right, MOTION, 1.0 / 6.2)], model)
+    assert found is not None
+    assert (found.name, found.also) == ("wrong-unit", ("wrong-gear-ratio",))
+    assert found.found().probability == pytest.approx(0.495)
+
+
+def test_scales_are_judged_by_the_signal_they_belong_to(model: rwn.Model, right: rwn.Recording) -> None:
+    rectified = replace(right, signals={**right.signals, "speed": np.abs(right.signals["speed"])})
+    assert wrong_scale([rectified], model) is None, "what shows no direction has no sign to be wrong"
+    for names, factor, name in ((("speed",), 60.0 / (2.0 * np.pi), "wrong-unit"), (("current",), -1.0, "wrong-sign")):
+        wrong = altered(rectified, names, factor)
+        found = wrong_scale([wrong], model)
+        assert found is not None
+        assert (found.name, found.signals, found.factor) == (name, names, pytest.approx(factor))
+        assert wrong_scale(undone([wrong], found), model) is None
+
+
+def test_the_verdict_names_the_mistake_before_the_physics(model: rwn.Model) -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    found = rwn.diagnose([altered(recording, MOTION, 60.0 / (2.0 * np.pi))], model)
+    assert found.verdict == "recording-mistake"
+    assert found.equation == "recording"
+    assert [e.name for e in found.effects] == ["wrong-unit", "coulomb-friction"]
+    assert found.effects[0].parameters["factor"].value == pytest.approx(9.5493, rel=1e-4)
+    assert found.beneath == Beneath(verdict="missing-physics", set=("coulomb-friction",))
+    mistake, beneath = words.verdict_sentence(found).split(". With it undone: ")
+    assert mistake == "The recordings hold a mistake: speed in rpm taken for rad/s"
+    assert beneath.startswith("The model lacks Coulomb friction")
+
+
+def test_a_drive_that_is_hardly_moved_says_nothing(model: rwn.Model, right: rwn.Recording) -> None:
+    rng = np.random.default_rng(2)
+    n = len(right)
+    signals = {
+        "voltage": np.zeros(n),
+        "current": 1e-2 * rng.standard_normal(n),
+        "speed": 0.5 * rng.standard_normal(n),
+    }
+    found = rwn.diagnose([replace(right, signals=signals)], model)
+    assert found.verdict == "insufficient-excitation"
+    assert "no motion" in found.next_experiment
+
+
+def test_what_fits_best_alone_is_a_rival_though_its_law_is_on_a_limit(model: rwn.Model) -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    found = explain(prepare([recording], model), progress=lambda *_: None, at_once=1)
+    least = min(found.alone.fits, key=lambda f: f.cost).added
+    others = tuple(h for h in found.hypotheses if not set(h.fitted.added) & set(least))
+    strained = replace(found, hypotheses=others)  # what is on a limit is no hypothesis
+    assert set(least) <= set(first_effects(strained)) <= set(rivals(strained))
+    assert set(others[0].fitted.added) <= set(first_effects(strained))
+
+
+@pytest.mark.parametrize(("physics", "told"), [(0.087, True), (0.03, False), (0.0, False)])
+def test_a_delay_that_leaves_noise_alone_beats_an_effect_that_leaves_more(physics: float, told: bool) -> None:
+    """An early speed looks much like that of a motor before its shaft, but for a tenth of the noise."""
+    mistake = Mistake(name=SHIFT, signals=("speed",), delay=-7, step=5e-4, meaning="")
+    doubt = Suspicion(mistake=mistake, noise={}, before=8.0, after=0.012)
+    assert not believed(doubt, left=doubt.after, physics=physics)
+    assert believed(doubt, left=doubt.after, physics=physics, little=doubt.little) == told

@@ -1,0 +1,140 @@
+"""What a search costs is counted, and what it may cost is kept to."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from made_up_motor import MOTOR, recorded
+from rwn import _core
+from rwn.fit import budget
+from rwn.fit.hypothesis import candidate, cost_of_a_step, fit
+from rwn.fit.preparation import Setup, prepare
+from rwn.fit.problem import OutputError
+from rwn.name.forward import explain
+from rwn.name.screening import Search
+from rwn.parallel import crew
+
+DEMO = Path(rwn.__file__).parent / "demo"
+LATE = ["quadratic-drag", "input-delay"]  # neither is what is missing in the demo
+
+
+def _setup(work: _core.Work | None = None) -> Setup:
+    model = rwn.read_model(DEMO / "model.toml")
+    return prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model, work=work)
+
+
+def _cost(problem: OutputError, derivatives: int, name: str = "") -> int:
+    setup = _setup()
+    this = candidate(setup.nominal, (name,) if name else (), setup.scales)
+    own = problem.metered()
+    own.normal(this.vector, this.active, this.by[:derivatives])
+    return own.work.done
+
+
+def _spent(share: float) -> _core.Work:
+    work = _core.Work()
+    work.add(int(share * budget.TOTAL))
+    return work
+
+
+def test_a_run_costs_by_its_length_its_derivatives_and_its_equations() -> None:
+    problem = _setup().problem
+    once = _cost(problem, 0)
+    assert once == _cost(problem, 0) > 0
+    half = replace(problem, targets=tuple(t.until(t.time.size // 2) for t in problem.targets))
+    assert _cost(half, 0) == pytest.approx(once / 2, rel=0.1)
+    assert once < _cost(problem, 4) < _cost(problem, 4, "stribeck-friction") < _cost(problem, 4, "backlash")
+
+
+def test_what_a_step_costs_is_told_from_the_beginning_of_the_recordings() -> None:
+    setup = _setup()
+    for name in ("quadratic-drag", "shaft-compliance"):
+        this = candidate(setup.nominal, (name,), setup.scales)
+        own = setup.problem.metered()
+        own.normal(this.vector, this.active, this.by)
+        assert cost_of_a_step(setup.problem, this) == pytest.approx(own.work.done, rel=0.2)
+    assert 0 < setup.problem.work.done < own.work.done  # measuring is counted too
+
+
+def test_what_a_search_costs_does_not_depend_on_threads() -> None:
+    costs = []
+    for jobs in (1, 2):
+        setup = _setup()
+        with crew(jobs):
+            explain(setup, progress=lambda *_: None, names=LATE)
+        costs.append(setup.problem.work.done)
+    assert costs[0] == costs[1] > 0
+
+
+def test_a_fit_ends_with_its_share() -> None:
+    setup = _setup()
+    this = candidate(setup.nominal, ("stribeck-friction",), setup.scales)
+    whole = fit(setup.problem, this)
+    assert whole.iterations > 3
+    begun = setup.problem.work.done
+    least = fit(setup.problem, this, share=0.0)
+    assert least.iterations == 1
+    assert whole.cost < least.cost < least.first
+    assert 0 < setup.problem.work.done - begun < 0.5 * begun
+
+
+def test_shares_are_those_of_a_stage() -> None:
+    work = _spent(0.5)
+    stage = budget.STAGE * 0.5 * budget.TOTAL
+    assert budget.one_stage(work) == pytest.approx(stage)
+    assert budget.equal_shares(work, 4) == pytest.approx([stage / 4] * 4)
+    shares = budget.shares_by_rank(work, [3.0, 1.0, 2.0])
+    assert sum(shares) == pytest.approx(stage)
+    assert shares[1] == pytest.approx(2.0 * shares[2]) == pytest.approx(3.0 * shares[0])
+    assert budget.shares_by_rank(work, []) == []
+    assert budget.shares_of_steps(work, [1.0, 3.0]) == pytest.approx([0.25 * stage, 0.75 * stage])
+    assert budget.shares_of_steps(work, []) == []
+
+
+def test_something_is_left_however_much_was_spent() -> None:
+    assert budget.left(_spent(5.0)) == pytest.approx(budget.LEAST * budget.TOTAL)
+    assert budget.affords_more(_spent(0.6))
+    assert not budget.affords_more(_spent(0.8))
+
+
+def test_where_the_budget_is_spent_single_effects_are_tried_and_no_more() -> None:
+    found = explain(_setup(_spent(0.9)), progress=lambda *_: None, names=LATE)
+    assert found.cut_short
+    assert {len(h.fitted.added) for h in found.hypotheses} == {0, 1}
+    whole = explain(_setup(), progress=lambda *_: None, names=LATE)
+    assert not whole.cut_short
+    assert whole.closest.cost <= found.closest.cost
+
+
+def test_pairs_that_are_known_are_weighed_though_nothing_is_left_to_try_more() -> None:
+    names = ["unbalance", "quadratic-drag"]
+    both = recorded(1, lambda speed, angle: -0.004 * np.sin(angle) - 1e-5 * speed * abs(speed), 1000)
+
+    def setup(spent: float) -> Setup:
+        return prepare([both], rwn.Model(kind="dc", parameters=MOTOR), work=_spent(spent))
+
+    pairs = explain(setup(0.0), progress=lambda *_: None, names=names)
+    again = explain(setup(0.9), progress=lambda *_: None, names=names, after=pairs)
+    assert explain(setup(0.9), progress=lambda *_: None, names=names).cut_short
+    assert set(again.closest.added) == set(pairs.closest.added) == set(names)
+    assert not again.cut_short  # what is left is noise: nothing more would have been tried
+
+
+def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    model = rwn.Model(kind="dc", parameters=MOTOR)
+    wavy = recorded(1, lambda speed, angle: 0.004 * np.sin(3.0 * angle) * np.cos(7.0 * angle) - 1e-7 * speed**3, 1000)
+    warnings = [rwn.diagnose([wavy], model).warnings]
+    monkeypatch.setattr(budget, "TOTAL", 1e8)
+    warnings.append(rwn.diagnose([wavy], model).warnings)
+    assert ["were not tried, since the search had cost" in " ".join(texts) for texts in warnings] == [False, True]
+
+
+def test_the_search_that_looks_no_further_still_finds_what_is_missing() -> None:
+    setup = _setup(_spent(5.0))
+    search = Search.of(setup)
+    assert search.explain(search.fit_nominal(), ["coulomb-friction", *LATE])[0].added == ("coulomb-friction",)

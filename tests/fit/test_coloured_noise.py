@@ -1,0 +1,177 @@
+"""Fits under errors that last: normal equations against NumPy, and transfer functions that come closer to the truth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import rwn
+from rwn.fit.coloured_noise import innovations, under_coloured_noise
+from rwn.fit.fit import Fitted
+from rwn.fit.preparation import prepare, windowed
+from rwn.fit.problem import OutputError
+from rwn.name.forward import Explanation, explain
+from rwn.name.screening import Search
+
+Array = NDArray[np.float64]
+STEP, NOISE, SHARE = 0.02, 0.05, 0.95
+TRUTH = {"b0": 1500.0, "b1": -20.0, "a0": 1250.0, "a1": 70.0}  # a belt
+BARE = rwn.Model(kind="lti", parameters=TRUTH, order=2)
+UNKNOWN = rwn.Model(kind="lti", parameters={}, order=2)
+
+
+def lasting(rng: np.random.Generator, samples: int, share: float = SHARE) -> Array:
+    """Errors of which each keeps `share` of the one before."""
+    errors = NOISE * rng.standard_normal(samples)
+    for k in range(1, samples):
+        errors[k] += share * errors[k - 1]
+    return errors
+
+
+def made(seed: int, *, share: float = SHARE, samples: int = 500, rectified: bool = False) -> rwn.Recording:
+    rng = np.random.default_rng(seed)
+    time = STEP * np.arange(samples)
+    voltage = np.repeat(rng.uniform(-2.0, 2.0, samples // 20 + 1), 20)[:samples]
+    bare = rwn.Recording(name="bare", time=time, signals={"voltage": voltage, "speed": np.zeros(samples)})
+    speed = rwn.simulate(BARE, bare).signals["speed"]
+    speed = np.abs(speed) if rectified else speed
+    return rwn.Recording(
+        name=f"made {seed}", time=time, signals={"voltage": voltage, "speed": speed + lasting(rng, samples, share)}
+    )
+
+
+def plain_fit(recording: rwn.Recording) -> tuple[Search, Fitted]:
+    search = Search.of(prepare([recording], UNKNOWN))
+    return search, search.fit_nominal()
+
+
+def explained(recording: rwn.Recording) -> Explanation:
+    return explain(prepare([recording], UNKNOWN), progress=lambda *_: None, names=["sensor-rectification"], at_once=1)
+
+
+def by_hand(problem: OutputError, fitted: Fitted, share: float, every: int = 0) -> tuple[float, Array, Array]:
+    """Squared error, gradient and curvature of what is new in each error; first samples by themselves."""
+    (target,), active, by = problem.targets, fitted.candidate.active, fitted.candidate.by
+    out = problem.simulate(target, fitted.vector, active, by)
+    errors, slopes = target.speed - out.signals["speed"], out.slopes["speed"]
+    rows, columns = [], []
+    for k in range(errors.size):
+        if k == 0 or (every and k % every == 0) or np.isnan(errors[k - 1]):
+            alone = np.sqrt(1.0 - share**2)
+            rows.append(alone * errors[k])
+            columns.append(alone * slopes[k])
+        else:
+            rows.append(errors[k] - share * errors[k - 1])
+            columns.append(slopes[k] - share * slopes[k - 1])
+    seen = np.isfinite(rows)
+    r, j = np.array(rows)[seen] / problem.noise["speed"], np.array(columns)[seen] / problem.noise["speed"]
+    return float(r @ r), j.T @ r, j.T @ j
+
+
+MOTOR = rwn.Model(
+    kind="dc",
+    parameters={
+        "resistance": 1.0, "inductance": 5e-4, "torque_constant": 0.05, "back_emf_constant": 0.05,
+        "inertia": 2e-5, "viscous_friction": 1e-5, "coulomb_friction": 0.0,
+    },
+    uncertainty={"resistance": 0.1, "inertia": 0.1},
+)  # fmt: skip
+
+
+def motor_in_windows() -> tuple[OutputError, Fitted]:
+    """A motor whose motion restarts from the recorded one, with some samples that were lost."""
+    rng = np.random.default_rng(4)
+    time = 1e-3 * np.arange(600)
+    bare = rwn.Recording(name="bare", time=time, signals={"voltage": 5.0 * np.sin(9.0 * time), "speed": 0.0 * time})
+    seen = rwn.simulate(MOTOR, bare).signals["speed"] + lasting(rng, time.size)
+    setup = prepare([rwn.Recording(name="seen", time=time, signals={**bare.signals, "speed": seen})], MOTOR)
+    fitted = Search.of(setup).fit_nominal()
+    target = windowed(setup.problem.targets[0], length=60)
+    gaps = seen.copy()
+    gaps[100:103] = np.nan
+    return replace(setup.problem, targets=(replace(target, speed=gaps),)), fitted
+
+
+def expect_what_is_new(problem: OutputError, fitted: Fitted, every: int = 0) -> None:
+    chi2, gradient, curvature = by_hand(problem, fitted, 0.8, every)
+    weighted = replace(problem, persistence={"speed": 0.8})
+    normal = weighted.normal(fitted.vector, fitted.candidate.active, fitted.candidate.by)
+    assert normal.chi2 == pytest.approx(chi2, rel=1e-9)
+    np.testing.assert_allclose(normal.gradient, gradient, rtol=1e-7, atol=1e-9 * np.abs(gradient).max())
+    np.testing.assert_allclose(normal.curvature, curvature, rtol=1e-9, atol=1e-12 * np.abs(curvature).max())
+
+
+def test_normal_equations_count_what_is_new_in_each_error() -> None:
+    search, fitted = plain_fit(made(1))
+    expect_what_is_new(search.problem, fitted)
+
+
+def test_windows_and_gaps_begin_anew() -> None:
+    expect_what_is_new(*motor_in_windows(), every=60)
+
+
+@pytest.mark.parametrize("share", [-0.1, 1.0, float("nan")])
+def test_a_persistence_is_a_correlation(share: float) -> None:
+    search, fitted = plain_fit(made(1))
+    problem = replace(search.problem, persistence={"speed": share})
+    with pytest.raises(ValueError, match="persistence is a correlation from 0 to less than 1"):
+        problem.normal(fitted.vector, [], fitted.candidate.by)
+
+
+def test_persistence_and_noise_are_those_of_the_errors() -> None:
+    search, fitted = plain_fit(made(2, samples=4000))
+    problem = under_coloured_noise(search, fitted).problem
+    assert problem.persistence["speed"] == pytest.approx(SHARE, abs=0.02)
+    assert problem.noise["speed"] == pytest.approx(NOISE, rel=0.05)
+    left = innovations(problem, fitted)
+    assert left.variance == pytest.approx(1.0, abs=0.01)
+    assert left.correlation_time < 1.3
+
+
+def test_independent_errors_have_none() -> None:
+    search, fitted = plain_fit(made(2, samples=4000, share=0.0))
+    weighted = under_coloured_noise(search, fitted)
+    assert weighted.problem.persistence["speed"] < 0.05
+    again = weighted.refit(fitted, weighted.problem)
+    np.testing.assert_allclose(again.minimum.values, fitted.minimum.values, rtol=5e-3)
+
+
+def test_free_runs_come_closer_to_the_truth() -> None:
+    """Over 12 recordings, on an input that none of them had; plain least squares follows what drifts."""
+    squares = []
+    for seed in range(20, 32):
+        search, plain = plain_fit(made(seed))
+        weighted = under_coloured_noise(search, plain)
+        fits = (plain, weighted.refit(plain, weighted.problem))
+        (other,) = prepare([made(99)], UNKNOWN).whole.targets
+        true = rwn.simulate(BARE, made(99)).signals["speed"]
+        runs = [search.problem.simulate(other, f.vector, ()).signals["speed"] for f in fits]
+        squares.append([np.mean((run - true) ** 2) for run in runs])
+    plainly, counted = np.sqrt(np.mean(squares, axis=0))
+    assert counted < 0.75 * plainly
+
+
+def test_what_is_named_is_fitted_so_and_what_is_lacking_is_not() -> None:
+    found = explained(made(3, rectified=True))
+    named, nothing = found.hypotheses[0], found.nothing_missing
+    assert named.fitted.added == ("sensor-rectification",)
+    assert found.weighted.persistence["speed"] > 0.8
+    assert named.final is not named.fitted
+    assert nothing.final is nothing.fitted
+    assert found.counted.correlation_time < 0.2 * found.left.correlation_time
+
+
+def test_where_nothing_but_noise_is_left_nothing_changes() -> None:
+    found = explained(made(3, rectified=True, share=0.0))
+    assert not found.weighted.persistence
+    assert all(h.final is h.fitted for h in found.hypotheses)
+    assert found.counted is found.left
+
+
+def test_a_diagnosis_says_so() -> None:
+    found = rwn.diagnose([made(3, rectified=True)], UNKNOWN, heldout=[made(4, rectified=True)])
+    assert [e.name for e in found.effects] == ["sensor-rectification"]
+    assert any("lasts (its correlation from sample to sample is 0.9" in text for text in found.warnings)

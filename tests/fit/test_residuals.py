@@ -1,0 +1,78 @@
+"""What a residual may be: noise, something slow, or something that swings."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import rwn
+from rwn.fit.preparation import prepare
+from rwn.fit.residuals import AT_THE_FLOOR, RINGING, statistics_of
+from rwn.model.model import Model
+from rwn.name.forward import explain
+
+Array = NDArray[np.float64]
+SAMPLES = 4000
+
+
+def _noise() -> Array:
+    return np.random.default_rng(5).standard_normal(SAMPLES)
+
+
+def _rounding() -> Array:
+    """What is rounded off the position of a motor whose speed goes up and down, in counts."""
+    position = 30.0 * np.cumsum(1.0 + np.sin(np.arange(SAMPLES) / 300.0))
+    off: Array = np.round(position) - position
+    return off
+
+
+def _swing(periods: float) -> Array:
+    """A decaying swing, struck anew every 50 samples."""
+    since = np.arange(SAMPLES) % 50
+    swing: Array = np.exp(-since / 12.0) * np.sin(2.0 * np.pi * since / periods)
+    return swing
+
+
+def test_noise_is_at_the_floor_however_loud() -> None:
+    for loud in (1.0, 5.0):
+        left = statistics_of({"speed": loud * _noise()})
+        assert left.at_the_floor
+        assert left.ringing < 0.6 * RINGING
+
+
+def test_differences_of_counts_are_noise() -> None:
+    for error in (np.diff(_rounding()), _rounding()[2:] - _rounding()[:-2]):
+        assert statistics_of({"speed": 5.0 * error}).at_the_floor
+
+
+@pytest.mark.parametrize("periods", [4.0, 5.3, 7.3])
+def test_what_swings_is_more_than_noise(periods: float) -> None:
+    left = statistics_of({"speed": 5.0 * _swing(periods) + _noise()})
+    assert left.coloured < AT_THE_FLOOR  # means over 8 samples and more do not see it
+    assert not left.at_the_floor
+    quiet = statistics_of({"speed": 0.3 * _swing(periods) + _noise()})
+    assert quiet.at_the_floor  # where it is not loud it may be noise
+
+
+@pytest.mark.parametrize(("stiffness", "noise"), [(4.0, 0.2), (20.0, 0.05)], ids=["7 samples", "3 samples"])
+def test_a_shaft_is_seen_beside_a_drag(stiffness: float, noise: float) -> None:
+    """However few samples it swings within: a backlash that is never left is no shaft."""
+    motor = {
+        "resistance": 2.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
+        "inertia": 2e-5, "viscous_friction": 2e-6,
+    }  # fmt: skip
+    missing = {
+        "quadratic-drag": {"drag_coefficient": 1e-6},
+        "shaft-compliance": {"stiffness": stiffness, "damping": 1e-3, "load_inertia": 8e-6},
+    }
+    draw = np.random.default_rng(8)
+    time = np.arange(3000) / 1000.0
+    voltage = np.repeat(draw.uniform(2.0, 12.0, 60), 50)
+    seen = rwn.Recording(name="shaft.csv", time=time, signals={"voltage": voltage})
+    done = rwn.simulate(Model(kind="dc", parameters=motor, effects=missing), seen)
+    signals = {"voltage": voltage, "speed": done.signals["speed"] + noise * draw.standard_normal(time.size)}
+    model = Model(kind="dc", parameters=motor, uncertainty=dict.fromkeys(motor, 0.05))
+    setup = prepare([rwn.Recording(name="shaft.csv", time=time, signals=signals)], model)
+    found = explain(setup, progress=lambda *_: None, names=[*sorted(missing), "backlash"], at_once=2)
+    assert set(found.hypotheses[0].fitted.added) == set(missing)

@@ -1,0 +1,151 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rwn.errors import InputError
+from rwn.model import drives
+from rwn.model.model import Model, read_model, write_model
+from rwn.recording.columns import Column, Layout
+
+DC = {
+    "resistance": 0.8102,
+    "inductance": 0.0015,
+    "torque_constant": 0.105,
+    "back_emf_constant": 0.127,
+    "inertia": 3.2365e-4,
+    "viscous_friction": 7e-5,
+}
+MODELS = {
+    "dc": Model(kind="dc", parameters=DC, uncertainty={"resistance": 0.044}),
+    "dc with effects": Model(
+        kind="dc",
+        parameters={**DC, "coulomb_friction": 0.02},
+        effects={
+            "coulomb-friction": {"coulomb_torque": 0.1},
+            "sensor-rectification": {"exponent": 1.0, "reference_speed": 9.0},
+        },
+        load={"pendulum": {"mass": 0.49, "length": 0.1}},
+    ),
+    "linear axis": Model(
+        kind="axis",
+        linear=True,
+        parameters={"inertia": 95.0, "viscous_friction": 300.0},
+        uncertainty={"inertia": 0.2},
+        recording=Layout(
+            columns={
+                "force": Column(source='v "ir"', unit="V", scale=35.15065, scale_unit="N/V"),
+                "position": Column(source="RawData.qm", unit="mm", scale=-1.0),
+            },
+            sample_time=0.001,
+            initial="estimate",
+        ),
+    ),
+    "lti": Model(kind="lti", order=2, parameters={"b0": 3.0, "b1": -1.0, "a0": 20.0, "a1": 4.0}),
+    "lti, to be estimated": Model(kind="lti", order=3, parameters={}),
+}
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_round_trip(name: str, tmp_path: Path) -> None:
+    write_model(MODELS[name], tmp_path / "model.toml")
+    assert read_model(tmp_path / "model.toml") == MODELS[name]
+
+
+def _read(tmp_path: Path, text: str) -> Model:
+    (tmp_path / "model.toml").write_text(text, encoding="utf-8")
+    return read_model(tmp_path / "model.toml")
+
+
+def test_values_with_units(tmp_path: Path) -> None:
+    model = _read(
+        tmp_path,
+        """[motor]
+kind = "dc"
+resistance = "400 mohm"
+inductance = "0.4 mH"
+torque_constant = "55 mNm/A"
+back_emf_constant = "5.76 V/krpm"
+inertia = "1800 g cm^2"
+viscous_friction = "0.01 mNm/rpm"
+[uncertainty]
+resistance = "10 %"
+""",
+    )
+    assert dict(model.parameters) == pytest.approx(
+        {
+            "resistance": 0.4,
+            "inductance": 4e-4,
+            "torque_constant": 0.055,
+            "back_emf_constant": 0.0550039,
+            "inertia": 1.8e-4,
+            "viscous_friction": 9.5493e-5,
+        },
+        rel=1e-5,
+    )
+    assert model.uncertainty["resistance"] == pytest.approx(0.1)
+
+
+def test_a_transfer_function_is_made_monic(tmp_path: Path) -> None:
+    model = _read(tmp_path, '[motor]\nkind = "lti"\nnumerator = [8.0]\ndenominator = [2.0, 4.0, 6.0]\n')
+    assert model.order == 2
+    assert dict(model.parameters) == {"b0": 4.0, "a0": 3.0, "a1": 2.0}
+
+
+def test_linear_axis_units(tmp_path: Path) -> None:
+    text = '[motor]\nkind = "axis"\nlinear = true\ninertia = "95 kg"\nviscous_friction = "0.2 kN s/m"\n'
+    model = _read(tmp_path, text)
+    assert dict(model.parameters) == pytest.approx({"inertia": 95.0, "viscous_friction": 200.0})
+    assert model.drive is drives.LINEAR_AXIS
+    with pytest.raises(InputError, match="wrong dimension"):
+        _read(tmp_path, text.replace("95 kg", "95 kg m^2"))
+
+
+def test_a_model_cannot_be_changed_from_outside() -> None:
+    mine = dict(DC)
+    model = Model(kind="dc", parameters=mine)
+    mine["inertia"] = 5.0
+    assert model.parameters["inertia"] == DC["inertia"]
+    with pytest.raises(TypeError):
+        model.parameters["inertia"] = 1.0  # type: ignore[index]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"kind": "DC"}, "unknown kind 'DC'.*did you mean 'dc'"),
+        ({"parameters": {"resistence": 1.0}}, "unknown parameter 'resistence'.*did you mean 'resistance'"),
+        ({"uncertainty": {"inertias": 0.1}}, "uncertainty: unknown parameter 'inertias'"),
+        ({"effects": {"quadratic_drag": {}}}, "unknown effect.*did you mean 'quadratic-drag'"),
+        ({"effects": {"quadratic-drag": {"coefficient": 1e-6}}}, "effects.quadratic-drag: unknown parameter"),
+    ],
+)
+def test_a_name_that_nobody_knows_is_refused(wrong: dict[str, Any], said: str) -> None:
+    given: dict[str, Any] = {"kind": "dc", "parameters": {"resistance": 1.0}}
+    with pytest.raises(InputError, match=said):
+        Model(**(given | wrong))
+
+
+def test_where_a_model_came_from_is_no_part_of_it() -> None:
+    assert replace(MODELS["dc"], source="a.toml") == MODELS["dc"]
+
+
+def test_nominal_parameters_are_those_of_the_core() -> None:
+    effects = pytest.importorskip("rwn.model.vocabulary")
+    known = effects.motor_parameters()
+    for drive in drives.KINDS.values():
+        for parameter in drive.parameters:
+            assert known[parameter.name].unit == parameter.unit
+
+
+@pytest.mark.parametrize(("linear", "unit"), [(False, "N m"), (True, "N")])
+def test_effects_are_written_with_their_units(*, linear: bool, unit: str, tmp_path: Path) -> None:
+    values = {"inertia": 95.0, "viscous_friction": 203.5}
+    model = Model(
+        kind="axis", linear=linear, parameters=values, effects={"coulomb-friction": {"coulomb_torque": 20.4}}
+    )
+    write_model(model, tmp_path / "model.toml")
+    assert f"coulomb_torque = 20.4  # {unit}\n" in (tmp_path / "model.toml").read_text(encoding="utf-8")

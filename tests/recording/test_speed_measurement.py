@@ -1,0 +1,109 @@
+"""Whether a recorded speed is that of a tachometer or a difference of positions, and of which."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import rwn
+from made_up_motor import MOTOR, plant, shaking
+from rwn.fit.hypothesis import candidate
+from rwn.fit.preparation import prepare
+from rwn.recording.speed_measurement import DIFFERENCES, SpeedMeasurement, difference, integral, speed_measurement
+
+Array = NDArray[np.float64]
+TIME = np.arange(4000) * 1e-3
+ANGLE = 200.0 * TIME - 30.0 * np.sin(8.0 * TIME)
+SPEED = np.gradient(ANGLE, 1e-3)
+NONE = np.empty(0)
+CENTRAL, BACKWARD, FORWARD = DIFFERENCES
+
+
+def counted(angle: Array, counts: int) -> Array:
+    return 2.0 * np.pi / counts * np.floor(angle * counts / (2.0 * np.pi))
+
+
+@pytest.mark.parametrize("counts", [415, 1024, 2000])
+def test_differences_of_counts_are_told_from_a_coarse_converter(counts: int) -> None:
+    angle = counted(ANGLE, counts)
+    assert speed_measurement(TIME, difference(CENTRAL, TIME, angle), NONE) is CENTRAL
+    assert speed_measurement(TIME, difference(BACKWARD, TIME, angle), NONE) is BACKWARD
+    coarse = 2.337 * np.round(SPEED / 2.337)
+    assert speed_measurement(TIME, coarse, NONE) is SpeedMeasurement.INSTANTANEOUS
+
+
+def test_a_central_difference_is_known_through_a_gear() -> None:
+    assert speed_measurement(TIME, 0.36612 * difference(CENTRAL, TIME, counted(ANGLE, 1024)), NONE) is CENTRAL
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.1, 0.5])
+def test_a_coarse_converter_whose_step_fits_an_encoder_is_no_difference_of_counts(noise: float) -> None:
+    """Of steps that no encoder of few counts makes, one in fifty comes near a whole number (trial 58 of seed 10035)."""
+    step = np.pi / 415 / 1e-3
+    shown = step * np.round(SPEED / step + noise * np.random.default_rng(1).standard_normal(TIME.size))
+    assert speed_measurement(TIME, shown, NONE) is SpeedMeasurement.INSTANTANEOUS
+
+
+@pytest.mark.parametrize("way", DIFFERENCES)
+def test_a_difference_of_the_recorded_position_repeats_its_noise(way: SpeedMeasurement) -> None:
+    position = ANGLE + 1e-4 * np.random.default_rng(2).standard_normal(TIME.size)
+    speed = np.round(difference(way, TIME, position), 4)
+    assert speed_measurement(TIME, speed, np.round(position, 7)) is way
+    tachometer = SPEED + 0.1 * np.random.default_rng(3).standard_normal(TIME.size)
+    assert speed_measurement(TIME, tachometer, position) is SpeedMeasurement.INSTANTANEOUS
+
+
+def test_a_speed_that_holds_no_noise_is_taken_as_it_is() -> None:
+    assert speed_measurement(TIME, 200.0 - 240.0 * np.cos(8.0 * TIME), ANGLE) is SpeedMeasurement.INSTANTANEOUS
+    assert speed_measurement(TIME, 0.0 * SPEED, 0.0 * ANGLE) is SpeedMeasurement.INSTANTANEOUS
+
+
+def test_what_differences_add_up_to_is_the_position() -> None:
+    for way in (BACKWARD, FORWARD):
+        assert np.allclose(integral(way, TIME, difference(way, TIME, ANGLE)), ANGLE - ANGLE[0], atol=1e-9)
+    assert integral(CENTRAL, TIME, NONE).size == 0
+
+
+@pytest.mark.parametrize("way", DIFFERENCES)
+def test_the_core_takes_the_same_difference(way: SpeedMeasurement) -> None:
+    setup = prepare([_recorded(1, way, counts=500, friction=0.0)], _model())
+    problem = replace(setup.whole, targets=tuple(replace(t, speed_measured=way) for t in setup.whole.targets))
+    this = candidate(setup.nominal, (), setup.scales)
+    (left,) = problem.residuals(this.vector, this.active)
+    by_hand = sum(float(np.sum((left[s] / problem.noise[s]) ** 2)) for s in left)
+    assert problem.error(this.vector, this.active) == pytest.approx(by_hand, rel=1e-9)
+    (out,) = (problem.simulate(t, this.vector, this.active) for t in problem.targets)
+    assert np.allclose(out.signals["speed"], difference(way, setup.whole.targets[0].time, out.signals["position"]))
+
+
+@pytest.mark.parametrize("counts", [500, 8000])
+def test_a_drive_that_takes_backward_differences_lacks_nothing(counts: int) -> None:
+    runs = [_recorded(seed, BACKWARD, counts=counts, friction=0.0) for seed in (1, 2)]
+    assert rwn.diagnose(runs, _model()).verdict == "adequate"
+
+
+def test_friction_is_right_beneath_backward_differences() -> None:
+    runs = [_recorded(seed, BACKWARD, counts=8000, friction=0.01) for seed in (1, 2)]
+    found = rwn.diagnose([replace(r, signals={s: r.signals[s] for s in ("voltage", "speed")}) for r in runs], _model())
+    assert [e.name for e in found.effects] == ["coulomb-friction"]
+    assert found.effects[0].parameters["coulomb_torque"].value == pytest.approx(0.01, rel=0.01)
+
+
+def _model() -> rwn.Model:
+    sure = {"resistance": 0.07, "torque_constant": 0.04, "back_emf_constant": 0.04, "inertia": 0.08}
+    return rwn.Model(kind="dc", parameters=MOTOR, uncertainty={**sure, "viscous_friction": 0.3})
+
+
+def _recorded(seed: int, way: SpeedMeasurement, *, counts: int, friction: float) -> rwn.Recording:
+    rng, t = np.random.default_rng(seed), 1e-3 * np.arange(3000)
+    voltage = shaking(rng, t)
+    rows = plant(voltage, lambda w, _: -friction * np.tanh(w / 0.05), parts=8)
+    signals = {
+        "voltage": voltage,
+        "current": rows[:, 0] + rng.normal(0, 0.02, t.size),
+        "speed": difference(way, t, counted(rows[:, 2], counts)),
+    }
+    return rwn.Recording(name=f"run_{seed}.csv", time=t, signals=signals)

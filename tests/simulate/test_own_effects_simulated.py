@@ -1,0 +1,288 @@
+"""Effects of a user's own: run by the core, fitted and named like those that come with rwn."""
+
+from __future__ import annotations
+
+import re
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from typer.testing import CliRunner
+
+import rwn
+from made_up_motor import MOTOR, own, recorded
+from rwn import _core
+from rwn.cli import app
+from rwn.errors import InputError
+from rwn.fit.hypothesis import candidate, fit
+from rwn.fit.levenberg_marquardt import FitStatus
+from rwn.fit.preparation import prepare
+from rwn.model.drives import AXIS, LINEAR_AXIS
+from rwn.model.model import Model, write_model
+from rwn.model.own_effects import OwnEffect, OwnParameter
+from rwn.model.vocabulary import motor_index, parameter_vector
+from rwn.recording.recording import write_csv
+
+Array = NDArray[np.float64]
+BRAKE = OwnEffect(
+    name="eddy-brake",
+    term="torque",
+    equation="-2 * peak * (speed / corner) / (1 + (speed / corner)^2)",
+    meaning="eddy currents in a disc: torque falls again at high speed",
+    parameters=(
+        OwnParameter(name="peak", unit="N m", lower=0, upper=0.5, start=0.01, strength=True, meaning="most torque"),
+        OwnParameter(name="corner", unit="rad/s", lower=1, upper=500, start=100, meaning="speed of most torque"),
+    ),
+)
+
+
+# --- simulated ------------------------------------------------------------------------------------------------------
+
+
+def simulated(model: Model, by: dict[str, float], *, step: float = 1e-3) -> dict[str, Array]:
+    """Signals and slopes of one chirp run of a model whose single effect is differentiated by the parameters `by`."""
+    t = step * np.arange(1500)
+    voltage = 12.0 * np.sin(2.0 * np.pi * (0.5 + t) * t) + 0.3
+    (name,) = model.effects
+    effect = model.effect_table[name]
+    vector = parameter_vector(model.parameters, model.effects, model.effect_table)
+    cores = [e.core for e in model.own_effects]
+    wanted = [effect.at(p) for p in by]
+    status, *arrays = _core.simulate("dc", t, voltage, vector, [effect.index], wanted, own=cores)
+    assert status == "ok"
+    names = ("current", "speed", "position", "d current", "d speed", "d position")
+    return dict(zip(names, arrays, strict=True))
+
+
+def both(name: str, effect: OwnEffect, values: dict[str, float]) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Runs of a built-in effect and of a formula whose parameters come in the same order."""
+    built_in = simulated(Model(kind="dc", parameters=MOTOR, effects={name: values}), values)
+    mine = dict(zip((p.name for p in effect.parameters), values.values(), strict=True))
+    model = Model(kind="dc", parameters=MOTOR, effects={"mine": mine}, own_effects=(effect,))
+    return built_in, simulated(model, mine)
+
+
+# Exact where the formula acts on constant terms or at the samples; where it is integrated, an own effect chooses its
+# own steps, so that both agree to what 1 ms is worth (the slopes to less, being larger near standstill).
+@pytest.mark.parametrize(
+    ("name", "effect", "values", "near"),
+    [
+        ("quadratic-drag", own("torque", "-k * speed * abs(speed)", k="N m s^2"), {"drag_coefficient": 1e-5}, 1e-5),
+        ("coulomb-friction", own("friction", "tc", tc="N m"), {"coulomb_torque": 0.02}, 1e-12),
+        (
+            "stribeck-friction",
+            own("friction", "tc + (ts - tc) * exp(-(speed / ws)^2)", tc="N m", ts="N m", ws="rad/s"),
+            {"coulomb_torque": 0.02, "static_torque": 0.03, "stribeck_speed": 8.0},
+            1e-3,
+        ),
+        (
+            "brush-voltage-drop",
+            own("drop", "v * tanh(current / i)", v="V", i="A"),
+            {"voltage_drop": 0.5, "transition_current": 0.4},
+            1e-3,
+        ),
+        ("cogging-torque", own("torque", "-a * sin(n * position + p)", a="N m", n="1", p="1"),
+         {"amplitude": 0.01, "periods_per_rev": 7.0, "phase": 0.4}, 1e-3),
+        (
+            "actuator-deadzone",
+            own("input", "sign(input) * max(abs(input) - d, d - d)", d="V"),
+            {"deadzone": 0.5},
+            1e-12,
+        ),
+        (
+            "sensor-rectification",
+            own("speed", "wr * exp(e * log(abs(speed) / wr))", e="1", wr="rad/s"),
+            {"exponent": 1.2, "reference_speed": 50.0},
+            1e-12,
+        ),
+    ],
+    ids=lambda x: x if isinstance(x, str) else "",
+)  # fmt: skip
+def test_a_formula_of_a_built_in_effect_runs_as_that_one(
+    name: str, effect: OwnEffect, values: dict[str, float], near: float
+) -> None:
+    built_in, mine = both(name, effect, values)
+    for signal, want in built_in.items():
+        atol = near * np.max(np.abs(want)) + 1e-300
+        np.testing.assert_allclose(mine[signal], want, atol=atol, rtol=0, err_msg=signal)
+
+
+def test_a_formula_may_read_nominal_parameters_and_passes_their_slopes_on() -> None:
+    doubling = own("torque", "-k * viscous_friction * speed", k="1")
+    model = Model(kind="dc", parameters=MOTOR, own_effects=(doubling,), effects={"mine": {"k": 1.0}})
+    twice = {**MOTOR, "viscous_friction": 2.0 * MOTOR["viscous_friction"]}
+    t = 1e-3 * np.arange(800)
+    voltage, by = 5.0 * np.sin(9.0 * t), [motor_index("viscous_friction"), motor_index("inertia")]
+    effect, cores = model.effect_table["mine"], [doubling.core]
+    vector = parameter_vector(model.parameters, model.effects, model.effect_table)
+    mine = _core.simulate("dc", t, voltage, vector, [effect.index], by, own=cores)
+    plain = _core.simulate("dc", t, voltage, parameter_vector(twice, {}), [], by)
+    np.testing.assert_allclose(mine[2], plain[2], atol=1e-6 * np.ptp(plain[2]))
+    np.testing.assert_allclose(mine[5], plain[5] * [2.0, 1.0], atol=1e-5 * np.ptp(plain[5]))
+
+
+def test_models_with_different_formulas_run_side_by_side() -> None:
+    models = [
+        Model(kind="dc", parameters=MOTOR, effects={"mine": {"k": 0.01}}, own_effects=(own("torque", text, k="N m"),))
+        for text in ("k", "-k", "k * sin(position)", "-k * direction") * 4
+    ]
+    alone = [simulated(model, {"k": 1})["speed"] for model in models]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(lambda m: simulated(m, {"k": 1})["speed"], models))
+    for a, b in zip(alone, together, strict=True):
+        np.testing.assert_array_equal(a, b)
+    assert not np.allclose(alone[0], alone[1])
+
+
+def test_the_linear_axis_takes_forces() -> None:
+    spring = OwnEffect(
+        name="spring", term="load", equation="-k * position", drive=LINEAR_AXIS,
+        parameters=(OwnParameter(name="k", unit="N/m", lower=0, upper=1e6, start=1, strength=True),),
+    )  # fmt: skip
+    model = Model(kind="axis", linear=True, parameters={"inertia": 2.0, "viscous_friction": 0.0}, own_effects=(spring,),
+                  effects={"spring": {"k": 50.0}})  # fmt: skip
+    t = 1e-3 * np.arange(2000)
+    run = rwn.Recording(name="step", time=t, signals={"force": np.full(t.size, 3.0)}, linear=True)
+    want = 3.0 / 50.0 * (1.0 - np.cos(np.sqrt(50.0 / 2.0) * t))
+    np.testing.assert_allclose(rwn.simulate(model, run).signals["position"], want, atol=1e-8)
+
+
+def test_a_definition_is_checked_for_the_drive_that_it_is_put_into() -> None:
+    with pytest.raises(InputError, match="resistance"):
+        Model(kind="axis", parameters={"inertia": 1.0, "viscous_friction": 0.1},
+              own_effects=(own("torque", "-k * resistance * speed", k="N m s/ohm"),))  # fmt: skip
+    model = Model(kind="axis", parameters={"inertia": 1.0, "viscous_friction": 0.1}, own_effects=(BRAKE,))
+    assert model.own_effects[0].drive is AXIS
+
+
+@pytest.mark.parametrize(
+    ("effects", "match"),
+    [
+        ((replace(BRAKE, name="quadratic-drag"),), "there already"),
+        ((BRAKE, BRAKE), "there already"),
+        (tuple(replace(BRAKE, name=f"brake-{k}") for k in range(7)), "7 own effects"),
+    ],
+)
+def test_effects_that_cannot_be_together_are_refused(effects: tuple[OwnEffect, ...], match: str) -> None:
+    with pytest.raises(InputError, match=match):
+        replace(NOMINAL, own_effects=effects)
+
+
+def test_a_constant_with_a_unit_is_not_fitted() -> None:
+    known = replace(BRAKE, parameters=(BRAKE.parameters[0], replace(BRAKE.parameters[1], lower=40, upper=40, start=40)))
+    model = replace(NOMINAL, own_effects=(known,))
+    setup = prepare([recorded(0, eddies, samples=200)], model)
+    this = candidate(setup.nominal, ("eddy-brake",), setup.scales)
+    assert [u.name for u in this.unknowns if "." in u.name] == ["eddy-brake.peak"]
+    assert this.vector[model.effect_table["eddy-brake"].at("corner")] == 40.0
+
+
+# --- diagnosed ------------------------------------------------------------------------------------------------------
+
+
+def eddies(speed: float, _: float = 0.0) -> float:
+    return -2 * 0.03 * (speed / 40) / (1 + (speed / 40) ** 2)
+
+
+NOMINAL = Model(
+    kind="dc",
+    parameters={**MOTOR, "inertia": 3.2e-4, "resistance": 0.78},
+    uncertainty={"resistance": 0.05, "inertia": 0.1, "viscous_friction": 0.3, "torque_constant": 0.03},
+    own_effects=(BRAKE,),
+)
+
+
+@pytest.fixture(scope="module")
+def braked() -> rwn.Diagnosis:
+    runs = [recorded(seed, eddies) for seed in range(3)]
+    return rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
+
+
+def test_a_concealed_eddy_brake_is_named(braked: rwn.Diagnosis) -> None:
+    assert braked.verdict == "missing-physics"
+    assert [e.name for e in braked.effects] == ["eddy-brake"]
+    (effect,) = braked.effects
+    assert effect.equation == braked.equation == "mechanical"
+    assert effect.probability > 0.9
+    assert effect.formula == f"torque = {BRAKE.equation}"
+    for name, truth in (("peak", 0.03), ("corner", 40.0)):
+        interval = effect.parameters[name].interval
+        assert interval is not None
+        assert interval[0] < truth < interval[1]
+        assert interval[1] - interval[0] < 0.15 * truth
+    row = next(r for r in braked.heldout if r.region == "all" and r.signal == "speed")
+    assert row.corrected is not None
+    assert row.corrected < 1.1 * (row.noise_floor or 0.0)
+
+
+def test_its_corrected_model_is_one_file_that_simulates(braked: rwn.Diagnosis, tmp_path: Path) -> None:
+    write_model(braked.corrected, tmp_path / "corrected.toml")
+    assert rwn.read_model(tmp_path / "corrected.toml") == braked.corrected
+    fresh = recorded(7, eddies)
+    write_csv(tmp_path / "run.csv", fresh.time, fresh.signals)
+    line = ["simulate", str(tmp_path / "corrected.toml"), "--input", str(tmp_path / "run.csv"), "--out"]
+    done = CliRunner().invoke(app, [*line, str(tmp_path / "sim.csv")])
+    assert done.exit_code == 0, done.output
+    error = rwn.simulate(braked.corrected, fresh).signals["speed"] - fresh.signals["speed"]
+    assert np.std(error) < 0.25
+
+
+def test_it_is_not_named_where_it_is_not() -> None:
+    runs = [recorded(seed, lambda *_: 0.0) for seed in range(2)]
+    found = rwn.diagnose(runs, NOMINAL, jobs=1)
+    assert found.verdict == "adequate"
+
+
+def test_identify_fits_the_motor_around_it() -> None:
+    model = replace(NOMINAL, effects={"eddy-brake": {"peak": 0.03, "corner": 40.0}})
+    fit = rwn.identify([recorded(3, eddies)], model)
+    assert fit.parameters["inertia"].value == pytest.approx(MOTOR["inertia"], rel=0.01)
+    assert fit.residual_over_noise < 1.1
+
+
+def test_effects_lists_those_of_a_model(tmp_path: Path) -> None:
+    write_model(NOMINAL, tmp_path / "model.toml")
+    shown = CliRunner().invoke(app, ["effects", "eddy-brake", "--model", str(tmp_path / "model.toml")])
+    assert shown.exit_code == 0, shown.output
+    assert "peak [N m]: most torque; 0 to 0.5" in shown.output
+    assert "eddy-brake" in CliRunner().invoke(app, ["effects", "--model", str(tmp_path / "model.toml")]).output
+
+
+def test_a_formula_without_a_value_ends_the_run_with_advice(tmp_path: Path) -> None:
+    root = own("torque", "-k * sqrt(speed / w)", k="N m", w="rad/s")
+    model = replace(NOMINAL, own_effects=(root,), effects={"mine": {"k": 0.01, "w": 1.0}})
+    run = recorded(1, eddies)
+    done = rwn.simulate(model, run)
+    assert done.status == "formula-failed"
+    assert "finite" in done.advice
+    assert all(np.isfinite(y).all() for y in done.signals.values())
+    write_model(model, tmp_path / "model.toml")
+    write_csv(tmp_path / "run.csv", run.time, run.signals)
+    line = ["simulate", str(tmp_path / "model.toml"), "--input", str(tmp_path / "run.csv"), "--out"]
+    said = CliRunner().invoke(app, [*line, str(tmp_path / "sim.csv")])
+    assert said.exit_code == 0
+    assert "formula-failed" in said.output
+    setup = prepare([run], replace(model, effects={}))
+    end = fit(setup.problem, candidate(setup.nominal, ("mine",), setup.scales))
+    assert end.status is FitStatus.DIVERGED
+    assert end.cost == np.inf
+
+
+def test_the_worked_example_of_the_documentation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = (Path(__file__).parents[2] / "docs/own_effects.md").read_text(encoding="utf-8")
+    definition, script = (re.search(rf"```{kind}\n(.*?)```", page, re.DOTALL) for kind in ("toml", "python"))
+    assert definition
+    assert script
+    demo = (Path(rwn.__file__).parent / "demo/model.toml").read_text(encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    Path("motor.toml").write_text(f"{demo}\n{definition[1]}", encoding="utf-8")
+    exec(compile(script[1], "make_runs.py", "exec"), {})
+    line = "diagnose run1.csv --model motor.toml --heldout run2.csv --out result --jobs 1"
+    said = CliRunner().invoke(app, line.split()).output
+    wanted = re.search(r"^The model lacks eddy brake.*$", page, re.MULTILINE)
+    assert wanted
+    assert wanted[0] in said
+    assert "eddy-brake peak = 5.8" in said

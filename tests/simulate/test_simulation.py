@@ -1,0 +1,77 @@
+"""The simulation is as exact where samples are far apart as where they are close."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.model.model import Model
+from rwn.model.vocabulary import Effect, table
+
+# a small motor: the winding settles within half a sample
+MOTOR = {"resistance": 6.0, "inductance": 2e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 4e-5,
+         "viscous_friction": 2e-5, "coulomb_friction": 4e-3}  # fmt: skip
+TYPICAL = {
+    "none": 1.0, "torque": 0.1, "speed": 150.0, "voltage": 10.0, "current": 1.5, "inertia": 4e-5, "damping": 7e-4,
+    "stiffness": 2.0, "drag": 5e-6, "time_step": 1e-3, "duration": 0.6, "loss": 0.2, "heat": 1.0,
+}  # fmt: skip
+STEP, PARTS = 6e-4, 8
+EXACT = 1e-4
+JUMPS = ("sensor-quantization",)
+
+
+def _values(effect: Effect) -> dict[str, float]:
+    return {p.name: p.start if p.fixed else p.start * TYPICAL[p.scale] for p in effect.parameters}
+
+
+def _run(effect: Effect, parts: int) -> tuple[np.ndarray, np.ndarray]:
+    """Current and speed at every 8th of the finest instants."""
+    rng = np.random.default_rng(5)
+    levels = np.repeat(rng.uniform(-10.0, 10.0, 12), 80)
+    time = STEP / parts * np.arange(levels.size * parts)
+    motor = dict(MOTOR)
+    for parameter in effect.parameters:
+        motor.pop(parameter.replaces or "", None)
+    model = Model(kind="dc", parameters=motor, effects={effect.name: _values(effect)})
+    signals = {"voltage": np.repeat(levels, parts)}
+    done = rwn.simulate(model, rwn.Recording(name="fine.csv", time=time, signals=signals))
+    assert done.status == "ok"
+    return done.signals["current"][::parts], done.signals["speed"][::parts]
+
+
+@pytest.mark.parametrize("name", [n for n in table() if n not in JUMPS])
+def test_a_long_step_is_as_exact_as_short_ones(name: str) -> None:
+    effect = table()[name]
+    coarse, fine = _run(effect, 1), _run(effect, PARTS)
+    for a, b in zip(coarse, fine, strict=True):
+        error = float(np.sqrt(np.mean((a - b) ** 2)) / np.sqrt(np.mean(b**2)))
+        assert error < EXACT, f"{name}: {error:.2g}"
+
+
+def test_a_sensor_keeps_its_memory_where_friction_of_no_size_stops_the_motor() -> None:
+    motor = {k: v for k, v in MOTOR.items() if k != "coulomb_friction"}
+    effects = {"speed-sensor-lag": {"time_constant": 5e-4},
+               "asymmetric-friction": {"coulomb_torque_plus": 0.0, "coulomb_torque_minus": 0.0}}  # fmt: skip
+    voltage = np.repeat([5.0, -5.0, 0.0, 5.0], 50)
+    seen = rwn.Recording(name="lag.csv", time=STEP * np.arange(voltage.size), signals={"voltage": voltage})
+    speed = rwn.simulate(Model(kind="dc", parameters=motor, effects=effects), seen).signals["speed"]
+    plain = rwn.simulate(Model(kind="dc", parameters=motor), seen).signals["speed"]
+    assert np.all(np.isfinite(speed))
+    assert np.max(np.abs(speed - plain)) < 0.5 * np.max(np.abs(plain))
+
+
+def test_a_late_sensor_follows_a_speed_that_bends_within_a_sample() -> None:
+    """A lag that is shorter than a sample, and samples that are longer than L/R (trial 16 of test seed 10034)."""
+    voltage = np.repeat(np.random.default_rng(3).choice([-5.0, 5.0], 150), 4)
+
+    def seen(lag: float, parts: int) -> np.ndarray:
+        time = STEP / parts * np.arange(voltage.size * parts)
+        model = Model(kind="dc", parameters=MOTOR, effects={"speed-sensor-lag": {"time_constant": lag}})
+        run = rwn.Recording(name="prbs.csv", time=time, signals={"voltage": np.repeat(voltage, parts)})
+        return rwn.simulate(model, run).signals["speed"][::parts]
+
+    lag = 0.75 * STEP
+    fine = seen(lag, 16)
+    done = np.std(fine - seen(1e-3 * lag, 16))
+    assert np.std(seen(lag, 1) - fine) < 0.01 * done

@@ -1,0 +1,127 @@
+"""Real machines: one quick test per set of recordings; all of them together is `rwn evidence`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from rwn.cli import app
+from rwn.errors import InputError
+from rwn.fit.preparation import prepare
+from rwn.fit.prior_weight import farthest
+from rwn.name.forward import explain
+from rwn.recording.recording import read_recording
+from rwn.report.diagnosis import BELIEVABLE, Diagnosis, FoundEffect
+from rwn.studies.machines import ced, emps, fra233, frc, odrive, xl330
+from rwn.studies.machines.machine import Error, Outcome, cut, nominal_model
+from rwn.studies.machines.registry import MACHINES
+from rwn.studies.machines.runner import run_machines
+from rwn.studies.machines.table import markdown
+
+
+def silent(text: str) -> None:
+    assert text
+
+
+def test_nominal_models_leave_out_what_is_looked_for() -> None:
+    for name in ("ced", "fra233", "frc", "odrive", "xl330"):
+        assert not nominal_model(name).effects
+
+
+def test_missing_data_and_wrong_names_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="the folder of recordings is not here"):
+        run_machines([], tmp_path / "nowhere", tmp_path)
+    with pytest.raises(InputError, match="did you mean 'emps'"):
+        run_machines(["emsp"], tmp_path, tmp_path)
+    for name in MACHINES:
+        with pytest.raises(InputError, match="a recording of this machine is not here"):
+            run_machines([name], tmp_path, tmp_path)
+    told = CliRunner().invoke(app, ["evidence", "--help"])
+    assert told.exit_code == 0
+
+
+def test_the_table_says_what_was_found_and_what_was_wanted() -> None:
+    found = Diagnosis(
+        verdict="missing-physics",
+        effects=(FoundEffect(name="a", equation="mechanical", probability=0.9),),
+        set=("a", "b"),
+    )
+    error = Error(measure="x [m]", nominal=3.0, refitted=2.0, corrected=1.0, published="0.5 (them)", wanted=1.5)
+    outcome = Outcome(machine="M", begins_with="linear", found=found, errors=(error,), notes=("drifts",))
+    text = markdown([outcome])
+    assert "| M | linear | a 0.90; not told apart: a, b | x [m] | 3 | 2 | 1 | <= 1.5 | 0.5 (them) |" in text
+    assert "- M: drifts" in text
+    nothing = replace(outcome, found=Diagnosis(verdict="unexplained"), errors=(replace(error, corrected=None),))
+    assert "| unexplained | x [m] | 3 | 2 |  | <= 1.5 |" in markdown([nothing])
+
+
+def test_ced(shared: Path) -> None:
+    low, high = ced.run(shared / "data" / ced.MACHINE.folder, silent)
+    for outcome in (low, high):
+        assert [e.name for e in outcome.found.effects] == ["sensor-rectification"]
+        assert outcome.found.effects[0].parameters["exponent"].value > 1.3, "the sensor hardly sees slow motion"
+    assert all(e.corrected is not None and e.corrected <= 0.115 for e in low.errors)
+    assert all(e.corrected is not None and e.corrected <= 0.095 for e in high.errors)
+
+
+def test_emps_friction_drifts_between_the_files(shared: Path) -> None:
+    model = emps.read_model(emps.NOMINAL)
+    rows = []
+    for name in ("DATA_EMPS.mat", "DATA_EMPS_PULSES.mat"):
+        run = read_recording(shared / "data" / emps.MACHINE.folder / name, layout=model.recording)
+        _, speed, acceleration, force = emps.filtered(run)
+        columns = np.column_stack([acceleration, speed, np.sign(speed), np.abs(speed), np.ones(speed.size)])
+        rows.append(np.linalg.lstsq(columns, force, rcond=None)[0])
+        if name == "DATA_EMPS.mat":
+            assert rows[0][:3] == pytest.approx([95.1089, 203.5034, 20.3935], rel=0.01), "published"
+    change = rows[1][:3] / rows[0][:3] - 1.0
+    assert 0.02 < change[1] < 0.05
+    assert 0.015 < change[2] < 0.04
+
+
+def test_fra233_dry_friction_does_not_bend_the_motor_beyond_belief(shared: Path) -> None:
+    model = nominal_model("fra233")
+    folder = shared / "data" / fra233.MACHINE.folder
+    sine, ramp = (read_recording(folder / f"{name}_1.mat", layout=model.recording) for name in ("sine", "ramp"))
+    names = ["coulomb-friction", "quadratic-drag", "load-dependent-friction"]
+    setup = prepare([cut(sine, 2000, 8000), cut(ramp, 1000, 7000)], model)
+    found = explain(setup, progress=lambda *_: None, names=names)
+    first = found.hypotheses[0].fitted
+    assert "coulomb-friction" in first.added
+    assert first.minimum.chi2 < 0.3 * found.nominal.minimum.chi2
+    assert farthest(first) < BELIEVABLE
+    assert 0.4 < first.value("coulomb-friction.coulomb_torque") * 3.40 / 0.048 < 0.9, "volts"
+
+
+def test_xl330_the_authors_load_dependent_model_predicts_better(shared: Path) -> None:
+    folder = shared / "data" / xl330.MACHINE.folder
+    servos = [xl330.read_servo(folder / f"2026-01-15_{xl330.HELDOUT[0]}.json")]
+    values = {name: xl330.json.loads((folder / f"xl330_{name}.json").read_text()) for name in ("m1", "m3")}
+    error = {name: xl330.closed_loop_error(v, servos, xl330.AUTHORS_GAIN) for name, v in values.items()}
+    assert error["m3"] < error["m1"] < 150.0
+    assert xl330.friction_level(values["m1"], 1.0, -1.0, 2.0) == pytest.approx(0.012833 + 2.0 * 0.0036617, rel=1e-3)
+    assert xl330.friction_level(values["m3"], 1.0, -1.0, 0.0) == pytest.approx(0.0088818 + 0.243329, rel=1e-3)
+
+
+def test_frc_speed_lags_the_voltage(shared: Path) -> None:
+    folder = shared / "data" / frc.MACHINE.folder
+    file, _, columns, unit = frc.MECHANISMS[0]
+    run = frc.read_sysid(folder / file, "fast-forward", columns, unit)
+    assert np.all(np.diff(run.time) > 0.0)
+    assert 0.06 < frc.dead_time(run) < 0.12
+    with pytest.raises(InputError, match="there is no test 'sideways'"):
+        frc.read_sysid(folder / file, "sideways", columns, unit)
+
+
+def test_odrive_cogging_is_found_at_its_harmonics(shared: Path) -> None:
+    folder = shared / "data" / odrive.MACHINE.folder
+    first, second = (odrive.read_revolution(folder / f"nocomp_{k}.npy") for k in (0, 1))
+    error, orders = odrive.current_error(first, second)
+    assert {7, 14, 28} <= set(orders)
+    assert sorted(odrive.blind_orders(second)) == sorted(orders), "either revolution says the same"
+    assert error.corrected is not None
+    assert error.corrected < 0.25 * error.refitted

@@ -1,0 +1,62 @@
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+PARENT = """
+import os, time
+from pathlib import Path
+from rwn.studies.trials.workers import workers
+
+def stay(folder):
+    (folder / str(os.getpid())).touch()
+    time.sleep(600)
+
+if __name__ == "__main__":
+    folder = Path(__file__).parent / "pids"
+    with workers(2) as pool:
+        list(pool.map(stay, [folder] * 2))
+"""
+
+
+def lives(pid: int) -> bool:
+    """A zombie is dead: its state is Z."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def until(condition: Callable[[], bool], seconds: float) -> bool:
+    deadline = time.monotonic() + seconds
+    while not condition() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return condition()
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks at processes through /proc")
+@pytest.mark.parametrize("by", [signal.SIGTERM, signal.SIGKILL])
+def test_workers_end_with_a_killed_parent(tmp_path: Path, by: signal.Signals) -> None:
+    script, pids = tmp_path / "parent.py", tmp_path / "pids"
+    script.write_text(PARENT)
+    pids.mkdir()
+    parent = subprocess.Popen([sys.executable, str(script)])
+    workers: list[int] = []
+    try:
+        assert until(lambda: len(list(pids.iterdir())) == 2, 60), "both workers at work"
+        workers = [int(path.name) for path in pids.iterdir()]
+        assert all(map(lives, workers))
+        parent.send_signal(by)
+        parent.wait(timeout=10)
+        assert until(lambda: not any(map(lives, workers)), 10)
+    finally:
+        parent.kill()
+        for pid in filter(lives, workers):
+            os.kill(pid, signal.SIGKILL)
