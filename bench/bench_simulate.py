@@ -22,8 +22,10 @@ import numpy as np
 
 import rwn
 from rwn import _core
-from rwn.fit.hypothesis import Nominal, candidate, fit
+from rwn.fit.fit import fit
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
+from rwn.fit.prior import Prior
 from rwn.model.vocabulary import motor_index, parameter_vector, table
 
 N = 200_000
@@ -76,8 +78,9 @@ def main() -> None:
     plain = parameter_vector(AXIS, {})
     dry = parameter_vector(AXIS, {"coulomb-friction": {"coulomb_torque": COULOMB}})
     dc = parameter_vector(DC, {})
-    check("axis", _core.simulate("axis", t, reversing, plain, [], [])[2], reference_axis(reversing, 0.0), 1e-9)
-    got = _core.simulate("axis", t, resting, dry, [coulomb.index], [])[2]
+    got = _core.simulate(_core.Task("axis", time=t, input=reversing), plain, [], [])[2]
+    check("axis", got, reference_axis(reversing, 0.0), 1e-9)
+    got = _core.simulate(_core.Task("axis", time=t, input=resting), dry, [coulomb.index], [])[2]
     check("axis, Coulomb friction", got, reference_axis(resting, COULOMB), 2e-2)  # the reference stops at samples
     by = [motor_index("inertia"), motor_index("viscous_friction"), coulomb.first]
     rows = (
@@ -90,10 +93,10 @@ def main() -> None:
         ("dc, no effects, 6 derivatives", "dc", 0.1 * reversing, dc, [], list(range(6))),
     )
     begin = time.perf_counter()
-    _core.simulate("axis", t, reversing, plain, [], [])
+    _core.simulate(_core.Task("axis", time=t, input=reversing), plain, [], [])
     line("axis, no effects, fresh memory", time.perf_counter() - begin)
     for name, kind, force, vector, active, wanted in rows:
-        run = partial(_core.simulate, kind, t, force, vector, active, wanted)
+        run = partial(_core.simulate, _core.Task(kind, time=t, input=force), vector, active, wanted)
         line(name, best_of(run), f"{stops(np.array(run()[2])):.2f} stops per 1000 steps" if active else "")
     effects()
     in_numba(reversing)
@@ -104,11 +107,11 @@ def effects() -> None:
     """Normal equations of the demonstration motor with each effect at its first guess, by all that would be fitted."""
     demo = Path(rwn.__file__).parent / "demo"
     model = rwn.read_model(demo / "model.toml")
-    setup = prepare([rwn.read_recording(demo / "train.csv", layout=model.recording)], model)
-    samples = sum(t.time.size for t in setup.problem.targets)
+    problem = prepare([rwn.read_recording(demo / "train.csv", layout=model.recording)], model)
+    samples = sum(r.time.size for r in problem.runs)
     for name in table():
-        this = candidate(setup.nominal, (name,), setup.scales)
-        seconds = best_of(partial(setup.problem.normal, this.vector, this.active, this.by), repeats=5)
+        this = hypothesis(problem.prior, (name,), problem.scales)
+        seconds = best_of(partial(problem.normal, this.vector, this.active, this.by), repeats=5)
         line(f"dc, {name}, {len(this.by)} derivatives", seconds, samples=samples)
 
 
@@ -142,12 +145,13 @@ def emps() -> None:
         print("EMPS fit: the recording is not here")
         return
     model = rwn.read_model(Path(rwn.__file__).parent / "demo/emps.toml")
-    setup = prepare([rwn.read_recording(file, layout=model.recording)], model)
-    nominal = Nominal(motor=setup.nominal.motor, uncertainty=setup.nominal.uncertainty, effects={}, free={})
-    this = candidate(nominal, ("coulomb-friction", "constant-load"), setup.scales)
-    seconds = best_of(lambda: fit(setup.whole, this), repeats=3)
-    found = fit(setup.whole, this)
-    rms = 1e3 * setup.whole.noise["position"] * np.sqrt(found.chi2 / setup.whole.targets[0].time.size)
+    problem = prepare([rwn.read_recording(file, layout=model.recording)], model)
+    prior = Prior(motor=problem.prior.motor, uncertainty=problem.prior.uncertainty, effects={}, free={})
+    this = hypothesis(prior, ("coulomb-friction", "constant-load"), problem.scales)
+    free = problem.in_free_run()
+    seconds = best_of(lambda: fit(free, this), repeats=3)
+    found = fit(free, this).minimum
+    rms = 1e3 * free.noise["position"] * np.sqrt(found.chi2 / free.runs[0].time.size)
     print(f"EMPS free-run fit: {seconds:.3f} s, {found.iterations} iterations, {found.status.name}, {rms:.2f} mm")
 
 

@@ -6,22 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn.report.diagnosis import (
-    Alternative,
-    Beneath,
-    Diagnosis,
-    Estimate,
-    FittedParameter,
-    FoundEffect,
-    HeldoutRow,
-    Location,
-    Mark,
-    NominalFit,
-    Plot,
-    Region,
-    Source,
-    Trace,
-)
+from rwn.fit.intervals import Estimate
+from rwn.locate.regions import Region
+from rwn.name.found_effect import FoundEffect
+from rwn.prove.heldout import HeldoutRow
+from rwn.report.diagnosis import Alternative, Beneath, Diagnosis, Location, Mark, Plot, Source, Trace
+from rwn.report.nominal_fit import FittedParameter, NominalFit
 
 
 def _response(rng: np.random.Generator) -> Plot:

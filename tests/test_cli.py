@@ -15,9 +15,11 @@ import pytest
 import made_up
 import rwn
 from rwn import cli
-from rwn.model.model import Model, read_model
+from rwn.fit.intervals import Estimate
+from rwn.model.files import read_model
+from rwn.model.model import Model
 from rwn.recording.recording import Recording, read_recording, write_csv
-from rwn.report.diagnosis import Diagnosis, Estimate
+from rwn.report.diagnosis import Diagnosis
 
 MODEL = """[motor]
 kind = "dc"
@@ -39,7 +41,7 @@ class FakeRun:
 
 
 @dataclass(frozen=True)
-class FakeFit:
+class FakeIdentification:
     model: Model
     parameters: dict[str, Estimate]
     status: str = "converged"
@@ -138,9 +140,9 @@ def test_simulate_writes_a_recording(run: Run, monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_identify_prints_and_writes_the_fitted_model(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fake(_: list[Recording], model: Model) -> FakeFit:
+    def fake(_: list[Recording], model: Model) -> FakeIdentification:
         fitted = replace(model, parameters={**model.parameters, "resistance": 0.9})
-        return FakeFit(fitted, {"resistance": Estimate(value=0.9, unit="ohm", interval=(0.88, 0.92))})
+        return FakeIdentification(fitted, {"resistance": Estimate(value=0.9, unit="ohm", interval=(0.88, 0.92))})
 
     monkeypatch.setattr(rwn, "identify", fake, raising=False)
     code, out, _ = run("identify", "a.csv", "b.csv", "--model", "model.toml", "--out", "fitted.toml")

@@ -1,5 +1,5 @@
 #include "bind.hpp"
-#include "rwn/conventional_network.hpp"
+#include "rwn/networks/conventional_network.hpp"
 
 namespace rwn::bind {
 

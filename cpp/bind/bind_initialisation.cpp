@@ -1,5 +1,5 @@
 #include "bind.hpp"
-#include "rwn/initialisation.hpp"
+#include "rwn/networks/initialisation.hpp"
 
 namespace rwn::bind {
 namespace {

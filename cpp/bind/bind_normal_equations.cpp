@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 
-#include "bind.hpp"
-#include "rwn/normal_equations.hpp"
+#include "rwn/fit/normal_equations.hpp"
+#include "task.hpp"
 
 namespace rwn::bind {
 namespace {
@@ -13,48 +13,48 @@ Array matrix(const std::vector<double>& values, py::ssize_t rows) {
   return a;
 }
 
-py::tuple sums(const std::string& kind, const Array& time, const Array& input, const Array& parameters,
-              const std::vector<int>& active, const std::vector<int>& by, const Array& current, const Array& speed,
-              const Array& position, const std::array<double, 3>& weights, const std::string& speed_measurement,
-              double angle_per_position, double input_before, const Array& angle, bool angle_from_speed,
-              int restart_every, const Array& restart_speed, const Array& restart_position, int order,
-              const std::vector<OwnEffect>& own, const std::array<double, 3>& persistence, std::optional<Work*> work) {
-  const SimulationTask task{kind_of(kind),
-                            view(time),
-                            view(input),
-                            view(parameters),
-                            active,
-                            by,
-                            angle_per_position,
-                            input_before,
-                            view(angle),
-                            angle_from_speed,
-                            restart_every,
-                            view(restart_speed),
-                            view(restart_position),
-                            order,
-                            own,
-                            work.value_or(nullptr)};
-  const Measurements measured{view(current),
-                              view(speed),
-                              view(position),
-                              weights[0],
-                              weights[1],
-                              weights[2],
-                              speed_measurement_of(speed_measurement),
-                              persistence};
+/// Measurements with the arrays that they view.
+struct Measured {
+  Array current, speed, position;
+  Measurements rest;
+
+  Measurements measurements() const {
+    Measurements m = rest;
+    m.current = view(current);
+    m.speed = view(speed);
+    m.position = view(position);
+    return m;
+  }
+};
+
+Measured measured_from(const Array& current, const Array& speed, const Array& position,
+                       const std::array<double, 3>& weights, const std::string& speed_measurement,
+                       const std::array<double, 3>& persistence) {
   if (std::any_of(persistence.begin(), persistence.end(), [](double c) { return !(c >= 0.0 && c < 1.0); })) {
     throw std::invalid_argument("normal_equations: a persistence is a correlation from 0 to less than 1");
   }
+  Measured m{current, speed, position, {}};
+  m.rest.current_weight = weights[0];
+  m.rest.speed_weight = weights[1];
+  m.rest.position_weight = weights[2];
+  m.rest.speed_measurement = speed_measurement_of(speed_measurement);
+  m.rest.persistence = persistence;
+  return m;
+}
+
+py::tuple sums(const Task& task, const Measured& seen, const Array& parameters, const std::vector<int>& active,
+               const std::vector<int>& by, std::optional<Work*> work) {
+  const SimulationTask what = task.with(parameters, active, by, work.value_or(nullptr));
+  const Measurements measured = seen.measurements();
   for (const auto& signal : {measured.current, measured.speed, measured.position}) {
-    if (!signal.empty() && signal.size() != task.time.size()) {
+    if (!signal.empty() && signal.size() != what.time.size()) {
       throw std::invalid_argument("normal_equations: a measured signal differs in length from time");
     }
   }
   NormalEquations sum;
   {
     py::gil_scoped_release release;
-    sum = normal_equations(task, measured);
+    sum = normal_equations(what, measured);
   }
   const auto p = static_cast<py::ssize_t>(by.size());
   return py::make_tuple(std::string(to_string(sum.status)), sum.chi2, sum.count, Array(p, sum.gradient.data()),
@@ -64,13 +64,14 @@ py::tuple sums(const std::string& kind, const Array& time, const Array& input, c
 }  // namespace
 
 void bind_normal_equations(py::module_& m) {
-  m.def("normal_equations", &sums, "kind"_a, "time"_a.noconvert(), "input"_a.noconvert(), "parameters"_a.noconvert(),
-        "active"_a, "by"_a, "current"_a.noconvert(), "speed"_a.noconvert(), "position"_a.noconvert(), "weights"_a,
-        "speed_measurement"_a = "instantaneous", "angle_per_position"_a = 1.0, "input_before"_a = 0.0,
-        "angle"_a = Array(0), "angle_from_speed"_a = false, "restart_every"_a = 0, "restart_speed"_a = Array(0),
-        "restart_position"_a = Array(0), "order"_a = 0, "own"_a = std::vector<OwnEffect>{},
-        "persistence"_a = std::array<double, 3>{}, "work"_a = std::optional<Work*>{},
-        "Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.");
+  py::class_<Measured>(m, "Measurements", "Recorded signals (n) of one run; empty: not recorded, NaN: does not count.")
+      .def(py::init(&measured_from), py::kw_only(), "current"_a = Array(0), "speed"_a = Array(0), "position"_a = Array(0),
+           "weights"_a = std::array<double, 3>{1.0, 1.0, 1.0}, "speed_measurement"_a = "instantaneous",
+           "persistence"_a = std::array<double, 3>{},
+           "weights: 1 / standard deviation of current, speed and position; persistence: correlation of the error of "
+           "each with the one before, which then counts as what is new in it.");
+  m.def("normal_equations", &sums, "task"_a, "measurements"_a, "parameters"_a.noconvert(), "active"_a, "by"_a,
+        "work"_a = std::optional<Work*>{}, "Free-run output error: status, chi2, count, J'r (p) and J'J (p, p).");
 }
 
 }  // namespace rwn::bind

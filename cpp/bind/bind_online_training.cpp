@@ -1,6 +1,6 @@
 #include "bind.hpp"
-#include "rwn/online_training.hpp"
-#include "rwn/rates.hpp"
+#include "rwn/networks/online_training.hpp"
+#include "rwn/networks/rates.hpp"
 
 namespace rwn::bind {
 namespace {

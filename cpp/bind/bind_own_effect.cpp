@@ -1,7 +1,7 @@
 #include "bind.hpp"
-#include "rwn/active_effects.hpp"
-#include "rwn/own_effect.hpp"
-#include "rwn/simulate.hpp"
+#include "rwn/simulate/active_effects.hpp"
+#include "rwn/model/own_effect.hpp"
+#include "rwn/simulate/simulate.hpp"
 
 namespace rwn::bind {
 namespace {

@@ -1,6 +1,6 @@
 #include "bind.hpp"
 #include "defaults.hpp"
-#include "rwn/rates.hpp"
+#include "rwn/networks/rates.hpp"
 
 namespace rwn::bind {
 

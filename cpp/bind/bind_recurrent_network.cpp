@@ -1,5 +1,5 @@
 #include "bind.hpp"
-#include "rwn/recurrent_network.hpp"
+#include "rwn/networks/recurrent_network.hpp"
 
 namespace rwn::bind {
 

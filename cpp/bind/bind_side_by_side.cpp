@@ -1,5 +1,5 @@
 #include "bind.hpp"
-#include "rwn/side_by_side.hpp"
+#include "rwn/networks/side_by_side.hpp"
 
 namespace rwn::bind {
 namespace {

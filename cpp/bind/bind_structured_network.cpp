@@ -1,6 +1,6 @@
 #include "bind.hpp"
-#include "rwn/plant_analysis.hpp"
-#include "rwn/structured_network.hpp"
+#include "rwn/networks/plant_analysis.hpp"
+#include "rwn/networks/structured_network.hpp"
 
 namespace rwn::bind {
 

@@ -1,7 +1,7 @@
 #include "bind.hpp"
 #include "defaults.hpp"
-#include "rwn/trainers/recursive_gauss_newton.hpp"
-#include "rwn/trainers/structured_levenberg_marquardt.hpp"
+#include "rwn/networks/trainers/recursive_gauss_newton.hpp"
+#include "rwn/networks/trainers/structured_levenberg_marquardt.hpp"
 
 namespace rwn::bind {
 

@@ -1,6 +1,6 @@
 #include "bind.hpp"
 #include "defaults.hpp"
-#include "rwn/trainers.hpp"
+#include "rwn/networks/trainers.hpp"
 
 namespace rwn::bind {
 namespace {

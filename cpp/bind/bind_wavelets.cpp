@@ -1,5 +1,5 @@
 #include "bind.hpp"
-#include "rwn/wavelets.hpp"
+#include "rwn/networks/wavelets.hpp"
 
 namespace rwn::bind {
 namespace {

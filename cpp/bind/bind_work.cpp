@@ -1,5 +1,5 @@
 #include "bind.hpp"
-#include "rwn/work.hpp"
+#include "rwn/simulate/work.hpp"
 
 namespace rwn::bind {
 

@@ -1,14 +1,14 @@
 // Table of contents of the extension module: one bind_<noun>.cpp per noun.
 #include "bind.hpp"
-#include "rwn/isa.hpp"
+#include "rwn/numerics/isa.hpp"
 
 namespace rwn::bind {
 void bind_own_effect(py::module_& m);
 void bind_work(py::module_& m);
-void bind_inverse_dynamics(py::module_& m);
+void bind_task(py::module_& m);
+void bind_unknown_inputs(py::module_& m);
 void bind_normal_equations(py::module_& m);
 void bind_simulate(py::module_& m);
-void bind_plant(py::module_& m);
 void bind_wavelets(py::module_& m);
 void bind_conventional_network(py::module_& m);
 void bind_initialisation(py::module_& m);
@@ -28,10 +28,10 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.def("isa", [] { return std::string(rwn::to_string(rwn::isa())); }, "Instruction set in use.");
   bind_own_effect(m);
   bind_work(m);
-  bind_inverse_dynamics(m);
+  bind_task(m);
+  bind_unknown_inputs(m);
   bind_normal_equations(m);
   bind_simulate(m);
-  bind_plant(m);
   bind_wavelets(m);
   bind_conventional_network(m);
   bind_initialisation(m);

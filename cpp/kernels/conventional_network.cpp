@@ -1,7 +1,7 @@
 #include "rwn/kernels/conventional_network.hpp"
 
-#include "rwn/pack.hpp"
-#include "rwn/wavelets.hpp"
+#include "rwn/numerics/pack.hpp"
+#include "rwn/networks/wavelets.hpp"
 
 namespace rwn::RWN_ISA {
 namespace {

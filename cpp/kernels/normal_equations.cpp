@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "rwn/pack.hpp"
+#include "rwn/numerics/pack.hpp"
 
 namespace rwn::RWN_ISA {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "rwn/kernels/structured_step.hpp"
 
-#include "rwn/pack.hpp"
+#include "rwn/numerics/pack.hpp"
 #include "thesis_bounds.hpp"
 #include "with_wavelet.hpp"
 

@@ -1,9 +1,9 @@
 // The `thesis` learning rates at one sample (eq. 4.35-4.124, E.1-E.24), inside the training loop.
 #pragma once
 
-#include "rwn/pack.hpp"
+#include "rwn/numerics/pack.hpp"
 #include "rwn/kernels/structured_step.hpp"
-#include "rwn/plant_gain.hpp"
+#include "rwn/networks/plant_gain.hpp"
 
 namespace rwn::RWN_ISA {
 

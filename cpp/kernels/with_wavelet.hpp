@@ -1,8 +1,8 @@
 // From the index of a wavelet in rwn::Wavelets to its own type, once per call of a kernel.
 #pragma once
 
-#include "rwn/pack.hpp"
-#include "rwn/wavelets.hpp"
+#include "rwn/numerics/pack.hpp"
+#include "rwn/networks/wavelets.hpp"
 
 namespace rwn::RWN_ISA {
 

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "rwn/conventional_network.hpp"
+#include "rwn/networks/conventional_network.hpp"
 
 namespace rwn::testing {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "rwn/formula.hpp"
+#include "rwn/model/formula.hpp"
 
 namespace rwn {
 

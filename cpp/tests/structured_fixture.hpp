@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "rwn/structured_network.hpp"
+#include "rwn/networks/structured_network.hpp"
 
 namespace rwn::testing {
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from rwn._core import __version__ as __version__
 from rwn.diagnose import diagnose as diagnose
 from rwn.errors import InputError as InputError
-from rwn.fit.identify import Fit as Fit
+from rwn.fit.identify import Identification as Identification
 from rwn.fit.identify import identify as identify
+from rwn.model.files import read_model as read_model
 from rwn.model.model import Model as Model
-from rwn.model.model import read_model as read_model
 from rwn.networks.conventional_network import ConventionalNetwork as ConventionalNetwork
 from rwn.networks.online_training import OnlineTraining as OnlineTraining
 from rwn.networks.online_training import train_recurrent as train_recurrent

@@ -29,19 +29,20 @@ class Work:
         """
         So far; one unit is about a nanosecond of a 4 GHz core.
         """
-class Plant:
+class Task:
     """
-    The blind trials' motor, one sample at a time.
+    What is simulated: a drive, the input of one run, and what its effects follow.
     """
-    def __init__(self, parameters: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex], sample_time: typing.SupportsFloat | typing.SupportsIndex, voltage_scale: typing.SupportsFloat | typing.SupportsIndex, substeps: typing.SupportsInt | typing.SupportsIndex, fineness: typing.SupportsFloat | typing.SupportsIndex) -> None:
+    def __init__(self, drive: str, *, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_from_speed: bool = False, restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = []) -> None:
         ...
-    def sample(self) -> typing.Annotated[list[float], "FixedSize(6)"]:
-        ...
-    def step(self, voltage: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
-    @property
-    def substeps(self) -> int:
-        ...
+class Measurements:
+    """
+    Recorded signals (n) of one run; empty: not recorded, NaN: does not count.
+    """
+    def __init__(self, *, current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"] = [1.0, 1.0, 1.0], speed_measurement: str = 'instantaneous', persistence: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"] = [0.0, 0.0, 0.0]) -> None:
+        """
+        weights: 1 / standard deviation of current, speed and position; persistence: correlation of the error of each with the one before, which then counts as what is new in it.
+        """
 class Wavelet:
     def __init__(self, name: str, omega0: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
@@ -236,10 +237,6 @@ def impulse_sums(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2,
     """
     Sums over r of |C A^r e1| and |C A^r e2|.
     """
-def inverse_dynamics(parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex, time: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], acceleration: numpy.typing.NDArray[numpy.float64], own: collections.abc.Sequence[OwnEffect] = []) -> numpy.typing.NDArray[numpy.float64]:
-    """
-    Driving torque (n) that the model needs for a motion.
-    """
 def isa() -> str:
     """
     Instruction set in use.
@@ -252,9 +249,9 @@ def motor_parameter_table() -> list:
     """
     The motor's own parameters.
     """
-def normal_equations(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], current: numpy.typing.NDArray[numpy.float64], speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"], speed_measurement: str = 'instantaneous', angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_from_speed: bool = False, restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = [], persistence: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"] = [0.0, 0.0, 0.0], work: Work | None = None) -> tuple:
+def normal_equations(task: Task, measurements: Measurements, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], work: Work | None = None) -> tuple:
     """
-    Free-run output error: status, chi2, count, J'r (p) and J'J (p, p). Empty arrays: not recorded.
+    Free-run output error: status, chi2, count, J'r (p) and J'J (p, p).
     """
 def parameter_count() -> int:
     ...
@@ -270,12 +267,6 @@ def plant_gain_by_eigen(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     """
     rho(A) and cond(M) from Eigen's eigendecomposition.
     """
-def plant_parameter_names() -> list[str]:
-    ...
-def plant_run(parameters: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex], voltage: numpy.typing.NDArray[numpy.float64], sample_time: typing.SupportsFloat | typing.SupportsIndex, substeps: typing.SupportsInt | typing.SupportsIndex, fineness: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
-    """
-    Rows of (current, speed, position, sensed current, sensed speed, temperature rise), one per voltage.
-    """
 def rate_defaults() -> dict:
     ...
 def rate_rules() -> list[tuple[str, str]]:
@@ -286,7 +277,7 @@ def recursive_gauss_newton(network: StructuredNetwork, input: typing.Annotated[n
     ...
 def select_wavelets(wavelet: Wavelet, m: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], d: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
     ...
-def simulate(kind: str, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_from_speed: bool = False, restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = [], work: Work | None = None) -> tuple:
+def simulate(task: Task, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], work: Work | None = None) -> tuple:
     """
     Returns status, current, speed, position (n) and their derivatives (n, p).
     """
@@ -314,6 +305,10 @@ def trainer_defaults() -> dict:
     ...
 def trainer_names() -> list[str]:
     ...
+def unknown_inputs(task: Task, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], *, speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], acceleration: numpy.typing.NDArray[numpy.float64], current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., current_slope: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
+    """
+    Torque (n) and, where the current is given, voltage (n) that the equations leave over along a motion.
+    """
 def variable_projection(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, mu: typing.SupportsFloat | typing.SupportsIndex, beta: typing.SupportsFloat | typing.SupportsIndex, resolution: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...
 def wavelet_library(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], levels: typing.SupportsInt | typing.SupportsIndex, zeta: typing.SupportsFloat | typing.SupportsIndex) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
@@ -326,3 +321,4 @@ max_active_effects: int = 8
 max_order: int = 20
 max_own_effects: int = 6
 max_own_parameters: int = 8
+scale_quantities: list = ['torque', 'speed', 'voltage', 'current', 'inertia', 'time_step', 'duration', 'loss']

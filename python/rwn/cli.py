@@ -49,7 +49,7 @@ def diagnose(
     overwrite: Overwrite = False,
 ) -> None:
     """Locate the mismatch, name the missing physics, model it and show that the simulation improves."""
-    from rwn.model.model import read_model
+    from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.report.files import output_folder
     from rwn.report.provenance import source
@@ -93,7 +93,7 @@ def simulate(
     overwrite: Overwrite = False,
 ) -> None:
     """Run a model freely from the input signal of a recording."""
-    from rwn.model.model import read_model
+    from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.recording.recording import write_csv
     from rwn.report.files import output_file
@@ -118,7 +118,7 @@ def identify(
     """Fit the parameters of a model, effects included, within their declared uncertainty."""
     from contextlib import nullcontext
 
-    from rwn.model.model import read_model, write_model
+    from rwn.model.files import read_model, write_model
     from rwn.model.recordings import read_recordings
     from rwn.report import text as words
     from rwn.report.files import output_file
@@ -141,7 +141,7 @@ def effects(
 ) -> None:
     """The effects that rwn can name: site, equation, parameters, source."""
     from rwn.model import vocabulary as known
-    from rwn.model.model import read_model
+    from rwn.model.files import read_model
 
     table = read_model(model).effect_table if model else known.table()
     if name is None:
@@ -153,7 +153,7 @@ def effects(
     effect = table[name]
     typer.echo(f"{effect.name}: {effect.meaning}\nsite: {effect.site}\nequation: {effect.equation}")
     for p in effect.parameters:
-        scale = "" if p.scale == "none" else f" x {p.scale} of the drive"
+        scale = f" x {p.scale.words} of the drive" if p.scale.powers else ""
         typer.echo(f"  {p.name} [{p.unit}]: {p.meaning}; {p.lower:g} to {p.upper:g}{scale}")
     typer.echo(f"source: {effect.source}")
 
@@ -208,7 +208,7 @@ def _progress() -> Any:
 
 
 def _write_results(found: Diagnosis, folder: Path) -> None:
-    from rwn.model.model import write_model
+    from rwn.model.files import write_model
     from rwn.report import write_report
 
     (folder / "diagnosis.json").write_bytes(found.to_json())
@@ -244,7 +244,7 @@ def _mount(name: str, module: str) -> None:
 def main() -> None:
     """The entry point `rwn`."""
     for name in ("thesis", "trials"):
-        _mount(name, f"rwn.{name}.cli")
+        _mount(name, f"rwn.studies.{name}.cli")
     try:
         status = app(standalone_mode=False)
     except (ValueError, OSError) as error:

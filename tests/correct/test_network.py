@@ -10,14 +10,16 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
-from rwn.correct.network import proved_stand_in, stand_in
-from rwn.correct.network_formula import places
-from rwn.fit.preparation import prepare, proof_target
-from rwn.model.drives import LINEAR_AXIS
-from rwn.model.model import Model, write_model
+from rwn.correct.network import network_correction, proved_network
+from rwn.fit.network_formula import places
+from rwn.fit.preparation import prepare
+from rwn.model.drives.axis import LINEAR_AXIS
+from rwn.model.files import write_model
+from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
-from rwn.name.forward import explain
+from rwn.name.forward import rank
 from rwn.report import text as words
+from rwn.simulate.run import judging_run
 
 NOMINAL = Model(
     kind="dc",
@@ -86,21 +88,21 @@ def test_the_sentence_says_so(waved: rwn.Diagnosis) -> None:
 
 
 def test_a_network_over_the_angle() -> None:
-    found = explain(prepare([recorded(seed, once_a_turn) for seed in range(2)], NOMINAL), progress=_silent, names=NONE)
-    made = stand_in(found, NOMINAL)
+    ranking = rank(prepare([recorded(seed, once_a_turn) for seed in range(2)], NOMINAL), progress=_silent, names=NONE)
+    made = network_correction(ranking, NOMINAL)
     assert made is not None
     assert made.place.words == "a torque over angle"
-    assert made.cost < 1.1 * found.left.count, "nothing but noise is left"
-    assert found.nominal.cost > 2.0 * found.left.count
+    assert made.cost < 1.1 * ranking.left.count, "nothing but noise is left"
+    assert ranking.nominal.cost > 2.0 * ranking.left.count
 
 
 def test_what_the_nominal_term_can_do_is_not_left_to_the_network() -> None:
     unsure = replace(NOMINAL, uncertainty={**NOMINAL.uncertainty, "viscous_friction": 30.0})
-    found = explain(prepare([recorded(seed, wavy) for seed in range(2)], unsure), progress=_silent, names=NONE)
-    made = stand_in(found, unsure, at=places(found.setup, unsure)[0])
+    ranking = rank(prepare([recorded(seed, wavy) for seed in range(2)], unsure), progress=_silent, names=NONE)
+    made = network_correction(ranking, unsure, at=places(ranking.problem, unsure)[0])
     assert made is not None
     effect = made.model.own_effects[-1]
-    speed = np.concatenate([t.speed for t in found.setup.whole.targets])
+    speed = np.concatenate([r.speed for r in ranking.problem.whole])
     values = {p.name: p.start for p in effect.parameters}
     torque = effect.formula.evaluate({**values, "speed": speed})
     share = (torque @ speed) ** 2 / (torque @ torque) / (speed @ speed)
@@ -110,13 +112,13 @@ def test_what_the_nominal_term_can_do_is_not_left_to_the_network() -> None:
 def test_a_network_that_does_not_help_elsewhere_is_not_kept() -> None:
     """Held-out recordings of another machine, which brakes where this one drives."""
     runs = [recorded(0, wavy), recorded(1, wavy), recorded(2, lambda w, a: -wavy(w, a))]
-    found = explain(prepare(runs[:2], NOMINAL), progress=_silent, names=NONE)
-    assert stand_in(found, NOMINAL) is not None
-    assert proved_stand_in(found, NOMINAL, [proof_target(runs[2], NOMINAL)], seed=0) is None
+    ranking = rank(prepare(runs[:2], NOMINAL), progress=_silent, names=NONE)
+    assert network_correction(ranking, NOMINAL) is not None
+    assert proved_network(ranking, NOMINAL, [judging_run(runs[2], NOMINAL)], seed=0) is None
 
 
 def test_a_name_that_is_proved_and_not_the_whole_stands_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rwn.decide.decision.proved_stand_in", lambda *_, **__: None)
+    monkeypatch.setattr("rwn.correct.correction.proved_network", lambda *_, **__: None)
     runs = [recorded(seed, rubbing_and_caught, samples=1200) for seed in range(3)]
     found = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
     assert found.verdict == "unexplained"
@@ -132,8 +134,8 @@ def test_a_name_that_is_proved_and_not_the_whole_stands_in(monkeypatch: pytest.M
 
 def test_without_held_out_recordings_it_is_learned_anew_for_each() -> None:
     runs = [recorded(seed, wavy) for seed in range(2)]
-    found = explain(prepare(runs, NOMINAL), progress=_silent, names=NONE)
-    kept = proved_stand_in(found, NOMINAL, [], seed=0)
+    ranking = rank(prepare(runs, NOMINAL), progress=_silent, names=NONE)
+    kept = proved_network(ranking, NOMINAL, [], seed=0)
     assert kept is not None
     assert all("left out" in row.recording for row in kept[1])
     main = next(r for r in kept[1] if r.region == "all" and r.signal == "speed")
@@ -166,8 +168,8 @@ def test_a_force_over_the_position_of_a_linear_axis() -> None:
         signals = {"force": force, "position": true["position"] + rng.normal(0, 2e-5, t.size),
                    "speed": true["speed"] + rng.normal(0, 1e-3, t.size)}  # fmt: skip
         runs.append(replace(run, signals=signals))
-    found = explain(prepare(runs[:2], plain), progress=_silent, names=NONE)
-    kept = proved_stand_in(found, plain, [proof_target(runs[2], plain)], seed=0)
+    ranking = rank(prepare(runs[:2], plain), progress=_silent, names=NONE)
+    kept = proved_network(ranking, plain, [judging_run(runs[2], plain)], seed=0)
     assert kept is not None
     assert kept[0].place.words == "a force over position"
     row = next(r for r in kept[1] if r.region == "all" and r.signal == "speed")

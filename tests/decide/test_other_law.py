@@ -7,10 +7,11 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.decide import verdict
-from rwn.decide.other_law import another_law
+from rwn.decide.other_law import other_law
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.name.forward import Explanation, explain
+from rwn.name.forward import rank
+from rwn.name.ranking import Ranking
 
 NOMINAL = Model(
     kind="dc",
@@ -19,25 +20,25 @@ NOMINAL = Model(
 )
 
 
-def drag(power: int) -> Explanation:
+def drag(power: int) -> Ranking:
     """A motor whose drag grows with a power of its speed, explained with quadratic drag at hand."""
     runs = [recorded(seed, lambda w, _: -0.03 * w * abs(w / 90.0) ** (power - 1) / 90.0) for seed in range(2)]
-    return explain(prepare(runs, NOMINAL), progress=lambda *_: None, names=["quadratic-drag"])
+    return rank(prepare(runs, NOMINAL), progress=lambda *_: None, names=["quadratic-drag"])
 
 
 @pytest.mark.parametrize(("power", "seen"), [(2, ""), (3, "a torque over speed")])
 def test_a_cubic_drag_is_not_sure_to_be_a_quadratic_one(power: int, seen: str) -> None:
-    found = drag(power)
-    chosen = found.hypotheses[0]
-    assert chosen.fitted.added == ("quadratic-drag",)
-    place = another_law(found, chosen, NOMINAL)
+    ranking = drag(power)
+    chosen = ranking.fits[0]
+    assert chosen.added == ("quadratic-drag",)
+    place = other_law(ranking, chosen, NOMINAL)
     assert (place.words if place else "") == seen
 
 
 def test_a_name_that_leaves_another_law_is_not_given_as_sure() -> None:
-    found = drag(2)
-    assert verdict.whole(found, found.hypotheses[0]) == 1.0
-    assert verdict.whole(found, found.hypotheses[0], another=True) == verdict.ANOTHER < 0.5
+    ranking = drag(2)
+    assert verdict.whole(ranking, ranking.fits[0]) == 1.0
+    assert verdict.whole(ranking, ranking.fits[0], another=True) == verdict.ANOTHER < 0.5
 
 
 def test_the_report_says_that_a_name_may_only_be_the_nearest() -> None:

@@ -10,12 +10,12 @@ import pytest
 
 import rwn
 from rwn.faults.delay import Suspicion, believed, first_effects, rivals, suspected
-from rwn.faults.fault import SHIFT, Mistake
+from rwn.faults.fault import SHIFT, Fault
 from rwn.faults.fault import without as undone
-from rwn.faults.resolve import explained
+from rwn.faults.resolve import resolved
 from rwn.faults.scale import wrong_scale
 from rwn.fit.preparation import prepare
-from rwn.name.forward import explain
+from rwn.name.forward import rank
 from rwn.report import text as words
 from rwn.report.diagnosis import Beneath
 
@@ -103,16 +103,16 @@ def test_missing_physics_is_no_mistake(model: rwn.Model) -> None:
 def test_channels_out_of_step(
     model: rwn.Model, right: rwn.Recording, names: tuple[str, ...], delay: int, signal: str
 ) -> None:
-    made, found = explained([altered(right, names, delay=delay)], model, say=silent)
-    assert [(m.name, m.signals[0], m.delay) for m in made] == [("time-shift", signal, delay)]
-    assert not found.hypotheses[0].fitted.added
+    faults, ranking = resolved([altered(right, names, delay=delay)], model, say=silent)
+    assert [(f.name, f.signals[0], f.delay) for f in faults] == [("time-shift", signal, delay)]
+    assert not ranking.fits[0].added
 
 
 def test_a_channel_out_of_step_is_seen_through_missing_physics(model: rwn.Model) -> None:
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    made, found = explained([altered(friction, ("current",), delay=6)], model, say=silent)
-    assert [(m.name, m.delay) for m in made] == [("time-shift", 6)]
-    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+    faults, ranking = resolved([altered(friction, ("current",), delay=6)], model, say=silent)
+    assert [(f.name, f.delay) for f in faults] == [("time-shift", 6)]
+    assert ranking.fits[0].added == ("coulomb-friction",)
 
 
 def test_nothing_is_compared_where_an_early_channel_was_not_measured(model: rwn.Model) -> None:
@@ -120,22 +120,22 @@ def test_nothing_is_compared_where_an_early_channel_was_not_measured(model: rwn.
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     run = replace(friction, time=friction.time[:-6], signals={s: v[:-6] for s, v in friction.signals.items()})
     early = replace(run, signals={**run.signals, "current": friction.signals["current"][6:]})
-    made, found = explained([early], model, say=silent)
-    assert [(m.name, m.delay) for m in made] == [("time-shift", -6)]
-    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
-    assert found.left.at_the_floor
-    (recording,) = undone([early], made[0])
+    faults, ranking = resolved([early], model, say=silent)
+    assert [(f.name, f.delay) for f in faults] == [("time-shift", -6)]
+    assert ranking.fits[0].added == ("coulomb-friction",)
+    assert ranking.left.at_the_floor
+    (recording,) = undone([early], faults[0])
     assert recording.known_from == {"current": 6}
     assert np.array_equal(recording.signals["current"][6:], run.signals["current"][6:])
 
     def errors(guess: float) -> list[float]:
         current = recording.signals["current"].copy()
         current[:6] += guess
-        problem = prepare([replace(recording, signals={**recording.signals, "current": current})], model).problem
-        problem = replace(problem, noise=found.setup.problem.noise)
-        best = found.closest
-        (left,) = problem.residuals(best.vector, best.candidate.active)
-        return [problem.error(best.vector, best.candidate.active), float(np.sum(left["current"] ** 2))]
+        problem = prepare([replace(recording, signals={**recording.signals, "current": current})], model)
+        problem = replace(problem, noise=ranking.problem.noise)
+        best = ranking.closest
+        (left,) = problem.residuals(best.vector, best.active)
+        return [problem.error(best.vector, best.active), float(np.sum(left["current"] ** 2))]
 
     assert errors(0.0) == errors(1e3)
 
@@ -162,16 +162,16 @@ def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model
     share = 1.0 - np.exp(-float(time[1] - time[0]) / 4e-3)
     for k in range(1, time.size):
         speed[k] = speed[k - 1] + share * (speed[k] - speed[k - 1])
-    made, found = explained([replace(friction, signals={**friction.signals, "speed": speed})], model, say=silent)
-    assert made == []
-    assert set(found.hypotheses[0].fitted.added) == {"coulomb-friction", "speed-sensor-lag"}
+    faults, ranking = resolved([replace(friction, signals={**friction.signals, "speed": speed})], model, say=silent)
+    assert faults == []
+    assert set(ranking.fits[0].added) == {"coulomb-friction", "speed-sensor-lag"}
 
 
 def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rwn.Recording) -> None:
     assert suspected([right], model) is None
     doubt = suspected([altered(right, ("current",), delay=6)], model)
     assert doubt is not None
-    assert (doubt.mistake.name, doubt.mistake.delay) == ("time-shift", 6)
+    assert (doubt.fault.name, doubt.fault.delay) == ("time-shift", 6)
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     assert suspected([friction], model) is None, "missing physics is none"
 
@@ -189,14 +189,14 @@ def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Mo
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     wrong = altered(friction, MOTION, 1.0 / 3.5)
     rough = wrong_scale([wrong], model)
-    made, found = explained([wrong], model, say=silent)
+    faults, ranking = resolved([wrong], model, say=silent)
     assert rough is not None
-    assert [m.name for m in made] == ["wrong-gear-ratio"]
-    assert abs(3.5 * made[0].factor - 1.0) < abs(3.5 * rough.factor - 1.0)
-    interval = made[0].found().parameters["factor"].interval
+    assert [f.name for f in faults] == ["wrong-gear-ratio"]
+    assert abs(3.5 * faults[0].factor - 1.0) < abs(3.5 * rough.factor - 1.0)
+    interval = faults[0].found().parameters["factor"].interval
     assert interval is not None
     assert interval[0] < 1.0 / 3.5 < interval[1]
-    assert found.hypotheses[0].fitted.added == ("coulomb-friction",)
+    assert ranking.fits[0].added == ("coulomb-friction",)
 
 
 def test_a_gear_of_the_size_of_a_unit_is_not_told_from_it(model: rwn.Model, right: rwn.Recording) -> None:
@@ -245,18 +245,18 @@ def test_a_drive_that_is_hardly_moved_says_nothing(model: rwn.Model, right: rwn.
 
 def test_what_fits_best_alone_is_a_rival_though_its_law_is_on_a_limit(model: rwn.Model) -> None:
     recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    found = explain(prepare([recording], model), progress=lambda *_: None, at_once=1)
-    least = min(found.alone.fits, key=lambda f: f.cost).added
-    others = tuple(h for h in found.hypotheses if not set(h.fitted.added) & set(least))
-    strained = replace(found, hypotheses=others)  # what is on a limit is no hypothesis
-    assert set(least) <= set(first_effects(strained)) <= set(rivals(strained))
-    assert set(others[0].fitted.added) <= set(first_effects(strained))
+    ranking = rank(prepare([recording], model), progress=lambda *_: None, at_once=1)
+    least = min(ranking.alone.fits, key=lambda f: f.cost).added
+    others = tuple(h for h in ranking.fits if not set(h.added) & set(least))
+    without_it = replace(ranking, fits=others)  # what is at a limit is not ranked
+    assert set(least) <= set(first_effects(without_it)) <= set(rivals(without_it))
+    assert set(others[0].added) <= set(first_effects(without_it))
 
 
 @pytest.mark.parametrize(("physics", "told"), [(0.087, True), (0.03, False), (0.0, False)])
 def test_a_delay_that_leaves_noise_alone_beats_an_effect_that_leaves_more(physics: float, told: bool) -> None:
     """An early speed looks much like that of a motor before its shaft, but for a tenth of the noise."""
-    mistake = Mistake(name=SHIFT, signals=("speed",), delay=-7, step=5e-4, meaning="")
-    doubt = Suspicion(mistake=mistake, noise={}, before=8.0, after=0.012)
+    fault = Fault(name=SHIFT, signals=("speed",), delay=-7, step=5e-4, meaning="")
+    doubt = Suspicion(fault=fault, noise={}, before=8.0, after=0.012)
     assert not believed(doubt, left=doubt.after, physics=physics)
     assert believed(doubt, left=doubt.after, physics=physics, little=doubt.little) == told

@@ -12,25 +12,26 @@ import rwn
 from made_up_motor import MOTOR, recorded
 from rwn import _core
 from rwn.fit import budget
-from rwn.fit.hypothesis import candidate, cost_of_a_step, fit
-from rwn.fit.preparation import Setup, prepare
-from rwn.fit.problem import OutputError
-from rwn.name.forward import explain
-from rwn.name.screening import Search
+from rwn.fit.fit import cost_of_a_step, fit, fit_nominal
+from rwn.fit.hypothesis import hypothesis
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
+from rwn.name.forward import rank
+from rwn.name.screening import screen
 from rwn.parallel import crew
 
 DEMO = Path(rwn.__file__).parent / "demo"
 LATE = ["quadratic-drag", "input-delay"]  # neither is what is missing in the demo
 
 
-def _setup(work: _core.Work | None = None) -> Setup:
+def _problem(work: _core.Work | None = None) -> Problem:
     model = rwn.read_model(DEMO / "model.toml")
     return prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model, work=work)
 
 
-def _cost(problem: OutputError, derivatives: int, name: str = "") -> int:
-    setup = _setup()
-    this = candidate(setup.nominal, (name,) if name else (), setup.scales)
+def _cost(problem: Problem, derivatives: int, name: str = "") -> int:
+    known = _problem()
+    this = hypothesis(known.prior, (name,) if name else (), known.scales)
     own = problem.metered()
     own.normal(this.vector, this.active, this.by[:derivatives])
     return own.work.done
@@ -43,44 +44,44 @@ def _spent(share: float) -> _core.Work:
 
 
 def test_a_run_costs_by_its_length_its_derivatives_and_its_equations() -> None:
-    problem = _setup().problem
+    problem = _problem()
     once = _cost(problem, 0)
     assert once == _cost(problem, 0) > 0
-    half = replace(problem, targets=tuple(t.until(t.time.size // 2) for t in problem.targets))
+    half = replace(problem, runs=tuple(r.until(r.time.size // 2) for r in problem.runs))
     assert _cost(half, 0) == pytest.approx(once / 2, rel=0.1)
     assert once < _cost(problem, 4) < _cost(problem, 4, "stribeck-friction") < _cost(problem, 4, "backlash")
 
 
 def test_what_a_step_costs_is_told_from_the_beginning_of_the_recordings() -> None:
-    setup = _setup()
+    problem = _problem()
     for name in ("quadratic-drag", "shaft-compliance"):
-        this = candidate(setup.nominal, (name,), setup.scales)
-        own = setup.problem.metered()
+        this = hypothesis(problem.prior, (name,), problem.scales)
+        own = problem.metered()
         own.normal(this.vector, this.active, this.by)
-        assert cost_of_a_step(setup.problem, this) == pytest.approx(own.work.done, rel=0.2)
-    assert 0 < setup.problem.work.done < own.work.done  # measuring is counted too
+        assert cost_of_a_step(problem, this) == pytest.approx(own.work.done, rel=0.2)
+    assert 0 < problem.work.done < own.work.done  # measuring is counted too
 
 
 def test_what_a_search_costs_does_not_depend_on_threads() -> None:
     costs = []
     for jobs in (1, 2):
-        setup = _setup()
+        problem = _problem()
         with crew(jobs):
-            explain(setup, progress=lambda *_: None, names=LATE)
-        costs.append(setup.problem.work.done)
+            rank(problem, progress=lambda *_: None, names=LATE)
+        costs.append(problem.work.done)
     assert costs[0] == costs[1] > 0
 
 
 def test_a_fit_ends_with_its_share() -> None:
-    setup = _setup()
-    this = candidate(setup.nominal, ("stribeck-friction",), setup.scales)
-    whole = fit(setup.problem, this)
-    assert whole.iterations > 3
-    begun = setup.problem.work.done
-    least = fit(setup.problem, this, share=0.0)
-    assert least.iterations == 1
-    assert whole.cost < least.cost < least.first
-    assert 0 < setup.problem.work.done - begun < 0.5 * begun
+    problem = _problem()
+    this = hypothesis(problem.prior, ("stribeck-friction",), problem.scales)
+    whole = fit(problem, this)
+    assert whole.minimum.iterations > 3
+    begun = problem.work.done
+    least = fit(problem, this, share=0.0)
+    assert least.minimum.iterations == 1
+    assert whole.cost < least.cost < least.minimum.first
+    assert 0 < problem.work.done - begun < 0.5 * begun
 
 
 def test_shares_are_those_of_a_stage() -> None:
@@ -103,24 +104,24 @@ def test_something_is_left_however_much_was_spent() -> None:
 
 
 def test_where_the_budget_is_spent_single_effects_are_tried_and_no_more() -> None:
-    found = explain(_setup(_spent(0.9)), progress=lambda *_: None, names=LATE)
-    assert found.cut_short
-    assert {len(h.fitted.added) for h in found.hypotheses} == {0, 1}
-    whole = explain(_setup(), progress=lambda *_: None, names=LATE)
+    ranking = rank(_problem(_spent(0.9)), progress=lambda *_: None, names=LATE)
+    assert ranking.cut_short
+    assert {len(f.added) for f in ranking.fits} == {0, 1}
+    whole = rank(_problem(), progress=lambda *_: None, names=LATE)
     assert not whole.cut_short
-    assert whole.closest.cost <= found.closest.cost
+    assert whole.closest.cost <= ranking.closest.cost
 
 
 def test_pairs_that_are_known_are_weighed_though_nothing_is_left_to_try_more() -> None:
     names = ["unbalance", "quadratic-drag"]
     both = recorded(1, lambda speed, angle: -0.004 * np.sin(angle) - 1e-5 * speed * abs(speed), 1000)
 
-    def setup(spent: float) -> Setup:
+    def problem(spent: float) -> Problem:
         return prepare([both], rwn.Model(kind="dc", parameters=MOTOR), work=_spent(spent))
 
-    pairs = explain(setup(0.0), progress=lambda *_: None, names=names)
-    again = explain(setup(0.9), progress=lambda *_: None, names=names, after=pairs)
-    assert explain(setup(0.9), progress=lambda *_: None, names=names).cut_short
+    pairs = rank(problem(0.0), progress=lambda *_: None, names=names)
+    again = rank(problem(0.9), progress=lambda *_: None, names=names, after=pairs)
+    assert rank(problem(0.9), progress=lambda *_: None, names=names).cut_short
     assert set(again.closest.added) == set(pairs.closest.added) == set(names)
     assert not again.cut_short  # what is left is noise: nothing more would have been tried
 
@@ -135,6 +136,5 @@ def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_the_search_that_looks_no_further_still_finds_what_is_missing() -> None:
-    setup = _setup(_spent(5.0))
-    search = Search.of(setup)
-    assert search.explain(search.fit_nominal(), ["coulomb-friction", *LATE])[0].added == ("coulomb-friction",)
+    problem = _problem(_spent(5.0))
+    assert screen(problem, fit_nominal(problem), ["coulomb-friction", *LATE])[0].added == ("coulomb-friction",)

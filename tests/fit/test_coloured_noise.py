@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 import rwn
 from rwn.fit.coloured_noise import innovations, under_coloured_noise
-from rwn.fit.fit import Fitted
-from rwn.fit.preparation import prepare, windowed
-from rwn.fit.problem import OutputError
-from rwn.name.forward import Explanation, explain
-from rwn.name.screening import Search
+from rwn.fit.fit import Fit, fit_nominal, refit
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
+from rwn.name.forward import rank
+from rwn.name.ranking import Ranking
+from rwn.simulate.run import windowed
 
 Array = NDArray[np.float64]
 STEP, NOISE, SHARE = 0.02, 0.05, 0.95
@@ -43,20 +44,20 @@ def made(seed: int, *, share: float = SHARE, samples: int = 500, rectified: bool
     )
 
 
-def plain_fit(recording: rwn.Recording) -> tuple[Search, Fitted]:
-    search = Search.of(prepare([recording], UNKNOWN))
-    return search, search.fit_nominal()
+def plain_fit(recording: rwn.Recording) -> tuple[Problem, Fit]:
+    problem = prepare([recording], UNKNOWN)
+    return problem, fit_nominal(problem)
 
 
-def explained(recording: rwn.Recording) -> Explanation:
-    return explain(prepare([recording], UNKNOWN), progress=lambda *_: None, names=["sensor-rectification"], at_once=1)
+def ranked(recording: rwn.Recording) -> Ranking:
+    return rank(prepare([recording], UNKNOWN), progress=lambda *_: None, names=["sensor-rectification"], at_once=1)
 
 
-def by_hand(problem: OutputError, fitted: Fitted, share: float, every: int = 0) -> tuple[float, Array, Array]:
+def by_hand(problem: Problem, this: Fit, share: float, every: int = 0) -> tuple[float, Array, Array]:
     """Squared error, gradient and curvature of what is new in each error; first samples by themselves."""
-    (target,), active, by = problem.targets, fitted.candidate.active, fitted.candidate.by
-    out = problem.simulate(target, fitted.vector, active, by)
-    errors, slopes = target.speed - out.signals["speed"], out.slopes["speed"]
+    (run,), active, by = problem.runs, this.active, this.hypothesis.by
+    out = problem.simulate(run, this.vector, active, by)
+    errors, slopes = run.speed - out.signals["speed"], out.slopes["speed"]
     rows, columns = [], []
     for k in range(errors.size):
         if k == 0 or (every and k % every == 0) or np.isnan(errors[k - 1]):
@@ -81,32 +82,32 @@ MOTOR = rwn.Model(
 )  # fmt: skip
 
 
-def motor_in_windows() -> tuple[OutputError, Fitted]:
+def motor_in_windows() -> tuple[Problem, Fit]:
     """A motor whose motion restarts from the recorded one, with some samples that were lost."""
     rng = np.random.default_rng(4)
     time = 1e-3 * np.arange(600)
     bare = rwn.Recording(name="bare", time=time, signals={"voltage": 5.0 * np.sin(9.0 * time), "speed": 0.0 * time})
     seen = rwn.simulate(MOTOR, bare).signals["speed"] + lasting(rng, time.size)
-    setup = prepare([rwn.Recording(name="seen", time=time, signals={**bare.signals, "speed": seen})], MOTOR)
-    fitted = Search.of(setup).fit_nominal()
-    target = windowed(setup.problem.targets[0], length=60)
+    problem = prepare([rwn.Recording(name="seen", time=time, signals={**bare.signals, "speed": seen})], MOTOR)
+    this = fit_nominal(problem)
+    run = windowed(problem.runs[0], length=60)
     gaps = seen.copy()
     gaps[100:103] = np.nan
-    return replace(setup.problem, targets=(replace(target, speed=gaps),)), fitted
+    return replace(problem, runs=(replace(run, speed=gaps),)), this
 
 
-def expect_what_is_new(problem: OutputError, fitted: Fitted, every: int = 0) -> None:
-    chi2, gradient, curvature = by_hand(problem, fitted, 0.8, every)
+def expect_what_is_new(problem: Problem, this: Fit, every: int = 0) -> None:
+    chi2, gradient, curvature = by_hand(problem, this, 0.8, every)
     weighted = replace(problem, persistence={"speed": 0.8})
-    normal = weighted.normal(fitted.vector, fitted.candidate.active, fitted.candidate.by)
+    normal = weighted.normal(this.vector, this.active, this.hypothesis.by)
     assert normal.chi2 == pytest.approx(chi2, rel=1e-9)
     np.testing.assert_allclose(normal.gradient, gradient, rtol=1e-7, atol=1e-9 * np.abs(gradient).max())
     np.testing.assert_allclose(normal.curvature, curvature, rtol=1e-9, atol=1e-12 * np.abs(curvature).max())
 
 
 def test_normal_equations_count_what_is_new_in_each_error() -> None:
-    search, fitted = plain_fit(made(1))
-    expect_what_is_new(search.problem, fitted)
+    problem, this = plain_fit(made(1))
+    expect_what_is_new(problem, this)
 
 
 def test_windows_and_gaps_begin_anew() -> None:
@@ -115,60 +116,60 @@ def test_windows_and_gaps_begin_anew() -> None:
 
 @pytest.mark.parametrize("share", [-0.1, 1.0, float("nan")])
 def test_a_persistence_is_a_correlation(share: float) -> None:
-    search, fitted = plain_fit(made(1))
-    problem = replace(search.problem, persistence={"speed": share})
+    problem, this = plain_fit(made(1))
+    weighted = replace(problem, persistence={"speed": share})
     with pytest.raises(ValueError, match="persistence is a correlation from 0 to less than 1"):
-        problem.normal(fitted.vector, [], fitted.candidate.by)
+        weighted.normal(this.vector, [], this.hypothesis.by)
 
 
 def test_persistence_and_noise_are_those_of_the_errors() -> None:
-    search, fitted = plain_fit(made(2, samples=4000))
-    problem = under_coloured_noise(search, fitted).problem
-    assert problem.persistence["speed"] == pytest.approx(SHARE, abs=0.02)
-    assert problem.noise["speed"] == pytest.approx(NOISE, rel=0.05)
-    left = innovations(problem, fitted)
+    problem, this = plain_fit(made(2, samples=4000))
+    weighted = under_coloured_noise(problem, this)
+    assert weighted.persistence["speed"] == pytest.approx(SHARE, abs=0.02)
+    assert weighted.noise["speed"] == pytest.approx(NOISE, rel=0.05)
+    left = innovations(weighted, this)
     assert left.variance == pytest.approx(1.0, abs=0.01)
     assert left.correlation_time < 1.3
 
 
 def test_independent_errors_have_none() -> None:
-    search, fitted = plain_fit(made(2, samples=4000, share=0.0))
-    weighted = under_coloured_noise(search, fitted)
-    assert weighted.problem.persistence["speed"] < 0.05
-    again = weighted.refit(fitted, weighted.problem)
-    np.testing.assert_allclose(again.minimum.values, fitted.minimum.values, rtol=5e-3)
+    problem, this = plain_fit(made(2, samples=4000, share=0.0))
+    weighted = under_coloured_noise(problem, this)
+    assert weighted.persistence["speed"] < 0.05
+    again = refit(this, weighted)
+    np.testing.assert_allclose(again.minimum.values, this.minimum.values, rtol=5e-3)
 
 
 def test_free_runs_come_closer_to_the_truth() -> None:
     """Over 12 recordings, on an input that none of them had; plain least squares follows what drifts."""
     squares = []
     for seed in range(20, 32):
-        search, plain = plain_fit(made(seed))
-        weighted = under_coloured_noise(search, plain)
-        fits = (plain, weighted.refit(plain, weighted.problem))
-        (other,) = prepare([made(99)], UNKNOWN).whole.targets
+        problem, plain = plain_fit(made(seed))
+        weighted = under_coloured_noise(problem, plain)
+        fits = (plain, refit(plain, weighted))
+        (other,) = prepare([made(99)], UNKNOWN).whole
         true = rwn.simulate(BARE, made(99)).signals["speed"]
-        runs = [search.problem.simulate(other, f.vector, ()).signals["speed"] for f in fits]
-        squares.append([np.mean((run - true) ** 2) for run in runs])
+        speeds = [problem.simulate(other, f.vector, ()).signals["speed"] for f in fits]
+        squares.append([np.mean((speed - true) ** 2) for speed in speeds])
     plainly, counted = np.sqrt(np.mean(squares, axis=0))
     assert counted < 0.75 * plainly
 
 
 def test_what_is_named_is_fitted_so_and_what_is_lacking_is_not() -> None:
-    found = explained(made(3, rectified=True))
-    named, nothing = found.hypotheses[0], found.nothing_missing
-    assert named.fitted.added == ("sensor-rectification",)
-    assert found.weighted.persistence["speed"] > 0.8
-    assert named.final is not named.fitted
-    assert nothing.final is nothing.fitted
-    assert found.counted.correlation_time < 0.2 * found.left.correlation_time
+    ranking = ranked(made(3, rectified=True))
+    named, nothing = ranking.fits[0], ranking.nothing_missing
+    assert named.added == ("sensor-rectification",)
+    assert ranking.weighted.persistence["speed"] > 0.8
+    assert named.final is not named.fit
+    assert nothing.final is nothing.fit
+    assert ranking.counted.correlation_time < 0.2 * ranking.left.correlation_time
 
 
 def test_where_nothing_but_noise_is_left_nothing_changes() -> None:
-    found = explained(made(3, rectified=True, share=0.0))
-    assert not found.weighted.persistence
-    assert all(h.final is h.fitted for h in found.hypotheses)
-    assert found.counted is found.left
+    ranking = ranked(made(3, rectified=True, share=0.0))
+    assert not ranking.weighted.persistence
+    assert all(r.final is r.fit for r in ranking.fits)
+    assert ranking.counted is ranking.left
 
 
 def test_a_diagnosis_says_so() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.quantisation import mean_rounding_error
+from rwn.recording.quantisation import mean_rounding_error
 
 DEMO = Path(rwn.__file__).parent / "demo"
 

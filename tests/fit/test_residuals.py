@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 import rwn
 from rwn.fit.preparation import prepare
-from rwn.fit.residuals import AT_THE_FLOOR, RINGING, statistics_of
+from rwn.fit.residuals import MOST_COLOURED, RINGING, statistics_of
 from rwn.model.model import Model
-from rwn.name.forward import explain
+from rwn.name.forward import rank
 
 Array = NDArray[np.float64]
 SAMPLES = 4000
@@ -49,7 +49,7 @@ def test_differences_of_counts_are_noise() -> None:
 @pytest.mark.parametrize("periods", [4.0, 5.3, 7.3])
 def test_what_swings_is_more_than_noise(periods: float) -> None:
     left = statistics_of({"speed": 5.0 * _swing(periods) + _noise()})
-    assert left.coloured < AT_THE_FLOOR  # means over 8 samples and more do not see it
+    assert left.coloured < MOST_COLOURED  # means over 8 samples and more do not see it
     assert not left.at_the_floor
     quiet = statistics_of({"speed": 0.3 * _swing(periods) + _noise()})
     assert quiet.at_the_floor  # where it is not loud it may be noise
@@ -73,6 +73,6 @@ def test_a_shaft_is_seen_beside_a_drag(stiffness: float, noise: float) -> None:
     done = rwn.simulate(Model(kind="dc", parameters=motor, effects=missing), seen)
     signals = {"voltage": voltage, "speed": done.signals["speed"] + noise * draw.standard_normal(time.size)}
     model = Model(kind="dc", parameters=motor, uncertainty=dict.fromkeys(motor, 0.05))
-    setup = prepare([rwn.Recording(name="shaft.csv", time=time, signals=signals)], model)
-    found = explain(setup, progress=lambda *_: None, names=[*sorted(missing), "backlash"], at_once=2)
-    assert set(found.hypotheses[0].fitted.added) == set(missing)
+    problem = prepare([rwn.Recording(name="shaft.csv", time=time, signals=signals)], model)
+    ranking = rank(problem, progress=lambda *_: None, names=[*sorted(missing), "backlash"], at_once=2)
+    assert set(ranking.fits[0].added) == set(missing)

@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 
 from rwn.errors import InputError
-from rwn.model import drives
-from rwn.model.model import Model, read_model, write_model
+from rwn.model.drives import KINDS, axis
+from rwn.model.files import read_model, write_model
+from rwn.model.model import Model
 from rwn.recording.columns import Column, Layout
 
 DC = {
@@ -99,7 +100,7 @@ def test_linear_axis_units(tmp_path: Path) -> None:
     text = '[motor]\nkind = "axis"\nlinear = true\ninertia = "95 kg"\nviscous_friction = "0.2 kN s/m"\n'
     model = _read(tmp_path, text)
     assert dict(model.parameters) == pytest.approx({"inertia": 95.0, "viscous_friction": 200.0})
-    assert model.drive is drives.LINEAR_AXIS
+    assert model.drive is axis.LINEAR_AXIS
     with pytest.raises(InputError, match="wrong dimension"):
         _read(tmp_path, text.replace("95 kg", "95 kg m^2"))
 
@@ -136,7 +137,7 @@ def test_where_a_model_came_from_is_no_part_of_it() -> None:
 def test_nominal_parameters_are_those_of_the_core() -> None:
     effects = pytest.importorskip("rwn.model.vocabulary")
     known = effects.motor_parameters()
-    for drive in drives.KINDS.values():
+    for drive in KINDS.values():
         for parameter in drive.parameters:
             assert known[parameter.name].unit == parameter.unit
 

@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rwn.errors import InputError
-from rwn.model import drives
 from rwn.model import formula as expression
-from rwn.model.model import Model, read_model, write_model
+from rwn.model.drives import axis
+from rwn.model.files import read_model, write_model
+from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
 
 NAMES = {"speed": "rad/s", "position": "rad", "current": "A", "k": "N m s^2", "a": "N m", "w0": "rad/s"}
@@ -142,7 +143,7 @@ def test_the_worked_example() -> None:
         ),
         ({"parameters": (replace(BRAKE.parameters[0], unit="N furz"), BRAKE.parameters[1])}, "N furz"),
         ({"parameters": (replace(BRAKE.parameters[0], name="speed"),)}, "cannot be called 'speed'"),
-        ({"drive": drives.LINEAR_AXIS}, "do not work out"),
+        ({"drive": axis.LINEAR_AXIS}, "do not work out"),
     ],
 )
 def test_wrong_definitions(changes: dict[str, object], match: str) -> None:
@@ -173,7 +174,7 @@ def _read(folder: Path, text: str) -> Model:
 def test_in_a_model_file(tmp_path: Path) -> None:
     model = _read(tmp_path, TOML)
     (effect,) = model.own_effects
-    assert effect.drive is drives.AXIS
+    assert effect.drive is axis.AXIS
     assert model.effects["eddy-brake"]["corner"] == pytest.approx(52.36, rel=1e-4)
     write_model(model, tmp_path / "again.toml")
     assert read_model(tmp_path / "again.toml") == model

@@ -8,7 +8,7 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, plant
 from rwn.fit.preparation import prepare
-from rwn.name.observable import applicable
+from rwn.name.observable import observable
 
 SURE = {"resistance": 0.05, "inertia": 0.08, "viscous_friction": 0.4}
 MODEL = rwn.Model(kind="dc", parameters=MOTOR, uncertainty=SURE)
@@ -26,15 +26,15 @@ def swinging(size: float, weight: float = 0.0) -> rwn.Recording:
 
 @pytest.mark.parametrize(("size", "told"), [(0.3, False), (2.0, True)])
 def test_an_unbalance_takes_a_sixth_of_a_turn(size: float, told: bool) -> None:
-    setup = prepare([swinging(size)], MODEL)
-    assert applicable("unbalance", setup) == told
-    assert applicable("cogging-torque", setup), "however little it turns"
+    problem = prepare([swinging(size)], MODEL)
+    assert observable("unbalance", problem) == told
+    assert observable("cogging-torque", problem), "however little it turns"
 
 
 def test_an_unbalance_is_named_where_the_shaft_never_turns_round() -> None:
     """Trial 12 of seed 10034: `unexplained` while half a turn was asked for."""
     run = swinging(2.0, weight=0.02)
-    assert np.ptp(prepare([run], MODEL).problem.targets[0].angle) < np.pi
+    assert np.ptp(prepare([run], MODEL).runs[0].angle) < np.pi
     found = rwn.diagnose([run], MODEL)
     assert [e.name for e in found.effects] == ["unbalance"]
     assert found.effects[0].parameters["amplitude"].value == pytest.approx(0.02, rel=0.02)

@@ -10,17 +10,20 @@ from numpy.typing import NDArray
 
 import rwn
 from made_up_motor import MOTOR
-from rwn.fit.preparation import Setup, prepare, windowed
+from rwn.fit.fit import fit_nominal
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name.initial_guesses.resonance import Resonance, resonances
-from rwn.name.screening import Search
+from rwn.name.screening import screen
+from rwn.simulate.run import windowed
 
 Array = NDArray[np.float64]
 
 STEP = 1e-3
 
 
-def _seen(shaft: Resonance | None, *, without: tuple[str, ...] = ()) -> Setup:
+def _seen(shaft: Resonance | None, *, without: tuple[str, ...] = ()) -> Problem:
     """A motor that is driven by steps at random, with a load on a shaft; recorded with noise, but for some signals."""
     rng = np.random.default_rng(8)
     time = STEP * np.arange(4000)
@@ -35,9 +38,9 @@ def _seen(shaft: Resonance | None, *, without: tuple[str, ...] = ()) -> Setup:
     return prepare([recording], Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "resistance": 0.1}))
 
 
-def _found(setup: Setup) -> list[Resonance]:
-    nominal = Search.of(setup).fit_nominal()
-    return resonances(setup.problem, nominal.vector, setup.problem.residuals(nominal.vector, nominal.candidate.active))
+def _found(problem: Problem) -> list[Resonance]:
+    nominal = fit_nominal(problem)
+    return resonances(problem, nominal.vector, problem.residuals(nominal.vector, nominal.active))
 
 
 @pytest.mark.parametrize("rate", [40.0, 200.0, 1000.0])
@@ -60,16 +63,15 @@ def test_a_shaft_of_such_numbers_rings_so() -> None:
 def test_without_a_free_run_of_a_recorded_speed_there_is_none_to_read_off() -> None:
     shaft = Resonance(200.0, 0.05, 0.4)
     assert _found(_seen(shaft, without=("speed",))) == []
-    seen = _seen(shaft)
-    problem = replace(seen.problem, targets=tuple(map(windowed, seen.problem.targets)))
-    assert _found(replace(seen, problem=problem)) == []
+    problem = _seen(shaft)
+    assert _found(replace(problem, runs=tuple(map(windowed, problem.runs)))) == []
 
 
 def test_a_shaft_that_rings_long_is_found_from_its_resonance() -> None:
     """Its minimum is narrow: from half the rate or twice it a fit goes astray."""
     shaft = Resonance(200.0, 0.01, 0.35)
-    search = Search.of(_seen(shaft))
-    found = search.explain(search.fit_nominal(), ["shaft-compliance"])[0]
+    problem = _seen(shaft)
+    found = screen(problem, fit_nominal(problem), ["shaft-compliance"])[0]
     stiffness, _, load = shaft.of(MOTOR["inertia"])
     assert found.value("shaft-compliance.stiffness") == pytest.approx(stiffness, rel=0.01)
     assert found.value("shaft-compliance.load_inertia") == pytest.approx(load, rel=0.01)

@@ -8,13 +8,16 @@ import numpy as np
 import pytest
 
 import rwn
+from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, fit_nominal
 from rwn.fit.levenberg_marquardt import FitStatus, Minimum
-from rwn.fit.preparation import Setup, prepare
-from rwn.fit.problem import OutputError
+from rwn.fit.part import part
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
 from rwn.model.model import Model
-from rwn.name.forward import _begun, explain
-from rwn.name.screening import ASTRAY, HARDLY, IN_PASSING, TO_THE_END, Search
-from rwn.name.starts import Racer, Row
+from rwn.name import screening
+from rwn.name.forward import _begun, rank
+from rwn.name.screening import FURTHER, LOST, _not_lost, _to_the_end, screen
+from rwn.name.starts import Attempt, Start, starts
 
 TRUE = {
     "resistance": 0.84, "inductance": 1e-4, "torque_constant": 0.116, "back_emf_constant": 0.116, "inertia": 3.84e-4,
@@ -32,7 +35,7 @@ LAG = 0.0124  # half of the motor's own 24 ms
 
 
 @pytest.fixture(scope="module")
-def lagging() -> Setup:
+def lagging() -> Problem:
     """Voltage, and a speed that lags: as far as dry friction lets it, lag and time constant may change places."""
     time, rng = 1e-3 * np.arange(4400.0), np.random.default_rng(9)
     steps = np.repeat(rng.uniform(-20.0, 20.0, 22), 200)
@@ -46,18 +49,18 @@ def lagging() -> Setup:
     return prepare(runs, Model(kind="dc", parameters=SHEET, uncertainty=UNCERTAIN))
 
 
-def test_a_lag_that_has_changed_places_with_the_motor_is_found_in_its_own(lagging: Setup) -> None:
-    found = explain(lagging, progress=lambda *_: None, names=["speed-sensor-lag", "input-delay", "actuator-deadzone"])
-    best = found.hypotheses[0].fitted
+def test_a_lag_that_has_changed_places_with_the_motor_is_found_in_its_own(lagging: Problem) -> None:
+    ranking = rank(lagging, progress=lambda *_: None, names=["speed-sensor-lag", "input-delay", "actuator-deadzone"])
+    best = ranking.fits[0].fit
     assert best.added == ("speed-sensor-lag",)
     assert best.values_of("speed-sensor-lag")["time_constant"] == pytest.approx(LAG, rel=0.01)
-    assert found.left.at_the_floor
+    assert ranking.left.at_the_floor
 
 
-def test_starts_of_a_drives_end_compete_per_first_guess_of_the_motor(lagging: Setup) -> None:
-    search = Search.of(lagging)
-    bent = search.fit_nominal()
-    kinds = {name: {r.begin for r in search._starts(bent, name, orders=3)} for name in ("speed-sensor-lag", "backlash")}
+def test_starts_of_a_drives_end_compete_per_first_guess_of_the_motor(lagging: Problem) -> None:
+    bent = fit_nominal(lagging)
+    names = ("speed-sensor-lag", "backlash")
+    kinds = {name: {s.motor for s in starts(lagging, bent, name, orders=3)} for name in names}
     assert kinds == {"speed-sensor-lag": {0, 1}, "backlash": {0}}
 
 
@@ -73,24 +76,23 @@ def test_a_delay_of_any_part_of_a_sample_is_found_where_the_winding_is_fast(late
     signals = {s: seen[s] + level * rng.standard_normal(time.size) for s, level in noise.items()}
     uncertainty = dict.fromkeys(fast, 0.06) | {"inductance": 0.0, "coulomb_friction": 0.0}
     sheet = Model(kind="dc", parameters={**fast, "inertia": 4.8e-7}, uncertainty=uncertainty)
-    search, nominal = _begun(prepare([replace(run, signals={**run.signals, **signals})], sheet))
-    found = search.explain(nominal, ["input-delay"])[0]
+    problem, nominal = _begun(prepare([replace(run, signals={**run.signals, **signals})], sheet))
+    found = screen(problem, nominal, ["input-delay"])[0]
     assert found.value("input-delay.delay") == pytest.approx(1e-3 * late, abs=2e-5)
 
 
 @pytest.mark.parametrize(("factor", "astray"), [(1.0, False), (1.02, False), (1.2, True)])
 def test_a_start_that_a_glance_has_led_far_astray_goes_on_from_where_it_began(
-    lagging: Setup, factor: float, astray: bool
+    lagging: Problem, factor: float, astray: bool
 ) -> None:
-    search = Search.of(lagging)
-    before = search._starts(search.fit_nominal(), "quadratic-drag", orders=3)[0]
-    values = before.candidate.start.copy()
+    before = starts(lagging, fit_nominal(lagging), "quadratic-drag", orders=3)[0]
+    values = before.hypothesis.start.copy()
     values[0] *= factor
-    after = before._replace(candidate=before.candidate.starting_at(values))
-    errors = [search.problem.error(r.candidate.vector, r.candidate.active) for r in (after, before)]
+    after = before._replace(hypothesis=before.hypothesis.starting_at(values))
+    errors = [lagging.error(s.hypothesis.vector, s.hypothesis.active) for s in (after, before)]
     assert errors[0] >= errors[1]
-    assert (errors[0] > ASTRAY * errors[1]) == astray
-    assert search._not_astray([(after, before)], search.problem) == [before if astray else after]
+    assert (errors[0] > LOST * errors[1]) == astray
+    assert _not_lost([(after, before)], lagging) == [before if astray else after]
 
 
 ON_LOOK, ON_ALL = "look", "all"
@@ -99,57 +101,65 @@ ON_LOOK, ON_ALL = "look", "all"
 @pytest.mark.parametrize(
     ("raced", "later", "known", "legs"),
     [
-        ((100.0, 30.0), {}, np.inf, [(ON_LOOK, IN_PASSING), (ON_ALL, TO_THE_END)]),
-        ((100.0, 90.0), {}, np.inf, [(ON_ALL, HARDLY)]),
-        ((1000.0, 400.0), {}, np.inf, [(ON_LOOK, IN_PASSING), (ON_ALL, TO_THE_END)]),
+        ((100.0, 30.0), {}, np.inf, [(ON_LOOK, FURTHER), (ON_ALL, TO_THE_END)]),
+        ((100.0, 90.0), {}, np.inf, [(ON_ALL, BRIEFLY)]),
+        ((1000.0, 400.0), {}, np.inf, [(ON_LOOK, FURTHER), (ON_ALL, TO_THE_END)]),
         ((1000.0, 400.0), dict.fromkeys((ON_LOOK, ON_ALL), (400.0, 390.0)), np.inf,
-         [(ON_LOOK, IN_PASSING), (ON_ALL, HARDLY)]),
-        ((100.0, 90.0), {ON_ALL: (60.0, 30.0)}, np.inf, [(ON_ALL, HARDLY), (ON_ALL, TO_THE_END)]),
-        ((50.0, 30.0), {}, 2.0, [(ON_ALL, HARDLY)]),
+         [(ON_LOOK, FURTHER), (ON_ALL, BRIEFLY)]),
+        ((100.0, 90.0), {ON_ALL: (60.0, 30.0)}, np.inf, [(ON_ALL, BRIEFLY), (ON_ALL, TO_THE_END)]),
+        ((50.0, 30.0), {}, 2.0, [(ON_ALL, BRIEFLY)]),
     ],
-    ids=["near the best", "hopeless", "hopeless as yet, and falling", "fell no further", "not hopeless on all",
+    ids=["near the best", "far behind", "far behind as yet, and falling", "fell no further", "not far behind on all",
          "a better is known"],
 )  # fmt: skip
 def test_a_race_goes_on_with_what_may_still_win(
-    lagging: Setup, monkeypatch: pytest.MonkeyPatch, raced: tuple[float, float],
+    lagging: Problem, monkeypatch: pytest.MonkeyPatch, raced: tuple[float, float],
     later: dict[str, tuple[float, float]], known: float, legs: list[tuple[str, int]],
 ) -> None:  # fmt: skip
     """`raced`, `later`: first and last cost of another's legs, where the best has come to 10, as raced if not given."""
-    search = Search.of(lagging)
-    look = search.part(search.fit_nominal(), 100)
-    fitted = search.fit_nominal()
-    best, other = (Racer(name, 0.0, 0, fitted.candidate) for name in ("best", "other"))
-    done = replace(fitted.minimum, status=FitStatus.CONVERGED, cost=10.0, first=20.0)
+    nominal = fit_nominal(lagging)
+    look = part(lagging, nominal, 100)
+    best, other = (Start(name, 0.0, 0, nominal.hypothesis) for name in ("best", "other"))
 
-    def under_way(costs: tuple[float, float]) -> Minimum:
-        return replace(fitted.minimum, status=FitStatus.ITERATION_LIMIT, first=costs[0], cost=costs[1], iterations=1)
+    def ended(minimum: Minimum) -> Fit:
+        return replace(nominal, minimum=minimum)
 
-    run: list[tuple[str, int]] = []
+    def done(cost: float) -> Fit:
+        return ended(replace(nominal.minimum, status=FitStatus.CONVERGED, cost=cost, first=20.0))
 
-    def leg(
-        _: Search, racer: Racer, iterations: int, problem: OutputError | None = None, *, share: float
-    ) -> Row:
+    def under_way(costs: tuple[float, float]) -> Fit:
+        return ended(
+            replace(nominal.minimum, status=FitStatus.ITERATION_LIMIT, first=costs[0], cost=costs[1], iterations=1)
+        )
+
+    gone: list[tuple[str, int]] = []
+
+    def attempt(start: Start, iterations: int, on: Problem, *, share: float) -> Attempt:
         assert share > 0.0
-        if racer is best:
-            return racer, done
-        run.append((ON_LOOK if problem is look else ON_ALL, iterations))
+        assert on is look or on is lagging
+        if start is best:
+            return Attempt(start, done(10.0))
+        gone.append((ON_LOOK if on is look else ON_ALL, iterations))
         if iterations == TO_THE_END:
-            return racer, replace(done, cost=raced[1])
-        return racer, under_way(later.get(run[-1][0], raced))
+            return Attempt(start, done(raced[1]))
+        return Attempt(start, under_way(later.get(gone[-1][0], raced)))
 
-    monkeypatch.setattr(Search, "_leg", leg)
-    search._to_the_end([(best, done), (other, under_way(raced))], look, best_here=known, best=known)
-    assert run == legs
+    monkeypatch.setattr(screening, "_attempt", attempt)
+    attempts = [Attempt(best, done(10.0)), Attempt(other, under_way(raced))]
+    _to_the_end(lagging, attempts, look, best_here=known, best=known)
+    assert gone == legs
 
 
-def test_the_next_leg_starts_where_the_last_one_ended_and_tries_nothing_again_that_was_refused(lagging: Setup) -> None:
-    search = Search.of(lagging)
-    fitted = search.fit_nominal()
-    racer = Racer("lag", 0.0, 0, fitted.candidate)
-    again = racer.after(replace(fitted.minimum, values=1.1 * fitted.minimum.values, damping=0.5))
-    np.testing.assert_array_equal(again.candidate.start, 1.1 * fitted.minimum.values)
-    assert (again.name, again.order, again.begin, again.damping) == ("lag", 0.0, 0, 0.5)
-    assert racer.after(replace(fitted.minimum, damping=1e-9)).damping == racer.damping  # no bolder than at first
+def test_the_next_leg_starts_where_the_last_one_ended_and_tries_nothing_again_that_was_refused(
+    lagging: Problem,
+) -> None:
+    nominal = fit_nominal(lagging)
+    start, end = Start("lag", 0.0, 0, nominal.hypothesis), nominal.minimum
+    again = start.after(replace(nominal, minimum=replace(end, values=1.1 * end.values, damping=0.5)))
+    np.testing.assert_array_equal(again.hypothesis.start, 1.1 * end.values)
+    assert (again.name, again.order, again.motor, again.damping) == ("lag", 0.0, 0, 0.5)
+    bold = replace(nominal, minimum=replace(end, damping=1e-9))
+    assert start.after(bold).damping == start.damping  # no bolder than at first
 
 
 def test_a_model_that_is_exact_is_adequate() -> None:

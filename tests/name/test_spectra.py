@@ -9,14 +9,14 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR
-from rwn.fit.preparation import Setup, prepare
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
 from rwn.model.model import Model
-from rwn.name.initial_guesses import spectra as hints
-from rwn.name.screening import Search
+from rwn.name.initial_guesses import spectra
 
 
 @pytest.fixture(scope="module")
-def rippled() -> Setup:
+def rippled() -> Problem:
     """Half of the motor constant comes and goes nine times a revolution, and the data sheet is off."""
     time = 1e-3 * np.arange(3000)
     voltage = 6.0 * np.sin(2 * np.pi * 1.1 * time) + 3.0 * np.sin(2 * np.pi * 2.7 * time)
@@ -30,19 +30,19 @@ def rippled() -> Setup:
     return prepare([recording], Model(kind="dc", parameters=sheet, uncertainty={"inertia": 0.1}))
 
 
-def test_a_ripple_of_the_flux_shows_in_the_windings_voltage(rippled: Setup) -> None:
-    start = Search.of(rippled).fit_start()
-    grid = hints.order_grid(rippled.problem)
-    shares = hints.flux_spectrum(rippled.problem, start.vector, grid)
-    assert hints.orders_of(shares, grid, 1) == [9.0]
+def test_a_ripple_of_the_flux_shows_in_the_windings_voltage(rippled: Problem) -> None:
+    start = rippled.as_given()
+    grid = spectra.order_grid(rippled)
+    shares = spectra.flux_spectrum(rippled, start.vector, grid)
+    assert spectra.orders_of(shares, grid, 1) == [9.0]
     assert shares[grid == 9.0] > 0.8
     assert np.max(shares[np.abs(grid - 9.0) > 3.0]) < 0.2
 
 
-def test_what_the_motor_constants_could_take_is_no_ripple(rippled: Setup) -> None:
+def test_what_the_motor_constants_could_take_is_no_ripple(rippled: Problem) -> None:
     """Another R and Ke change the voltage that is left, not what is seen beside them."""
-    grid, start = np.array([9.0]), Search.of(rippled).fit_start().vector
+    grid, start = np.array([9.0]), rippled.as_given().vector
     other = start.copy()
     other[:4] = [0.5, 2e-3, 0.1, 0.12]
-    one, two = (hints.flux_spectrum(rippled.problem, vector, grid)[0] for vector in (start, other))
+    one, two = (spectra.flux_spectrum(rippled, vector, grid)[0] for vector in (start, other))
     assert one == pytest.approx(two, rel=1e-6)

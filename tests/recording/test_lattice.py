@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rwn.recording.lattice import lattice
+from rwn.recording.quantisation import quantum
 
 TIME = np.arange(4000) * 1e-3
 ANGLE = 200.0 * TIME - 30.0 * np.sin(8.0 * TIME)
@@ -16,15 +16,15 @@ def test_encoder_counts_are_found_where_no_value_repeats() -> None:
     step = 2.0 * np.pi / counts
     seen = step * np.floor(ANGLE / step)
     assert np.unique(seen).size > seen.size / 3
-    assert lattice(np.round(seen, 9)) == pytest.approx(step, rel=1e-7)
+    assert quantum(np.round(seen, 9)) == pytest.approx(step, rel=1e-7)
 
 
 def test_the_steps_of_a_coarse_converter_are_found() -> None:
     coarse = 2.337 * np.round(np.gradient(ANGLE, 1e-3) / 2.337)
-    assert lattice(coarse) == pytest.approx(2.337)
+    assert quantum(coarse) == pytest.approx(2.337)
 
 
 def test_the_decimals_of_a_file_are_no_lattice() -> None:
     rng = np.random.default_rng(0)
-    assert lattice(np.round(100.0 * rng.standard_normal(4000), 3)) == 0.0
-    assert lattice(100.0 * rng.standard_normal(4000)) == 0.0
+    assert quantum(np.round(100.0 * rng.standard_normal(4000), 3)) == 0.0
+    assert quantum(100.0 * rng.standard_normal(4000)) == 0.0

@@ -7,7 +7,7 @@ import pytest
 import scipy.io
 
 from rwn.errors import InputError
-from rwn.model.model import read_model
+from rwn.model.files import read_model
 from rwn.model.recordings import read_recordings
 from rwn.recording.columns import Column, Layout
 from rwn.recording.recording import Recording, read_recording, write_csv

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 import rwn
 from made_up_motor import MOTOR, plant, shaking
-from rwn.fit.hypothesis import candidate
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.recording.speed_measurement import DIFFERENCES, SpeedMeasurement, difference, integral, speed_measurement
 
@@ -69,14 +69,14 @@ def test_what_differences_add_up_to_is_the_position() -> None:
 
 @pytest.mark.parametrize("way", DIFFERENCES)
 def test_the_core_takes_the_same_difference(way: SpeedMeasurement) -> None:
-    setup = prepare([_recorded(1, way, counts=500, friction=0.0)], _model())
-    problem = replace(setup.whole, targets=tuple(replace(t, speed_measured=way) for t in setup.whole.targets))
-    this = candidate(setup.nominal, (), setup.scales)
+    problem = prepare([_recorded(1, way, counts=500, friction=0.0)], _model())
+    problem = replace(problem, runs=tuple(replace(r, speed_measured=way) for r in problem.whole))
+    this = hypothesis(problem.prior, (), problem.scales)
     (left,) = problem.residuals(this.vector, this.active)
     by_hand = sum(float(np.sum((left[s] / problem.noise[s]) ** 2)) for s in left)
     assert problem.error(this.vector, this.active) == pytest.approx(by_hand, rel=1e-9)
-    (out,) = (problem.simulate(t, this.vector, this.active) for t in problem.targets)
-    assert np.allclose(out.signals["speed"], difference(way, setup.whole.targets[0].time, out.signals["position"]))
+    (out,) = (problem.simulate(r, this.vector, this.active) for r in problem.runs)
+    assert np.allclose(out.signals["speed"], difference(way, problem.whole[0].time, out.signals["position"]))
 
 
 @pytest.mark.parametrize("counts", [500, 8000])

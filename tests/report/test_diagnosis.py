@@ -5,17 +5,11 @@ import json
 import numpy as np
 import pytest
 
-from rwn.report.diagnosis import (
-    Alternative,
-    Diagnosis,
-    Estimate,
-    FoundEffect,
-    HeldoutRow,
-    Location,
-    Plot,
-    Region,
-    Trace,
-)
+from rwn.fit.intervals import Estimate
+from rwn.locate.regions import Region
+from rwn.name.found_effect import FoundEffect
+from rwn.prove.heldout import HeldoutRow
+from rwn.report.diagnosis import Alternative, Diagnosis, Location, Plot, Trace
 
 
 @pytest.fixture

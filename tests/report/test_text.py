@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 import made_up
+from rwn.fit.intervals import Estimate
 from rwn.report import text as words
-from rwn.report.diagnosis import Estimate
 
 
 @pytest.mark.parametrize(

@@ -17,11 +17,13 @@ from made_up_motor import MOTOR, own, recorded
 from rwn import _core
 from rwn.cli import app
 from rwn.errors import InputError
-from rwn.fit.hypothesis import candidate, fit
+from rwn.fit.fit import fit
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.preparation import prepare
-from rwn.model.drives import AXIS, LINEAR_AXIS
-from rwn.model.model import Model, write_model
+from rwn.model.drives.axis import AXIS, LINEAR_AXIS
+from rwn.model.files import write_model
+from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
 from rwn.model.vocabulary import motor_index, parameter_vector
 from rwn.recording.recording import write_csv
@@ -51,7 +53,7 @@ def simulated(model: Model, by: dict[str, float], *, step: float = 1e-3) -> dict
     vector = parameter_vector(model.parameters, model.effects, model.effect_table)
     cores = [e.core for e in model.own_effects]
     wanted = [effect.at(p) for p in by]
-    status, *arrays = _core.simulate("dc", t, voltage, vector, [effect.index], wanted, own=cores)
+    status, *arrays = _core.simulate(_core.Task("dc", time=t, input=voltage, own=cores), vector, [effect.index], wanted)
     assert status == "ok"
     names = ("current", "speed", "position", "d current", "d speed", "d position")
     return dict(zip(names, arrays, strict=True))
@@ -118,8 +120,8 @@ def test_a_formula_may_read_nominal_parameters_and_passes_their_slopes_on() -> N
     voltage, by = 5.0 * np.sin(9.0 * t), [motor_index("viscous_friction"), motor_index("inertia")]
     effect, cores = model.effect_table["mine"], [doubling.core]
     vector = parameter_vector(model.parameters, model.effects, model.effect_table)
-    mine = _core.simulate("dc", t, voltage, vector, [effect.index], by, own=cores)
-    plain = _core.simulate("dc", t, voltage, parameter_vector(twice, {}), [], by)
+    mine = _core.simulate(_core.Task("dc", time=t, input=voltage, own=cores), vector, [effect.index], by)
+    plain = _core.simulate(_core.Task("dc", time=t, input=voltage), parameter_vector(twice, {}), [], by)
     np.testing.assert_allclose(mine[2], plain[2], atol=1e-6 * np.ptp(plain[2]))
     np.testing.assert_allclose(mine[5], plain[5] * [2.0, 1.0], atol=1e-5 * np.ptp(plain[5]))
 
@@ -174,8 +176,8 @@ def test_effects_that_cannot_be_together_are_refused(effects: tuple[OwnEffect, .
 def test_a_constant_with_a_unit_is_not_fitted() -> None:
     known = replace(BRAKE, parameters=(BRAKE.parameters[0], replace(BRAKE.parameters[1], lower=40, upper=40, start=40)))
     model = replace(NOMINAL, own_effects=(known,))
-    setup = prepare([recorded(0, eddies, samples=200)], model)
-    this = candidate(setup.nominal, ("eddy-brake",), setup.scales)
+    problem = prepare([recorded(0, eddies, samples=200)], model)
+    this = hypothesis(problem.prior, ("eddy-brake",), problem.scales)
     assert [u.name for u in this.unknowns if "." in u.name] == ["eddy-brake.peak"]
     assert this.vector[model.effect_table["eddy-brake"].at("corner")] == 40.0
 
@@ -265,9 +267,9 @@ def test_a_formula_without_a_value_ends_the_run_with_advice(tmp_path: Path) -> N
     said = CliRunner().invoke(app, [*line, str(tmp_path / "sim.csv")])
     assert said.exit_code == 0
     assert "formula-failed" in said.output
-    setup = prepare([run], replace(model, effects={}))
-    end = fit(setup.problem, candidate(setup.nominal, ("mine",), setup.scales))
-    assert end.status is FitStatus.DIVERGED
+    problem = prepare([run], replace(model, effects={}))
+    end = fit(problem, hypothesis(problem.prior, ("mine",), problem.scales))
+    assert end.minimum.status is FitStatus.DIVERGED
     assert end.cost == np.inf
 
 

@@ -12,9 +12,10 @@ from rwn.model.vocabulary import Effect, table
 # a small motor: the winding settles within half a sample
 MOTOR = {"resistance": 6.0, "inductance": 2e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 4e-5,
          "viscous_friction": 2e-5, "coulomb_friction": 4e-3}  # fmt: skip
-TYPICAL = {
-    "none": 1.0, "torque": 0.1, "speed": 150.0, "voltage": 10.0, "current": 1.5, "inertia": 4e-5, "damping": 7e-4,
-    "stiffness": 2.0, "drag": 5e-6, "time_step": 1e-3, "duration": 0.6, "loss": 0.2, "heat": 1.0,
+TYPICAL = {  # of each scale, by its words
+    "": 1.0, "torque": 0.1, "speed": 150.0, "voltage": 10.0, "current": 1.5, "inertia": 4e-5, "torque / speed": 7e-4,
+    "inertia / time_step^2": 2.0, "torque / speed^2": 5e-6, "time_step": 1e-3, "duration": 0.6, "1 / loss": 0.2,
+    "duration loss": 1.0,
 }  # fmt: skip
 STEP, PARTS = 6e-4, 8
 EXACT = 1e-4
@@ -22,7 +23,7 @@ JUMPS = ("sensor-quantization",)
 
 
 def _values(effect: Effect) -> dict[str, float]:
-    return {p.name: p.start if p.fixed else p.start * TYPICAL[p.scale] for p in effect.parameters}
+    return {p.name: p.start if p.fixed else p.start * TYPICAL[p.scale.words] for p in effect.parameters}
 
 
 def _run(effect: Effect, parts: int) -> tuple[np.ndarray, np.ndarray]:

@@ -12,10 +12,11 @@ from typer.testing import CliRunner
 from rwn.cli import app
 from rwn.errors import InputError
 from rwn.fit.preparation import prepare
-from rwn.fit.prior_weight import farthest
-from rwn.name.forward import explain
+from rwn.fit.prior_weight import BELIEVABLE
+from rwn.name.forward import rank
+from rwn.name.found_effect import FoundEffect
 from rwn.recording.recording import read_recording
-from rwn.report.diagnosis import BELIEVABLE, Diagnosis, FoundEffect
+from rwn.report.diagnosis import Diagnosis
 from rwn.studies.machines import ced, emps, fra233, frc, odrive, xl330
 from rwn.studies.machines.machine import Error, Outcome, cut, nominal_model
 from rwn.studies.machines.registry import MACHINES
@@ -88,12 +89,12 @@ def test_fra233_dry_friction_does_not_bend_the_motor_beyond_belief(shared: Path)
     folder = shared / "data" / fra233.MACHINE.folder
     sine, ramp = (read_recording(folder / f"{name}_1.mat", layout=model.recording) for name in ("sine", "ramp"))
     names = ["coulomb-friction", "quadratic-drag", "load-dependent-friction"]
-    setup = prepare([cut(sine, 2000, 8000), cut(ramp, 1000, 7000)], model)
-    found = explain(setup, progress=lambda *_: None, names=names)
-    first = found.hypotheses[0].fitted
+    problem = prepare([cut(sine, 2000, 8000), cut(ramp, 1000, 7000)], model)
+    ranking = rank(problem, progress=lambda *_: None, names=names)
+    first = ranking.fits[0].fit
     assert "coulomb-friction" in first.added
-    assert first.minimum.chi2 < 0.3 * found.nominal.minimum.chi2
-    assert farthest(first) < BELIEVABLE
+    assert first.minimum.chi2 < 0.3 * ranking.nominal.minimum.chi2
+    assert first.farthest_move < BELIEVABLE
     assert 0.4 < first.value("coulomb-friction.coulomb_torque") * 3.40 / 0.048 < 0.9, "volts"
 
 

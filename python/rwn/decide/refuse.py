@@ -6,45 +6,45 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from rwn.fit.residuals import Hypothesis
-from rwn.report.diagnosis import HeldoutRow
+from rwn.name.weights import RankedFit
+from rwn.prove.heldout import HeldoutRow
 
-Prove = Callable[[Hypothesis], Sequence[HeldoutRow]]
+Prove = Callable[[RankedFit], Sequence[HeldoutRow]]
 
 NOT_TOLD_APART = 3.0  # ratio of probabilities
 AS_GOOD = 1.1  # ratio of held-out squared errors within which the fitted recordings, or fewer effects, decide
 PROVED = 0.4  # share of the held-out squared error that a name has to remove certainly where more than noise is left
 
 
-def without_what_hurts(hypotheses: Sequence[Hypothesis], chosen: Hypothesis, prove: Prove) -> Hypothesis:
+def without_what_hurts(fits: Sequence[RankedFit], chosen: RankedFit, prove: Prove) -> RankedFit:
     """`chosen`, or its equal on the fitted recordings, or a part of these: what predicts held-out recordings best.
 
     An effect that is real helps on every recording; one that has absorbed an accident of the fitted ones need not.
     """
-    first, error = _best(_contenders(hypotheses, chosen), prove)
-    parts = [h for h in hypotheses if h.fitted.added and set(h.fitted.added) < set(first.fitted.added)]
+    first, error = _best(_contenders(fits, chosen), prove)
+    parts = [h for h in fits if h.added and set(h.added) < set(first.added)]
     if not parts:
         return first
-    part, part_error = _best(sorted(parts, key=lambda h: len(h.fitted.added)), prove)
+    part, part_error = _best(sorted(parts, key=lambda h: len(h.added)), prove)
     return part if part_error < error else first
 
 
-def _best(rivals: Sequence[Hypothesis], prove: Prove) -> tuple[Hypothesis, float]:
+def _best(rivals: Sequence[RankedFit], prove: Prove) -> tuple[RankedFit, float]:
     """The first that predicts held-out recordings as well as any, and its error."""
     errors = [heldout_error(prove(h)) for h in rivals]
     least = next(k for k, error in enumerate(errors) if error <= AS_GOOD * min(errors))
     return rivals[least], errors[least]
 
 
-def _contenders(hypotheses: Sequence[Hypothesis], chosen: Hypothesis) -> list[Hypothesis]:
+def _contenders(fits: Sequence[RankedFit], chosen: RankedFit) -> list[RankedFit]:
     """The chosen explanation and those as large that the fitted recordings do not tell from it."""
     return [
         chosen,
         *(
             h
-            for h in hypotheses
+            for h in fits
             if h is not chosen
-            and len(h.fitted.added) == len(chosen.fitted.added)
+            and len(h.added) == len(chosen.added)
             and h.probability > chosen.probability / NOT_TOLD_APART
         ),
     ]

@@ -1,6 +1,6 @@
-"""Channels out of step, and gears that physics might explain as well: what undoing a mistake leaves, refitted.
+"""Channels out of step, and gears that physics might explain as well: what undoing a fault leaves, refitted.
 
-Such a mistake is suspected where undoing it removes a good part of what the refitted model leaves. It is believed if
+Such a fault is suspected where undoing it removes a good part of what the refitted model leaves. It is believed if
 the recordings without it are explained by fewer effects, and better, than as they are.
 """
 
@@ -13,26 +13,28 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.faults.fault import MOTION, SHIFT, Mistake, without
+from rwn.faults.fault import MOTION, SHIFT, Fault, without
 from rwn.faults.scale import gears
-from rwn.fit import residuals as evidence
-from rwn.fit.fit import Fitted
-from rwn.fit.preparation import Setup, prepare
-from rwn.fit.problem import OutputError
+from rwn.fit.fit import Fit, fit_nominal, refit
+from rwn.fit.noise import with_noise_of
+from rwn.fit.part import look
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
+from rwn.fit.residuals import variance
 from rwn.model.model import Model
-from rwn.name.forward import Explanation, with_noise
-from rwn.name.screening import IN_PASSING, Search
+from rwn.name.ranking import Ranking
+from rwn.name.screening import FURTHER
 from rwn.parallel import side_by_side
 from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
 LITTLE = 0.1  # squared error above the noise, in units of it, below which nothing is suspected
-SUSPECT = 0.3  # share of what the refitted model leaves, that undoing a mistake has to remove to be suspected
+SUSPECT = 0.3  # share of what the refitted model leaves, that undoing a fault has to remove to be suspected
 REMOVED = 0.85  # the same to be believed, with what is found beneath it
-CLEAR = 0.01  # share that is left where a mistake and one effect explain all: more pairs of effects need not be tried
-SLIGHT = 0.02  # squared error in units of the noise, by which a mistake has to be better than such a pair
-BETTER = 0.75  # share of what physics alone leaves, that may be left with the mistake undone
+CLEAR = 0.01  # share that is left where a fault and one effect explain all: more pairs of effects need not be tried
+SLIGHT = 0.02  # squared error in units of the noise, by which a fault has to be better than such a pair
+BETTER = 0.75  # share of what physics alone leaves, that may be left with the fault undone
 FIRST = 4  # explanations that may be one half of a pair
 LONGEST_SHIFT = 40  # samples
 NEAR = (-3, -2, -1, 1, 2, 3)  # samples by which a delay may be off, seen through missing physics
@@ -40,63 +42,62 @@ NEAR = (-3, -2, -1, 1, 2, 3)  # samples by which a delay may be off, seen throug
 
 @dataclass(frozen=True, kw_only=True)
 class Suspicion:
-    """The mistake that removes most of what the refitted model leaves."""
+    """The fault that removes most of what the refitted model leaves."""
 
-    mistake: Mistake
+    fault: Fault
     noise: Mapping[str, float]
     before: float  # squared error above the noise, in units of it, of the refitted model
-    after: float  # the same with the mistake undone
+    after: float  # the same with the fault undone
 
     @property
     def little(self) -> float:
-        """What a single effect may leave if it is to do in place of the mistake: no more than that by itself leaves."""
+        """What a single effect may leave if it is to do in place of the fault: no more than that by itself leaves."""
         return min(LITTLE, self.after + SLIGHT)
 
 
 def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None:
     """A shift or a gear that explains a good part of what the refitted model leaves; physics may yet do better."""
-    setup = prepare(recordings, model)
-    search = Search.of(setup)
-    search = with_noise(search, search.fit_nominal())
-    fitted = search.fit_nominal()
-    noise = with_noise(search, fitted).problem.noise
-    before = _left(setup, _refitted(setup, noise), noise)
+    problem = prepare(recordings, model)
+    weighted = with_noise_of(problem, fit_nominal(problem))
+    nominal = fit_nominal(weighted)
+    noise = with_noise_of(weighted, nominal).noise
+    before = _left(problem, _refitted(problem, noise), noise)
     if before < LITTLE:
         return None
     best = None
-    for mistake in chain(gears(recordings, model), _shifts(recordings, setup, fitted)):
-        undone = prepare(without(recordings, mistake), model)
-        own = mistake.levels(noise)
+    for fault in chain(gears(recordings, model), _shifts(recordings, problem, nominal)):
+        undone = prepare(without(recordings, fault), model)
+        own = fault.levels(noise)
         after = _left(undone, _refitted(undone, own), own)
         if after < (best.after if best else (1.0 - SUSPECT) * before):
-            best = Suspicion(mistake=mistake, noise=noise, before=before, after=after)
+            best = Suspicion(fault=fault, noise=noise, before=before, after=after)
     return best
 
 
-def unexplained(doubt: Suspicion, found: Explanation) -> float:
+def unexplained(doubt: Suspicion, found: Ranking) -> float:
     """Mean squared error above the noise, in units of it, that physics leaves of the recordings, shifted or not."""
-    return _left(found.setup, found.closest, doubt.noise)
+    return _left(found.problem, found.closest, doubt.noise)
 
 
-def rivals(*explanations: Explanation) -> list[str]:
-    """Effects of which two might do what the mistake does with one beneath it.
+def rivals(*rankings: Ranking) -> list[str]:
+    """Effects of which two might do what the fault does with one beneath it.
 
-    They are those of the drive's ends, which delay and scale, and the first ones with the mistake and without.
+    They are those of the drive's ends, which delay and scale, and the first ones with the fault and without.
     """
-    table = explanations[0].setup.nominal.table
+    table = rankings[0].problem.prior.table
     ends = [name for name, effect in table.items() if effect.at_an_end]
-    return list(dict.fromkeys([*ends, *first_effects(*explanations)]))
+    return list(dict.fromkeys([*ends, *first_effects(*rankings)]))
 
 
-def first_effects(*explanations: Explanation) -> list[str]:
+def first_effects(*rankings: Ranking) -> list[str]:
     """The effects of the first hypotheses of each, and those that by themselves leave least, strained or not."""
-    first = [h.fitted for of in explanations for h in of.hypotheses[:FIRST]]
-    least = [f for of in explanations for f in sorted(of.alone.fits, key=lambda f: f.cost)[:FIRST]]
+    first = [r.fit for of in rankings for r in of.fits[:FIRST]]
+    least = [f for of in rankings for f in sorted(of.alone.fits, key=lambda f: f.cost)[:FIRST]]
     return list(dict.fromkeys(name for f in (*first, *least) for name in f.added))
 
 
 def believed(doubt: Suspicion, *, left: float, physics: float, little: float = LITTLE) -> bool:
-    """Whether the mistake, which leaves `left` by itself or with what is beneath it, explains more than physics.
+    """Whether the fault, which leaves `left` by itself or with what is beneath it, explains more than physics.
 
     `little`: what physics may leave so that nothing is left to explain.
     """
@@ -104,52 +105,49 @@ def believed(doubt: Suspicion, *, left: float, physics: float, little: float = L
 
 
 def sharpened(
-    doubt: Suspicion, recordings: Sequence[Recording], model: Model, beneath: Explanation
-) -> tuple[Mistake, float]:
-    """The mistake with the delay at which what was found beneath it fits best, and what that leaves."""
-    noise, base = doubt.mistake.levels(doubt.noise), beneath.closest
+    doubt: Suspicion, recordings: Sequence[Recording], model: Model, beneath: Ranking
+) -> tuple[Fault, float]:
+    """The fault with the delay at which what was found beneath it fits best, and what that leaves."""
+    noise, base = doubt.fault.levels(doubt.noise), beneath.closest
 
-    def undone(mistake: Mistake) -> Search:
-        setup = prepare(without(recordings, mistake), model)
-        return Search.of(setup, problem=replace(setup.problem, noise=noise))
+    def undone(fault: Fault) -> Problem:
+        return replace(prepare(without(recordings, fault), model), noise=noise)
 
-    def in_passing(mistake: Mistake) -> float:
-        search = undone(mistake)
-        look = search.look(base)
-        return evidence.variance(look, search.refit(base, look, iterations=IN_PASSING))
+    def briefly(fault: Fault) -> float:
+        on = look(undone(fault), base)
+        return variance(on, refit(base, on, iterations=FURTHER))
 
-    left = _left(beneath.setup, base, noise)
-    near = [doubt.mistake.delay + off for off in NEAR] if doubt.mistake.delay else []
-    tried = [_shift(doubt.mistake.signals, delay, doubt.mistake.step) for delay in near if delay]
+    left = _left(beneath.problem, base, noise)
+    near = [doubt.fault.delay + off for off in NEAR] if doubt.fault.delay else []
+    tried = [_shift(doubt.fault.signals, delay, doubt.fault.step) for delay in near if delay]
     if not tried:
-        return doubt.mistake, left
-    as_doubted, *soon = side_by_side(in_passing, [doubt.mistake, *tried])
+        return doubt.fault, left
+    as_doubted, *soon = side_by_side(briefly, [doubt.fault, *tried])
     if min(soon) >= as_doubted:
-        return doubt.mistake, left
+        return doubt.fault, left
     best = tried[int(np.argmin(soon))]
-    search = undone(best)
-    sharper = evidence.variance(search.problem, search.refit(base, search.problem)) - 1.0
-    return (best, sharper) if sharper < left else (doubt.mistake, left)
+    on = undone(best)
+    sharper = variance(on, refit(base, on)) - 1.0
+    return (best, sharper) if sharper < left else (doubt.fault, left)
 
 
-def _refitted(setup: Setup, noise: Mapping[str, float]) -> Fitted:
-    return Search.of(setup, problem=replace(setup.problem, noise=dict(noise))).fit_nominal()
+def _refitted(problem: Problem, noise: Mapping[str, float]) -> Fit:
+    return fit_nominal(replace(problem, noise=dict(noise)))
 
 
-def _left(setup: Setup, fitted: Fitted, noise: Mapping[str, float]) -> float:
+def _left(problem: Problem, this: Fit, noise: Mapping[str, float]) -> float:
     """Mean squared error above the noise, in units of it."""
-    return evidence.variance(replace(setup.problem, noise=dict(noise)), fitted) - 1.0
+    return variance(replace(problem, noise=dict(noise)), this) - 1.0
 
 
 # ---- delays that are worth a refit -----------------------------------------------------------------------------------
 
 
-def _shifts(recordings: Sequence[Recording], setup: Setup, fitted: Fitted) -> Iterator[Mistake]:
+def _shifts(recordings: Sequence[Recording], problem: Problem, nominal: Fit) -> Iterator[Fault]:
     """One channel late or early against its simulation while another is in step."""
-    if setup.problem.kind != "dc":
+    if not problem.drive.winding:
         return
-    problem, active = setup.problem, fitted.candidate.active
-    lags = {s: _lag(problem, fitted.vector, active, s) for s in problem.targets[0].recorded if s != "position"}
+    lags = {s: _lag(problem, nominal, s) for s in problem.runs[0].recorded if s != "position"}
     step = float(np.median(np.diff(recordings[0].time)))
     groups = {"speed": tuple(s for s in MOTION if s in recordings[0].signals), "current": ("current",)}
     alone = "current" not in lags  # late against the input alone: as well a delay of the drive, which is physics
@@ -159,19 +157,19 @@ def _shifts(recordings: Sequence[Recording], setup: Setup, fitted: Fitted) -> It
                 yield _shift(groups[signal], delay, step)
 
 
-def _shift(signals: tuple[str, ...], delay: int, step: float) -> Mistake:
+def _shift(signals: tuple[str, ...], delay: int, step: float) -> Fault:
     late = "late" if delay > 0 else "early"
     text = f"{' and '.join(signals)} {abs(delay)} samples {late} against the other channels"
-    return Mistake(name=SHIFT, signals=signals, delay=delay, step=step, meaning=text)
+    return Fault(name=SHIFT, signals=signals, delay=delay, step=step, meaning=text)
 
 
-def _lag(problem: OutputError, vector: Array, active: Sequence[int], signal: str) -> int:
+def _lag(problem: Problem, this: Fit, signal: str) -> int:
     """Samples by which a recorded signal follows its simulation, from the correlation of their changes."""
     shifts = np.arange(-LONGEST_SHIFT, LONGEST_SHIFT + 1)
     score = np.zeros(shifts.size)
-    for target in problem.targets:
-        simulated = np.diff(problem.simulate(target, vector, active).signals[signal])
-        recorded = np.diff(target.signal(signal))
+    for run in problem.runs:
+        simulated = np.diff(problem.simulate(run, this.vector, this.active).signals[signal])
+        recorded = np.diff(run.signal(signal))
         inner = slice(LONGEST_SHIFT, simulated.size - LONGEST_SHIFT)
         for k, shift in enumerate(shifts):
             score[k] += float(np.roll(recorded, -shift)[inner] @ simulated[inner])

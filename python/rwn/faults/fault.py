@@ -1,4 +1,4 @@
-"""Mistakes in the recordings themselves, the commonest mismatch: unit, sign, gear ratio, channels out of step."""
+"""Faults of the recordings themselves, the commonest mismatch: unit, sign, gear ratio, channels out of step."""
 
 from __future__ import annotations
 
@@ -8,22 +8,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.intervals import Estimate
+from rwn.name.found_effect import FoundEffect
 from rwn.recording.recording import Recording
-from rwn.report.diagnosis import RECORDING, Estimate, FoundEffect
 
 Array = NDArray[np.float64]
 
+RECORDING = "recording"  # the equation of a fault in the recordings
 UNIT = "wrong-unit"
 SIGN = "wrong-sign"
 GEAR = "wrong-gear-ratio"
 SHIFT = "time-shift"
 MOTION = ("speed", "position")  # signals of one shaft
 LINE = 4  # samples
-SURE = 0.99  # probability that is stated of a mistake; those that fit alike share it
+SURE = 0.99  # probability that is stated of a fault; those that fit alike share it
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mistake:
+class Fault:
     """recorded(t) = factor * true(t - delay) for each of `signals`."""
 
     name: str  # UNIT | SIGN | GEAR | SHIFT
@@ -33,7 +35,7 @@ class Mistake:
     spread: float = 0.0  # relative standard deviation of the factor
     delay: int = 0  # samples by which the signals come late
     step: float = 0.0  # sample time [s]
-    also: tuple[str, ...] = ()  # other mistakes that these recordings do not tell from it
+    also: tuple[str, ...] = ()  # other faults that these recordings do not tell from it
 
     def undo(self, recording: Recording) -> Recording:
         """The recording as it should have been; where a signal came late, all are cut to what is left.
@@ -68,9 +70,9 @@ class Mistake:
         )  # fmt: skip
 
 
-def without(recordings: Sequence[Recording], mistake: Mistake) -> list[Recording]:
+def without(recordings: Sequence[Recording], fault: Fault) -> list[Recording]:
     """The recordings as they should have been."""
-    return [mistake.undo(r) for r in recordings]
+    return [fault.undo(r) for r in recordings]
 
 
 def _moved(values: Array, delay: int) -> Array:

@@ -13,14 +13,13 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Mistake, without
-from rwn.fit.hypothesis import candidate
-from rwn.fit.preparation import motion, prepare, smoothing_over
-from rwn.fit.problem import Target
+from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Fault, without
+from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
 from rwn.recording.recording import Recording
 from rwn.recording.smoothing import smooth
+from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
@@ -88,29 +87,29 @@ def _one_sided(signal: Array) -> bool:
     return bool(np.all(signal >= -least) or np.all(signal <= least))
 
 
-def wrong_scale(recordings: Sequence[Recording], model: Model) -> Mistake | None:
+def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """A unit, sign or gear ratio that is plainly wrong; None where the scale of every signal is believable."""
-    if model.kind == "axis":
+    if model.drive.force:
         return _of_axis(recordings, model)
     seen = _likeness(recordings, model)
     if not any(one.far for one in seen.values()):
         return None
     best, least = None, np.inf
-    for mistake in _doubted(seen, model):
-        undone = _undone(mistake, seen, recordings, model)
-        judged = [s for s in seen if s in mistake.signals] or list(seen)  # all signals depend on the voltage
+    for fault in _doubted(seen, model):
+        undone = _undone(fault, seen, recordings, model)
+        judged = [s for s in seen if s in fault.signals] or list(seen)  # all signals depend on the voltage
         before = float(np.mean([seen[s].misfit(1.0) for s in judged]))
         left = float(np.mean([undone[s] for s in judged]))
         everywhere = float(np.mean(list(undone.values())))
-        most = (1.0 - REMOVED[mistake.name]) * before
-        if left < (most if _plain(mistake.factor) else min(most, LEFT)) and everywhere < least:
-            best, least = mistake, everywhere
+        most = (1.0 - REMOVED[fault.name]) * before
+        if left < (most if _plain(fault.factor) else min(most, LEFT)) and everywhere < least:
+            best, least = fault, everywhere
     return best
 
 
-def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Mistake]:
+def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
     """Gear ratios too small to be plain, which physics might explain as well; of a motor alone."""
-    if model.kind != "dc":
+    if not model.drive.winding:
         return
     seen = _likeness(recordings, model)
     moving = tuple(s for s in MOTION if s in seen)
@@ -120,34 +119,32 @@ def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Mistake]:
 
 
 def _undone(
-    mistake: Mistake, seen: Mapping[str, Likeness], recordings: Sequence[Recording], model: Model
+    fault: Fault, seen: Mapping[str, Likeness], recordings: Sequence[Recording], model: Model
 ) -> dict[str, float]:
-    """Misfit of every signal without the mistake."""
-    if mistake.signals == ("voltage",):
-        return {s: one.misfit(1.0) for s, one in _likeness(without(recordings, mistake), model).items()}
-    return {s: one.misfit(mistake.factor if s in mistake.signals else 1.0) for s, one in seen.items()}
+    """Misfit of every signal without the fault."""
+    if fault.signals == ("voltage",):
+        return {s: one.misfit(1.0) for s, one in _likeness(without(recordings, fault), model).items()}
+    return {s: one.misfit(fault.factor if s in fault.signals else 1.0) for s, one in seen.items()}
 
 
 def _likeness(recordings: Sequence[Recording], model: Model) -> dict[str, Likeness]:
     """Of each recorded signal to its free run from the model as given; of a position by its slope, free of drift."""
-    setup = prepare(recordings, model)
-    start = candidate(setup.nominal, (), setup.scales)
-    pairs: dict[str, list[tuple[Array, Array]]] = {s: [] for s in setup.whole.targets[0].recorded}
-    for target in setup.whole.targets:
-        free = replace(target, angle=np.empty(0))
-        simulated = setup.whole.simulate(free, start.vector, start.active).signals
-        for s in target.recorded:
-            alike = (_slope(target), simulated["speed"]) if s == "position" else (target.signal(s), simulated[s])
+    problem = prepare(recordings, model)
+    given = problem.as_given()
+    pairs: dict[str, list[tuple[Array, Array]]] = {s: [] for s in problem.whole[0].recorded}
+    for run in problem.whole:
+        simulated = problem.simulate(run.following_nothing(), given.vector, given.active).signals
+        for s in run.recorded:
+            alike = (_slope(run), simulated["speed"]) if s == "position" else (run.signal(s), simulated[s])
             pairs[s].append(alike)
     return {s: Likeness.of(of) for s, of in pairs.items()}
 
 
-def _slope(target: Target) -> Array:
-    step = float(np.median(np.diff(target.time)))
-    return smooth(target.position, smoothing_over(target), derivative=1, step=step)
+def _slope(run: Run) -> Array:
+    return smooth(run.position, run.smoothing_length(), derivative=1, step=run.sample_time)
 
 
-def _doubted(seen: Mapping[str, Likeness], model: Model) -> Iterator[Mistake]:
+def _doubted(seen: Mapping[str, Likeness], model: Model) -> Iterator[Fault]:
     """What may be wrong: each signal by itself, the motion as a whole, and the voltage, which all depend on."""
     moving = tuple(s for s in MOTION if s in seen)
     groups = dict.fromkeys([*((s,) for s in seen), moving])
@@ -164,7 +161,7 @@ def _mean(of: Sequence[Likeness]) -> Likeness:
     return Likeness(ratio, float(np.mean([one.correlation for one in of])))
 
 
-def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool) -> Iterator[Mistake]:
+def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool) -> Iterator[Fault]:
     """Sign and units of a group of signals that its size allows, and a gear ratio where it is all of the motion."""
     yield _turned(group)
     units = {f: text for f, text in _units(group, model).items() if _allowed(f, group, seen, model)}
@@ -180,33 +177,33 @@ def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool
         yield from _gears(group, seen.ratio, _spread(model))
 
 
-def _gears(group: tuple[str, ...], ratio: float, spread: float) -> Iterator[Mistake]:
+def _gears(group: tuple[str, ...], ratio: float, spread: float) -> Iterator[Fault]:
     yield gear(group, ratio, spread)
     yield gear(group, -ratio, spread)
 
 
-def _turned(group: tuple[str, ...]) -> Mistake:
-    return Mistake(name=SIGN, signals=group, factor=-1.0, meaning=f"{' and '.join(group)} of the wrong sign")
+def _turned(group: tuple[str, ...]) -> Fault:
+    return Fault(name=SIGN, signals=group, factor=-1.0, meaning=f"{' and '.join(group)} of the wrong sign")
 
 
-def _in_units(group: tuple[str, ...], units: Mapping[float, str]) -> Iterator[Mistake]:
+def _in_units(group: tuple[str, ...], units: Mapping[float, str]) -> Iterator[Fault]:
     """Each unit, with either sign."""
     label = " and ".join(group)
     for factor, text in units.items():
-        yield Mistake(name=UNIT, signals=group, factor=factor, meaning=f"{label} in {text}")
-        yield Mistake(
+        yield Fault(name=UNIT, signals=group, factor=factor, meaning=f"{label} in {text}")
+        yield Fault(
             name=UNIT, signals=group, factor=-factor, meaning=f"{label} in {text}, and of the wrong sign"
         )
 
 
-def gear(group: tuple[str, ...], factor: float, spread: float) -> Mistake:
+def gear(group: tuple[str, ...], factor: float, spread: float) -> Fault:
     """A motion `factor` times that of the motor, which is known to `spread` (relative standard deviation)."""
     turned = ", and of the wrong sign" if factor < 0.0 else ""
     text = f"{' and '.join(group)} of a shaft that turns {abs(factor):.3g} times as fast as the motor{turned}"
-    return Mistake(name=GEAR, signals=group, factor=factor, spread=spread, meaning=text)
+    return Fault(name=GEAR, signals=group, factor=factor, spread=spread, meaning=text)
 
 
-def as_gear(unit: Mistake, model: Model) -> Mistake:
+def as_gear(unit: Fault, model: Model) -> Fault:
     """What is told as a unit, as the ratio of a gear in its place."""
     return gear(unit.signals, unit.factor, _spread(model))
 
@@ -248,7 +245,7 @@ def _leeway(seen: Likeness, model: Model) -> float:
 # ---- an axis, whose force is recorded --------------------------------------------------------------------------------
 
 
-def _of_axis(recordings: Sequence[Recording], model: Model) -> Mistake | None:
+def _of_axis(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """The same from the driving force against what the motion takes."""
     seen = _force_likeness(recordings, model)
     if abs(seen.correlation) < LEAST_FORCE or (seen.correlation > 0.0 and abs(np.log(seen.ratio)) < np.log(2.0 * FAR)):
@@ -257,41 +254,41 @@ def _of_axis(recordings: Sequence[Recording], model: Model) -> Mistake | None:
     given = "force" if "force" in recordings[0].signals else "torque"
     moving = tuple(s for s in MOTION if s in recordings[0].signals)
     best, least = None, min((1.0 - REMOVED[UNIT]) * before, LEFT)
-    for mistake in chain(_any_scale((given,), model), _any_scale(moving, model)):
-        after = relative_error(without(recordings, mistake), model)
+    for fault in chain(_any_scale((given,), model), _any_scale(moving, model)):
+        after = relative_error(without(recordings, fault), model)
         if after < least:
-            best, least = mistake, after
+            best, least = fault, after
     return best
 
 
-def _any_scale(group: tuple[str, ...], model: Model) -> Iterator[Mistake]:
+def _any_scale(group: tuple[str, ...], model: Model) -> Iterator[Fault]:
     yield _turned(group)
     yield from _in_units(group, _units(group, model))
 
 
 def _force_likeness(recordings: Sequence[Recording], model: Model) -> Likeness:
-    setup = prepare(recordings, model)
-    vector = candidate(setup.nominal, (), setup.scales).vector
+    problem = prepare(recordings, model)
+    vector = problem.as_given().vector
     pairs = []
-    for target in setup.whole.targets:
-        speed, acceleration = motion(target)
+    for run in problem.whole:
+        speed, acceleration = run.motion()
         takes = vector[motor_index("inertia")] * acceleration + vector[motor_index("viscous_friction")] * speed
-        pairs.append((target.input, takes))
+        pairs.append((run.input, takes))
     return Likeness.of(pairs)
 
 
 def relative_error(recordings: Sequence[Recording], model: Model) -> float:
     """Squared error of the model as given over the energy of the signals, mean over the signals.
 
-    It does not depend on units, so that recordings with and without a mistake undone can be compared.
+    It does not depend on units, so that recordings with and without a fault undone can be compared.
     """
-    setup = prepare(recordings, model)
-    start = candidate(setup.nominal, (), setup.scales)
+    problem = prepare(recordings, model)
+    given = problem.as_given()
     error: dict[str, float] = {}
     energy: dict[str, float] = {}
-    residuals = setup.problem.residuals(start.vector, start.active)
-    for target, residual in zip(setup.problem.targets, residuals, strict=True):
+    residuals = problem.residuals(given.vector, given.active)
+    for run, residual in zip(problem.runs, residuals, strict=True):
         for s, r in residual.items():
             error[s] = error.get(s, 0.0) + float(np.nansum(r**2))
-            energy[s] = energy.get(s, 0.0) + float(np.sum(target.signal(s) ** 2))
+            energy[s] = energy.get(s, 0.0) + float(np.sum(run.signal(s) ** 2))
     return float(np.mean([error[s] / max(energy[s], 1e-300) for s in error]))

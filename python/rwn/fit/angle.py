@@ -7,55 +7,56 @@ from dataclasses import replace
 import numpy as np
 
 from rwn.fit.budget import one_stage
-from rwn.fit.fit import Fitted
-from rwn.fit.problem import Target
-from rwn.name.screening import Search, foremost
+from rwn.fit.fit import Fit, foremost, refit, refit_all
+from rwn.fit.problem import Problem
+from rwn.simulate.run import Run
 
-MOST_TRACKS = 4  # times that the angle is simulated anew
+MOST_ROUNDS = 4  # times that the angle is simulated anew
+GAINED = 2.0  # of cost, one unknown's worth by Akaike's criterion, that another angle has to gain
 
 
-def retracked(search: Search, nominal: Fitted, fits: list[Fitted]) -> tuple[Search, Fitted, list[Fitted]]:
+def along_the_simulated_angle(
+    problem: Problem, nominal: Fit, fits: list[Fit]
+) -> tuple[Problem, Fit, list[Fit]]:
     """The same fits with another angle where none was recorded: one that the best fit simulates, or each fit its own.
 
     The integral of a noisy speed wanders: thirty periods a revolution further on, it has lost the phase. Effects on
     their own angle are the exact equations, but only near the solution a smooth problem.
     """
     best = min([nominal, *fits], key=lambda f: f.cost)
-    if not _turns(best) or any(t.position.size for t in search.problem.targets):
-        return search, nominal, fits
-    other, again = search, best
-    for _ in range(MOST_TRACKS):
-        tried = _tracked(other, again)
-        refitted = tried.refit(again, tried.problem, share=one_stage(search.problem.work))
-        if refitted.cost > again.cost - 2.0:
+    if not _turns(best) or any(r.position.size for r in problem.runs):
+        return problem, nominal, fits
+    other, again = problem, best
+    for _ in range(MOST_ROUNDS):
+        tried = _simulated(other, again)
+        refitted = refit(again, tried, share=one_stage(problem.work))
+        if refitted.cost > again.cost - GAINED:
             break
         other, again = tried, refitted
-    free = replace(search, problem=replace(search.problem, targets=tuple(map(_on_its_own, search.problem.targets))))
-    freed = free.refit(again, free.problem, share=one_stage(search.problem.work))
-    if freed.cost < again.cost - 2.0:
+    free = replace(problem, runs=tuple(map(_on_its_own, problem.runs)))
+    freed = refit(again, free, share=one_stage(problem.work))
+    if freed.cost < again.cost - GAINED:
         other, again = free, freed
-    if other is search:
-        return search, nominal, fits
-    first, *rest = other.refit_all([nominal, *(f for f in foremost(fits) if f is not best)])
+    if other is problem:
+        return problem, nominal, fits
+    first, *rest = refit_all([nominal, *(f for f in foremost(fits) if f is not best)], other)
     return other, first, sorted([again, *rest], key=lambda f: f.cost)
 
 
-def _on_its_own(target: Target) -> Target:
-    return replace(target, follows=False)
+def _on_its_own(run: Run) -> Run:
+    return replace(run, follows=False)
 
 
-def _turns(fitted: Fitted) -> bool:
+def _turns(this: Fit) -> bool:
     """Whether an effect of this explanation depends on the angle."""
-    return any(fitted.candidate.table[name].turns for name in fitted.added)
+    return any(this.hypothesis.table[name].turns for name in this.added)
 
 
-def _tracked(search: Search, fitted: Fitted) -> Search:
-    """The search on targets whose angle is the one that `fitted` simulates."""
-    problem = search.problem
-    active = fitted.candidate.active
-    angles = [problem.simulate(t, fitted.vector, active).signals["position"] for t in problem.targets]
-    targets = tuple(
-        replace(t, angle=np.ascontiguousarray(a), angle_from_speed=False, follows=True)
-        for t, a in zip(problem.targets, angles, strict=True)
+def _simulated(problem: Problem, this: Fit) -> Problem:
+    """The problem on runs whose angle is the one that `this` simulates."""
+    angles = [problem.simulate(r, this.vector, this.active).signals["position"] for r in problem.runs]
+    runs = tuple(
+        replace(r, angle=np.ascontiguousarray(a), angle_from_speed=False, follows=True)
+        for r, a in zip(problem.runs, angles, strict=True)
     )
-    return replace(search, problem=replace(problem, targets=targets))
+    return replace(problem, runs=runs)

@@ -2,71 +2,118 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rwn.fit.budget import shares_by_rank
-from rwn.fit.fit import Fitted
-from rwn.fit.problem import OutputError
-from rwn.fit.quantisation import coarse_steps, noise_before_rounding, unrounded
-from rwn.name.screening import Search, foremost
+from rwn.fit.fit import Fit, foremost, refit
+from rwn.fit.problem import Problem
 from rwn.parallel import side_by_side
+from rwn.recording.quantisation import mean_rounding_error, quantum
+from rwn.simulate.run import Run
+
+Array = NDArray[np.float64]
 
 ROUNDS = 6  # fits, each to the speed less the rounding error of the last
+NOISES = (0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6)  # before the rounding, in steps
+COARSE = 0.25  # share of the residual's energy from which the rounding of a signal is worth a name
 
 
-def unrounded_fits(
-    search: Search, nominal: Fitted, fits: list[Fitted], shown: OutputError
-) -> tuple[Search, Fitted, list[Fitted]]:
+def unrounded_fits(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Problem, Fit, list[Fit]]:
     """The same fits, each to the speed less the rounding error that it expects; as they are where no speed is coarse.
 
-    `shown` holds the speeds as recorded. The fixed point solves an unbiased estimating equation: what is shown differs
-    from its mean by nothing that the model could follow.
+    The fixed point solves an unbiased estimating equation: what is shown differs from its mean by nothing that the
+    model could follow.
     """
     best = min([nominal, *fits], key=lambda f: f.cost)
-    problem = as_shown(search.problem, shown)
-    residuals = problem.residuals(best.vector, best.candidate.active)
-    steps = coarse_steps(problem, residuals)
+    shown = as_shown(problem)
+    residuals = shown.residuals(best.vector, best.active)
+    steps = coarse_steps(shown, residuals)
     if not steps:
-        return search, nominal, fits
+        return problem, nominal, fits
     noises = [
-        noise_before_rounding(t, r["speed"], step)
-        for t, r, step in zip(problem.targets, residuals, steps, strict=True)
+        noise_before_rounding(r, left["speed"], step)
+        for r, left, step in zip(shown.runs, residuals, steps, strict=True)
     ]
     these = [nominal, *foremost(fits)]
-    shares = shares_by_rank(problem.work, [f.cost if f.added else 0.0 for f in these])
+    shares = shares_by_rank(shown.work, [f.cost if f.added else 0.0 for f in these])
 
-    def on_average(pair: tuple[Fitted, float]) -> tuple[Fitted, OutputError]:
-        return _settled(search, pair[0], problem, steps, noises, share=pair[1])
+    def on_average(pair: tuple[Fit, float]) -> tuple[Fit, Problem]:
+        return _to_the_mean(pair[0], shown, steps, noises, share=pair[1])
 
     settled = side_by_side(on_average, zip(these, shares, strict=True))
     _, on = min(settled, key=lambda pair: pair[0].cost)
-    return replace(search, problem=on), settled[0][0], sorted((f for f, _ in settled[1:]), key=lambda f: f.cost)
+    return on, settled[0][0], sorted((f for f, _ in settled[1:]), key=lambda f: f.cost)
 
 
-def steps_shown(problem: OutputError, shown: OutputError, best: Fitted) -> tuple[float, ...]:
-    """The step of the speed of each recording; empty where the speed is not coarse in all of them."""
-    raw = as_shown(problem, shown)
-    return tuple(coarse_steps(raw, raw.residuals(best.vector, best.candidate.active)))
+def steps_shown(problem: Problem, best: Fit) -> tuple[float, ...]:
+    """The step of the speed of each run; empty where the speed is not coarse in all of them."""
+    raw = as_shown(problem)
+    return tuple(coarse_steps(raw, raw.residuals(best.vector, best.active)))
 
 
-def as_shown(problem: OutputError, shown: OutputError) -> OutputError:
+def as_shown(problem: Problem) -> Problem:
     """`problem` with the speeds as they were recorded."""
-    speeds = (t.speed for t in shown.targets)
-    return replace(problem, targets=tuple(replace(t, speed=s) for t, s in zip(problem.targets, speeds, strict=True)))
+    speeds = (r.speed for r in problem.whole)
+    runs = tuple(replace(r, speed=s) for r, s in zip(problem.runs, speeds, strict=True))
+    return replace(problem, runs=runs)
 
 
-def _settled(
-    search: Search, fitted: Fitted, shown: OutputError, steps: Sequence[float], noises: Sequence[float], *, share: float
-) -> tuple[Fitted, OutputError]:
+def coarse_steps(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[float]:
+    """The step of the speed signal of each run; empty where it is not coarse in all of them."""
+    steps = [
+        speed_resolution(r, left["speed"]) if "speed" in left else 0.0
+        for r, left in zip(problem.runs, residuals, strict=True)
+    ]
+    return steps if steps and min(steps) > 0.0 else []
+
+
+def speed_resolution(run: Run, residual: Array) -> float:
+    """The step of a speed signal that a coarse converter rounds, where that is much of the residual; else 0."""
+    step = 0.0 if run.speed_measured.is_difference else quantum(run.measured("speed"))
+    share = step**2 / 12.0 / max(float(np.nanmean(residual**2)), 1e-300)
+    return step if share > COARSE else 0.0
+
+
+def noise_before_rounding(run: Run, residual: Array, step: float) -> float:
+    """The noise before the rounding of a coarse speed, in steps: the one that leaves least of a residual."""
+    left = [float(np.nanmean((residual - _mean_error(run, residual, step, n)) ** 2)) for n in NOISES]
+    return NOISES[int(np.argmin(left))]
+
+
+def unrounded(run: Run, residual: Array, step: float, noise: float) -> Run:
+    """The run less the error that the rounding of its speed makes on average at each simulated value.
+
+    A slow speed between two steps is shown wrong in the same way for long, which no noise level describes.
+
+    Args:
+        run: one whose speed is coarse.
+        residual: shape (n), shown minus simulated speed, rad/s.
+        step: of the shown speed, rad/s.
+        noise: standard deviation before the rounding, in steps.
+    """
+    return replace(run, speed=run.speed - _mean_error(run, residual, step, noise))
+
+
+def _mean_error(run: Run, residual: Array, step: float, noise: float) -> Array:
+    cells = (run.speed - residual - run.speed[0]) / step  # simulated, in steps of the shown one
+    return step * mean_rounding_error(cells, noise)
+
+
+def _to_the_mean(
+    this: Fit, shown: Problem, steps: Sequence[float], noises: Sequence[float], *, share: float
+) -> tuple[Fit, Problem]:
     """The fit that expects the rounding which is shown, and the problem that it solves; each round may cost `share`."""
     problem = shown
     for _ in range(ROUNDS):
-        residuals = shown.residuals(fitted.vector, fitted.candidate.active)
-        targets = tuple(
-            unrounded(t, r["speed"], step, noise)
-            for t, r, step, noise in zip(shown.targets, residuals, steps, noises, strict=True)
+        residuals = shown.residuals(this.vector, this.active)
+        runs = tuple(
+            unrounded(r, left["speed"], step, noise)
+            for r, left, step, noise in zip(shown.runs, residuals, steps, noises, strict=True)
         )
-        problem = replace(shown, targets=targets)
-        fitted = search.refit(fitted, problem, share=share)
-    return fitted, problem
+        problem = replace(shown, runs=runs)
+        this = refit(this, problem, share=share)
+    return this, problem

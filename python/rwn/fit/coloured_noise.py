@@ -12,47 +12,44 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn.fit import residuals as evidence
-from rwn.fit.fit import Fitted
-from rwn.fit.problem import OutputError
-from rwn.fit.residuals import Statistics
-from rwn.name.screening import Search
+from rwn.fit.fit import Fit, refit_all
+from rwn.fit.problem import Problem
+from rwn.fit.residuals import Statistics, join, statistics_of
 
 MOST = 0.99  # persistence that is believed
 
 
 def final_fits(
-    search: Search, fits: Sequence[Fitted], left: Statistics
-) -> tuple[OutputError, Sequence[Fitted], Statistics]:
+    problem: Problem, fits: Sequence[Fit], left: Statistics
+) -> tuple[Problem, Sequence[Fit], Statistics]:
     """The problem, fits and rest that count in the end: as they are, of a transfer function under coloured noise.
 
     `left`: statistics of the best of the plain `fits`, which may leave nothing but noise.
     """
-    if search.problem.kind != "lti" or left.at_the_floor:
-        return search.problem, fits, left
-    weighted = under_coloured_noise(search, min(fits, key=lambda f: f.cost))
-    finals = weighted.refit_all(fits)
-    return weighted.problem, finals, innovations(weighted.problem, min(finals, key=lambda f: f.cost))
+    if not problem.drive.coefficients or left.at_the_floor:
+        return problem, fits, left
+    weighted = under_coloured_noise(problem, min(fits, key=lambda f: f.cost))
+    finals = refit_all(fits, weighted)
+    return weighted, finals, innovations(weighted, min(finals, key=lambda f: f.cost))
 
 
-def under_coloured_noise(search: Search, fitted: Fitted) -> Search:
-    """`search` weighted by what is new in each error that a plain fit leaves."""
-    problem = search.problem
+def under_coloured_noise(problem: Problem, this: Fit) -> Problem:
+    """`problem` weighted by what is new in each error that a plain fit leaves."""
     persistence, noise = dict(problem.persistence), dict(problem.noise)
-    residuals = problem.residuals(fitted.vector, fitted.candidate.active)
+    residuals = problem.residuals(this.vector, this.active)
     for signal in residuals[0]:
         pairs = np.concatenate([np.stack([r[signal][:-1], r[signal][1:]]) for r in residuals], axis=1)
         before, after = pairs[:, np.isfinite(pairs).all(axis=0)]
         share = float(np.clip(before @ after / max(float(before @ before), 1e-300), 0.0, MOST))
         persistence[signal] = share
         noise[signal] = max(float(np.sqrt(np.mean((after - share * before) ** 2))), 1e-12)
-    return replace(search, problem=replace(problem, persistence=persistence, noise=noise, colour=1.0))
+    return replace(problem, persistence=persistence, noise=noise, colour=1.0)
 
 
-def innovations(problem: OutputError, fitted: Fitted) -> Statistics:
+def innovations(problem: Problem, this: Fit) -> Statistics:
     """Statistics of what is new in each error of a fit: the errors themselves where no persistence is known."""
     news = [
         {s: r[1:] - problem.persistence.get(s, 0.0) * r[:-1] for s, r in residual.items()}
-        for residual in problem.residuals(fitted.vector, fitted.candidate.active)
+        for residual in problem.residuals(this.vector, this.active)
     ]
-    return evidence.statistics_of(evidence.join(problem, news))
+    return statistics_of(join(problem, news))

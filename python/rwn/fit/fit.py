@@ -1,28 +1,41 @@
-"""A candidate and where its fit ended."""
+"""A fit: a hypothesis and where the search for its unknowns ended."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.hypothesis import Candidate
-from rwn.fit.levenberg_marquardt import Minimum, Unknown
+from rwn.fit.budget import shares_by_rank
+from rwn.fit.hypothesis import Hypothesis
+from rwn.fit.levenberg_marquardt import DAMPING, Minimum, Unknown, minimise
+from rwn.fit.problem import CountedNormal, Problem
+from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
 
+MEASURED = 0.1  # part of every run that is simulated to learn what a step of a fit costs
 IDLE = 1e-9  # strength, relative to its upper limit, that is none
 LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
+TO_THE_END = 60  # iterations of a fit that is to converge; most of them are never needed
+BRIEFLY = 1  # iterations of a fit that is far from the best
+FAR_BEHIND = 4.0  # cost in units of the best's, above which a fit is repeated briefly
+KEPT = 12  # fits that are worth repeating under other conditions
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fitted:
-    """A candidate and where its fit ended."""
+class Fit:
+    """A hypothesis and where its fit ended."""
 
-    added: tuple[str, ...]  # effects beside those of the nominal model
-    candidate: Candidate
+    hypothesis: Hypothesis
     minimum: Minimum
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """Effects beside those of the nominal model."""
+        return self.hypothesis.added
 
     @property
     def cost(self) -> float:
@@ -32,7 +45,12 @@ class Fitted:
     @property
     def vector(self) -> Array:
         """The whole parameter vector at the minimum."""
-        return self.candidate.with_values(self.minimum.values)
+        return self.hypothesis.with_values(self.minimum.values)
+
+    @property
+    def active(self) -> list[int]:
+        """Indices of the switched-on effects."""
+        return self.hypothesis.active
 
     @property
     def limits_met(self) -> tuple[str, ...]:
@@ -41,50 +59,127 @@ class Fitted:
         How strong an effect is says nothing of its law; its limits are those of belief.
         """
         shapes = {
-            f"{name}.{p.name}"
-            for name in self.added
-            for p in self.candidate.table[name].parameters
-            if not (p.strength or p.replaces or p.cyclic or p.window or p.idealised)
+            f"{effect.name}.{p.name}"
+            for effect in (self.hypothesis.table[name] for name in self.added)
+            for p in effect.parameters
+            if not (p.strength or p.replaces or p.cyclic or p.idealised or p.natural or p in effect.instants)
         }
-        pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
+        pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
         return tuple(u.name for u, v in pairs if u.name in shapes and _meets(u, v))
 
     @property
     def idle(self) -> tuple[str, ...]:
         """Added effects that ended without strength: they say nothing beyond what they take over."""
-        pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
+        pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
         reached = {u.name: u.lower > 0.0 or abs(v) > IDLE * u.upper for u, v in pairs}
         strengths = {
-            name: [reached[f"{name}.{p.name}"] for p in self.candidate.table[name].parameters if p.strength]
+            name: [reached[f"{name}.{p.name}"] for p in self.hypothesis.table[name].parameters if p.strength]
             for name in self.added
         }
         return tuple(name for name, strong in strengths.items() if strong and not any(strong))
 
     @property
     def windows(self) -> list[tuple[float, float]]:
-        """Begin and end of every time window of the added effects, in units of the longest recording."""
-        longest = {u.name: u.upper for u in self.candidate.unknowns}
-        windows = [[f"{n}.{p.name}" for p in self.candidate.table[n].parameters if p.window] for n in self.added]
+        """Begin and end of every time window of the added effects, in units of the longest run."""
+        longest = {u.name: u.upper for u in self.hypothesis.unknowns}
+        windows = [[f"{n}.{p.name}" for p in self.hypothesis.table[n].instants] for n in self.added]
         ends = [[self.value(name) / longest[name] for name in names] for names in windows]
         return [(pair[0], pair[1]) for pair in ends if pair]
 
     @property
     def motor(self) -> dict[str, float]:
         """Nominal parameters as fitted."""
-        pairs = zip(self.candidate.unknowns, self.minimum.values, strict=True)
+        pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
         return {u.name: float(v) for u, v in pairs if "." not in u.name}
+
+    @property
+    def farthest_move(self) -> float:
+        """Largest move of a nominal parameter from its given value, in declared standard deviations."""
+        moves = [0.0]
+        for u, value in zip(self.hypothesis.unknowns, self.minimum.values, strict=True):
+            if u.prior is None or not np.isfinite(u.prior_std) or u.prior_std <= 0.0 or u.prior == 0.0:
+                continue
+            ratio = value / u.prior
+            logarithmic = u.logarithmic and ratio > 0.0
+            moves.append(abs(np.log(ratio) if logarithmic else ratio - 1.0) / u.prior_std)
+        return float(max(moves))
+
+    @property
+    def unknowns_seen(self) -> int:
+        """How many unknowns the recordings depend on: the offset of a current that nobody recorded is not one."""
+        return int(np.count_nonzero(np.diag(self.minimum.data_information)))
 
     def values_of(self, name: str) -> dict[str, float]:
         """Parameters of one effect as fitted."""
-        effect = self.candidate.table[name]
+        effect = self.hypothesis.table[name]
         return {p.name: float(self.vector[effect.at(p.name)]) for p in effect.parameters}
 
     def value(self, name: str) -> float:
         """A fitted unknown by name ("inertia", "coulomb-friction.coulomb_torque")."""
-        names = [u.name for u in self.candidate.unknowns]
+        names = [u.name for u in self.hypothesis.unknowns]
         return float(self.minimum.values[names.index(name)])
 
 
 def _meets(unknown: Unknown, value: float) -> bool:
     """Whether a value lies on a limit; at 0 a law merely loses a part (its damping, its strength)."""
     return any(limit != 0.0 and abs(value - limit) < LIMIT * abs(limit) for limit in (unknown.lower, unknown.upper))
+
+
+def fit(
+    problem: Problem, this: Hypothesis, *, max_iterations: int = TO_THE_END, tolerance: float = 1e-2,
+    damping: float = DAMPING, share: float = np.inf,
+) -> Fit:  # fmt: skip
+    """Fits the unknowns of a hypothesis to the runs, by one iteration at least; `share`: what it may cost."""
+    own = problem.metered()
+
+    def evaluate(values: Array) -> CountedNormal:
+        return own.normal(this.with_values(values), this.active, this.by)
+
+    def probe(values: Array) -> CountedNormal:
+        return own.normal(this.with_values(values), this.active, ())
+
+    end = minimise(
+        evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance, damping=damping,
+        prior_scale=problem.colour, probe=probe, enough=lambda: own.work.done >= share,
+    )  # fmt: skip
+    problem.work.add(own.work.done)
+    return Fit(hypothesis=this, minimum=end)
+
+
+def fit_nominal(problem: Problem) -> Fit:
+    """The nominal structure alone, from its given values."""
+    return fit(problem, problem.as_given())
+
+
+def refit(this: Fit, problem: Problem, *, iterations: int = TO_THE_END, share: float = np.inf) -> Fit:
+    """The same hypothesis fitted to another problem (other weights, other runs), from where it ended."""
+    start = this.hypothesis.starting_at(this.minimum.values)
+    return fit(problem, start, max_iterations=iterations, share=share)
+
+
+def refit_all(these: Sequence[Fit], problem: Problem) -> list[Fit]:
+    """Fits of another problem repeated on this one, those that are far behind the best by a few iterations."""
+    bar = FAR_BEHIND * min((this.cost for this in these), default=np.inf)
+
+    def again(pair: tuple[Fit, float]) -> Fit:
+        this, share = pair
+        behind = bool(this.added) and this.cost > bar
+        return refit(this, problem, iterations=BRIEFLY if behind else TO_THE_END, share=share)
+
+    # the nominal model is what all are compared with
+    shares = shares_by_rank(problem.work, [this.cost if this.added else 0.0 for this in these])
+    return side_by_side(again, zip(these, shares, strict=True))
+
+
+def foremost(fits: Sequence[Fit]) -> list[Fit]:
+    """The fits that are worth repeating under other conditions, best first."""
+    return sorted(fits, key=lambda f: f.cost)[:KEPT]
+
+
+def cost_of_a_step(problem: Problem, this: Hypothesis) -> float:
+    """What it costs to simulate all runs once, with derivatives; measured on the beginning of each."""
+    runs = tuple(r.until(max(int(MEASURED * r.time.size), 1)) for r in problem.runs)
+    own = replace(problem, runs=runs).metered()
+    own.normal(this.vector, this.active, this.by)
+    problem.work.add(own.work.done)
+    return own.work.done / MEASURED

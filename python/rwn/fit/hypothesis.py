@@ -1,4 +1,4 @@
-"""A candidate explanation: nominal model plus some effects, as unknowns of a fit."""
+"""A hypothesis: the nominal model plus some effects, as unknowns of a fit with the values that it begins from."""
 
 from __future__ import annotations
 
@@ -8,35 +8,22 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.levenberg_marquardt import DAMPING, Minimum, Unknown, minimise
-from rwn.fit.problem import CountedNormal, OutputError
+from rwn.fit.levenberg_marquardt import Unknown
+from rwn.fit.prior import Prior
 from rwn.model.vocabulary import Effect, Parameter, motor_index, motor_parameters, parameter_vector, table
 
 Array = NDArray[np.float64]
 
 LEAST_LEVEL = 1e-3  # of a friction, relative to the largest torque, that says how strong its elaborations may be
 TORQUE_TO_EMF = 0.02  # Kt = Ke in SI but for losses that the equations do not hold
-MEASURED = 0.1  # of every recording, that says what a step of a fit costs
 
 
 @dataclass(frozen=True, kw_only=True)
-class Nominal:
-    """The nominal model as the fit sees it: values and declared relative standard deviations (absent: exact)."""
+class Hypothesis:
+    """Effects, the unknowns that come with them, and the vector that these are put into."""
 
-    motor: Mapping[str, float]
-    uncertainty: Mapping[str, float]
-    effects: Mapping[str, Mapping[str, float]]  # already part of the nominal model
-    free: Mapping[str, float]  # unknown without a prior (coefficients), with their first guess
-    reach: Mapping[str, float] = field(default_factory=dict)  # how far from 0 what is free may go
-    starts: tuple[Mapping[str, float], ...] = ()  # other first guesses of what is free, worth a try
-    table: Mapping[str, Effect] = field(default_factory=table)  # every effect that the model knows
-
-
-@dataclass(frozen=True, kw_only=True)
-class Candidate:
-    """Unknowns and the vector that they are put into."""
-
-    effects: tuple[str, ...]
+    effects: tuple[str, ...]  # of the nominal model, then the added ones
+    added: tuple[str, ...]
     vector: Array  # starting values of all parameters
     unknowns: tuple[Unknown, ...]
     table: Mapping[str, Effect] = field(default_factory=table)
@@ -62,75 +49,43 @@ class Candidate:
         vector[self.by] = values
         return vector
 
-    def starting_at(self, values: Array) -> Candidate:
-        """The same candidate from another start."""
+    def starting_at(self, values: Array) -> Hypothesis:
+        """The same hypothesis from another start."""
         return replace(self, vector=self.with_values(values))
 
 
-def candidate(
-    nominal: Nominal,
-    effects: tuple[str, ...],
+def hypothesis(
+    prior: Prior,
+    added: tuple[str, ...],
     scales: Mapping[str, float],
     starts: Mapping[str, Mapping[str, float]] | None = None,
     motor: Mapping[str, float] | None = None,
-) -> Candidate:
-    """`nominal` plus `effects`, started at their first guesses or at `starts` (SI), the motor at `motor`."""
+) -> Hypothesis:
+    """The nominal model with effects `added`, from their first guesses or `starts` (SI), the motor from `motor`."""
     starts = starts or {}
-    active = tuple(dict.fromkeys((*nominal.effects, *effects)))
-    known_effects = nominal.table
+    active = tuple(dict.fromkeys((*prior.effects, *added)))
+    known_effects = prior.table
     replaced = {p.replaces for name in active for p in known_effects[name].parameters} - {None}
-    motor_now = {**nominal.motor, **nominal.free, **(motor or {})}
-    unknowns = [_motor_unknown(name, nominal) for name in nominal.uncertainty if name not in replaced]
-    unknowns += [_free_unknown(name, nominal.reach.get(name, 1e9)) for name in nominal.free]
+    motor_now = {**prior.motor, **prior.free, **(motor or {})}
+    unknowns = [_motor_unknown(name, prior) for name in prior.uncertainty if name not in replaced]
+    unknowns += [_free_unknown(name, prior.reach.get(name, 1e9)) for name in prior.free]
     values: dict[str, dict[str, float]] = {}
     for name in active:
         effect = known_effects[name]
-        known = nominal.effects.get(name)
+        known = prior.effects.get(name)
         values[name] = {
             p.name: _first(effect, p, motor_now, scales, starts.get(name, {}), known) for p in effect.parameters
         }
         if known is None:
-            unknowns += [
-                _effect_unknown(effect, p, nominal, scales) for p in effect.parameters if not p.fixed
-            ]
+            unknowns += [_effect_unknown(effect, p, prior, scales) for p in effect.parameters if not p.fixed]
     vector = parameter_vector(motor_now, values, known_effects)
-    return Candidate(effects=active, vector=vector, unknowns=tuple(unknowns), table=known_effects)
+    return Hypothesis(effects=active, added=added, vector=vector, unknowns=tuple(unknowns), table=known_effects)
 
 
-def fit(
-    problem: OutputError, this: Candidate, *, max_iterations: int = 60, tolerance: float = 1e-2,
-    damping: float = DAMPING, share: float = np.inf,
-) -> Minimum:  # fmt: skip
-    """Fits the unknowns of a candidate to the recordings, by one iteration at least; `share`: what it may cost."""
-    own = problem.metered()
-
-    def evaluate(values: Array) -> CountedNormal:
-        return own.normal(this.with_values(values), this.active, this.by)
-
-    def probe(values: Array) -> CountedNormal:
-        return own.normal(this.with_values(values), this.active, ())
-
-    end = minimise(
-        evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance, damping=damping,
-        prior_scale=problem.colour, probe=probe, enough=lambda: own.work.done >= share,
-    )  # fmt: skip
-    problem.work.add(own.work.done)
-    return end
-
-
-def cost_of_a_step(problem: OutputError, this: Candidate) -> float:
-    """What it costs to simulate all recordings once, with derivatives; measured on the beginning of each."""
-    targets = tuple(t.until(max(int(MEASURED * t.time.size), 1)) for t in problem.targets)
-    own = replace(problem, targets=targets).metered()
-    own.normal(this.vector, this.active, this.by)
-    problem.work.add(own.work.done)
-    return own.work.done / MEASURED
-
-
-def _motor_unknown(name: str, nominal: Nominal) -> Unknown:
-    value = nominal.motor[name]
+def _motor_unknown(name: str, prior: Prior) -> Unknown:
+    value = prior.motor[name]
     if name not in motor_parameters():  # a coefficient of a transfer function, of either sign
-        return replace(_free_unknown(name), prior=value, prior_std=nominal.uncertainty[name])
+        return replace(_free_unknown(name), prior=value, prior_std=prior.uncertainty[name])
     parameter = motor_parameters()[name]
     positive = name not in ("viscous_friction", "coulomb_friction", "pendulum_torque") and value > 0.0
     return Unknown(
@@ -141,19 +96,19 @@ def _motor_unknown(name: str, nominal: Nominal) -> Unknown:
         upper=value * 1e3 if value > 0.0 else np.inf,
         logarithmic=positive,
         prior=value,
-        prior_std=nominal.uncertainty[name],
-        tied_to="back_emf_constant" if name == "torque_constant" and _same_constant(nominal) else "",
+        prior_std=prior.uncertainty[name],
+        tied_to="back_emf_constant" if name == "torque_constant" and _same_constant(prior) else "",
         tie_std=TORQUE_TO_EMF,
     )
 
 
-def _same_constant(nominal: Nominal) -> bool:
+def _same_constant(prior: Prior) -> bool:
     """Whether the data sheet leaves room for Kt = Ke, which a brushed motor with a constant field has."""
     pair = ("torque_constant", "back_emf_constant")
-    if not all(nominal.uncertainty.get(name, 0.0) > 0.0 for name in pair):
+    if not all(prior.uncertainty.get(name, 0.0) > 0.0 for name in pair):
         return False
-    ratio = abs(np.log(nominal.motor[pair[0]] / nominal.motor[pair[1]]))
-    return bool(ratio < 3.0 * np.hypot(nominal.uncertainty[pair[0]], nominal.uncertainty[pair[1]]))
+    ratio = abs(np.log(prior.motor[pair[0]] / prior.motor[pair[1]]))
+    return bool(ratio < 3.0 * np.hypot(prior.uncertainty[pair[0]], prior.uncertainty[pair[1]]))
 
 
 def _free_unknown(name: str, reach: float = 1e9) -> Unknown:
@@ -163,12 +118,12 @@ def _free_unknown(name: str, reach: float = 1e9) -> Unknown:
     return Unknown(name=name, unit=parameter.unit, index=motor_index(name), lower=-reach, upper=reach, nuisance=True)
 
 
-def _effect_unknown(effect: Effect, p: Parameter, nominal: Nominal, scales: Mapping[str, float]) -> Unknown:
-    unit = scales[p.scale]
-    known = nominal.motor.get(p.replaces, 0.0) if p.replaces else 0.0
-    uncertain = nominal.uncertainty.get(p.replaces, 0.0) if p.replaces else 0.0
+def _effect_unknown(effect: Effect, p: Parameter, prior: Prior, scales: Mapping[str, float]) -> Unknown:
+    unit = p.scale.of(scales)
+    known = prior.motor.get(p.replaces, 0.0) if p.replaces else 0.0
+    uncertain = prior.uncertainty.get(p.replaces, 0.0) if p.replaces else 0.0
     alone = sum(q.replaces == p.replaces for q in effect.parameters) == 1  # two levels for one: neither is known
-    has_prior = known > 0.0 and alone and effect.name not in nominal.effects
+    has_prior = known > 0.0 and alone and effect.name not in prior.effects
     return Unknown(
         name=f"{effect.name}.{p.name}",
         unit=p.unit,
@@ -200,6 +155,6 @@ def first_unit(effect: Effect, p: Parameter, motor: Mapping[str, float], scales:
     """What first guesses of a parameter are multiples of: its scale, or the level of the motor that it takes over."""
     replaced = next((q.replaces for q in effect.parameters if q.replaces), None)
     level = motor.get(replaced, 0.0) if replaced else 0.0
-    if level > LEAST_LEVEL * scales["torque"] and p.scale == "torque" and p.unit == "N m":
+    if level > LEAST_LEVEL * scales["torque"] and p.scale.powers == {"torque": 1} and p.unit == "N m":
         return level / float(np.mean([q.start for q in effect.parameters if q.replaces]))
-    return scales[p.scale]
+    return p.scale.of(scales)

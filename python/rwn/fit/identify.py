@@ -5,18 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from rwn.correct.corrected_model import corrected_model, deviations, estimates
-from rwn.fit import residuals as evidence
-from rwn.fit.fit import Fitted
-from rwn.fit.preparation import noise_levels, prepare
+from rwn.fit.fit import Fit, fit_nominal
+from rwn.fit.fitted_model import fitted_model
+from rwn.fit.intervals import Estimate, deviations, estimates
+from rwn.fit.noise import noise_levels
+from rwn.fit.preparation import prepare
+from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
-from rwn.name.screening import Search
 from rwn.recording.recording import Recording
-from rwn.report.diagnosis import Estimate
+
+LEARNED = 0.9  # standard deviation after the fit over the declared one, above which recordings say nothing
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fit:
+class Identification:
     """A fitted model with what can be said of it."""
 
     model: Model
@@ -27,36 +29,32 @@ class Fit:
     residual_over_noise: float  # rms, 1: nothing but noise is left
 
 
-def identify(recordings: Sequence[Recording], model: Model) -> Fit:
+def identify(recordings: Sequence[Recording], model: Model) -> Identification:
     """Fits the uncertain parameters of `model` to the free run over all recordings.
 
     Intervals are 95 %, widened for what the residual's variance and colour say; declared uncertainties are priors.
     """
-    setup = prepare(recordings, model)
-    search = Search.of(setup)
-    fitted = search.fit_nominal()
-    levels = noise_levels(
-        setup.problem.targets, setup.problem.residuals(fitted.vector, fitted.candidate.active)
-    )
-    search = replace(search, problem=replace(setup.problem, noise=levels))
-    fitted = search.fit_nominal()
-    left = evidence.statistics(search.problem, fitted)
-    status = fitted.minimum.status
-    return Fit(
-        model=corrected_model(fitted, model),
-        parameters=estimates(fitted, left.variance, left.correlation_time),
+    problem = prepare(recordings, model)
+    this = fit_nominal(problem)
+    problem = replace(problem, noise=noise_levels(problem.runs, problem.residuals(this.vector, this.active)))
+    this = fit_nominal(problem)
+    left = statistics(problem, this)
+    status = this.minimum.status
+    return Identification(
+        model=fitted_model(this, model),
+        parameters=estimates(this, left),
         status=status.name.lower().replace("_", "-"),
         advice=status.value,
-        not_identifiable=_unseen(fitted, left.variance, left.correlation_time),
+        not_identifiable=_unseen(this, left),
         residual_over_noise=left.variance**0.5,
     )
 
 
-def _unseen(fitted: Fitted, variance: float, correlation_time: float) -> tuple[str, ...]:
-    spread = deviations(fitted, variance, correlation_time)
+def _unseen(this: Fit, left: Statistics) -> tuple[str, ...]:
+    spread = deviations(this, left)
     rows = []
-    for u, value, std in zip(fitted.candidate.unknowns, fitted.minimum.values, spread, strict=True):
+    for u, value, std in zip(this.hypothesis.unknowns, this.minimum.values, spread, strict=True):
         declared = u.prior_std * abs(u.prior) if u.prior else float("inf")
-        if not u.nuisance and (std > 0.9 * declared or std > abs(value) > 0.0):
+        if not u.nuisance and (std > LEARNED * declared or std > abs(value) > 0.0):
             rows.append(u.name)
     return tuple(rows)

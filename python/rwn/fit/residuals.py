@@ -1,4 +1,4 @@
-"""How strongly recordings speak for one explanation against another when their residuals are coloured."""
+"""What a fit leaves: how much, how coloured, and how many independent samples it is worth."""
 
 from __future__ import annotations
 
@@ -8,15 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.fit import Fitted
-from rwn.fit.problem import OutputError
+from rwn.fit.fit import Fit
+from rwn.fit.problem import Problem
 
 Array = NDArray[np.float64]
 
-AT_THE_FLOOR = 1.4  # coloured energy of a residual that may still be measurement noise
+MOST_COLOURED = 1.4  # coloured energy of a residual that may still be measurement noise
 RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2,
 LOUD = 1.3  # where the residual has at least so much variance in units of the noise
-MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it is worth
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +32,7 @@ class Statistics:
     def at_the_floor(self) -> bool:
         """Whether the residual may be measurement noise alone: it is not slow, nor loud and of one pitch."""
         rings = self.ringing >= RINGING and self.variance >= LOUD
-        return (self.coloured < AT_THE_FLOOR and not rings) or self.variance < 1.05
+        return (self.coloured < MOST_COLOURED and not rings) or self.variance < 1.05
 
     @property
     def effective(self) -> float:
@@ -85,20 +84,20 @@ def _power(spectrum: NDArray[np.complex128]) -> Array:
     return power
 
 
-def statistics(problem: OutputError, fitted: Fitted, *, drift: bool = True) -> Statistics:
+def statistics(problem: Problem, this: Fit, *, drift: bool = True) -> Statistics:
     """Residual statistics of a fit, over all recordings and signals.
 
     `drift`: with the position's beside those of other signals; its noise level is the slow error that it is left.
     """
-    joined = join(problem, problem.residuals(fitted.vector, fitted.candidate.active))
+    joined = join(problem, problem.residuals(this.vector, this.active))
     if not drift and len(joined) > 1:
         joined.pop("position", None)
     return statistics_of(joined)
 
 
-def variance(problem: OutputError, fitted: Fitted) -> float:
+def variance(problem: Problem, this: Fit) -> float:
     """Mean squared weighted error of a fit, over all recordings and signals; 1: the noise alone."""
-    joined = join(problem, problem.residuals(fitted.vector, fitted.candidate.active))
+    joined = join(problem, problem.residuals(this.vector, this.active))
     return sum(_energies(joined).values()) / max(_count(joined), 1)
 
 
@@ -124,60 +123,10 @@ def _count(joined: Mapping[str, Array]) -> int:
     return sum(int(np.isfinite(r).sum()) for r in joined.values())
 
 
-def join(problem: OutputError, residuals: Sequence[Mapping[str, Array]]) -> dict[str, Array]:
+def join(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> dict[str, Array]:
     """Weighted residuals of each signal, recordings end to end."""
     signals = {s for r in residuals for s in r}
     return {
         s: np.concatenate([r[s] for r in residuals if s in r]) / problem.noise.get(s, 1.0)
         for s in sorted(signals)
     }
-
-
-@dataclass(frozen=True, kw_only=True)
-class Hypothesis:
-    """An explanation with its probability among those that were tried."""
-
-    fitted: Fitted
-    final: Fitted  # what is drawn and saved: `fitted`, or the same refitted under coloured noise
-    score: float  # log of evidence, up to a constant
-    probability: float
-    misfit: float  # log-likelihood lost against the best, complexity aside
-
-
-def weigh(
-    fits: Sequence[Fitted], left: Statistics, *, rivals: int, prior: Mapping[str, float] | None = None,
-    finals: Sequence[Fitted] | None = None,
-) -> list[Hypothesis]:  # fmt: skip
-    """Probabilities of the fits, best first.
-
-    BIC with the effective number of samples of the best explanation's residual (coloured residuals carry less), a
-    uniform prior over how many effects are missing, shared over the `rivals` names. `prior`: log prior odds per name.
-    `finals`: what the fits became under coloured noise, to be weighed in their place.
-    """
-    finals = fits if finals is None else finals
-    effective = left.effective if left.at_the_floor else min(left.effective, MISSPECIFIED)
-    scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
-    least = min(f.cost for f in finals)
-    base = min(map(_seen, finals))
-    scores = []
-    for f in finals:
-        unknowns = _seen(f) - base
-        names = sum((prior or {}).get(name, 0.0) for name in f.added)
-        scores.append(
-            -(f.cost - least) / scale
-            - 0.5 * unknowns * np.log(max(effective, 2.0))
-            - len(f.added) * np.log(rivals)
-            + names
-        )
-    weights = np.exp(np.array(scores) - max(scores))
-    weights /= weights.sum()
-    rows = [
-        Hypothesis(fitted=f, final=g, score=float(s), probability=float(p), misfit=float((g.cost - least) / scale))
-        for f, g, s, p in zip(fits, finals, scores, weights, strict=True)
-    ]
-    return sorted(rows, key=lambda h: -h.score)
-
-
-def _seen(fitted: Fitted) -> int:
-    """How many unknowns the recordings depend on: the offset of a current that nobody recorded is not one."""
-    return int(np.count_nonzero(np.diag(fitted.minimum.data_information)))

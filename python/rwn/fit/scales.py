@@ -7,45 +7,41 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.problem import Target
+from rwn.model.drives.drive import Drive
 from rwn.model.vocabulary import motor_index
+from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
 
 def scales(
-    kind: str, motor: Array, targets: Sequence[Target], outputs: Sequence[dict[str, Array]]
+    drive: Drive, motor: Array, runs: Sequence[Run], outputs: Sequence[dict[str, Array]]
 ) -> dict[str, float]:
-    """Value of each `Scale` (SI) from the motor's parameter vector, the recordings and their nominal simulation."""
+    """Value (SI) of each quantity of `Scale`: from the motor's parameter vector, the runs, their nominal simulation."""
     inertia = motor[motor_index("inertia")]
-    step = float(np.median(np.concatenate([np.diff(t.time) for t in targets])))
-    drive = max(_peak(t.input) for t in targets)
-    current = max(_peak(_best(t, o, "current")) for t, o in zip(targets, outputs, strict=True))
-    speed = max(_peak(_best(t, o, "speed")) for t, o in zip(targets, outputs, strict=True))
-    torque = motor[motor_index("torque_constant")] * current if kind == "dc" else drive
+    step = float(np.median(np.concatenate([np.diff(r.time) for r in runs])))
+    given = max(_peak(r.input) for r in runs)
+    current = max(_peak(_best(r, o, "current")) for r, o in zip(runs, outputs, strict=True))
+    speed = max(_peak(_best(r, o, "speed")) for r, o in zip(runs, outputs, strict=True))
+    torque = motor[motor_index("torque_constant")] * current if drive.winding else given
     speed = max(speed, 1e-12)
-    duration = max(float(t.time[-1] - t.time[0]) for t in targets)
-    squares = [np.mean(_best(t, o, "current") ** 2) for t, o in zip(targets, outputs, strict=True)]
+    duration = max(float(r.time[-1] - r.time[0]) for r in runs)
+    squares = [np.mean(_best(r, o, "current") ** 2) for r, o in zip(runs, outputs, strict=True)]
     loss = max(motor[motor_index("resistance")] * float(np.max(squares)), 1e-12)
     return {
-        "none": 1.0,
         "torque": max(torque, 1e-12),
         "speed": speed,
-        "voltage": max(drive, 1e-12),
+        "voltage": max(given, 1e-12),
         "current": max(current, 1e-12),
         "inertia": inertia,
-        "damping": torque / speed,
-        "stiffness": inertia * (0.3 / step) ** 2,
-        "drag": torque / speed**2,
         "time_step": step,
         "duration": duration,
-        "loss": 1.0 / loss,
-        "heat": loss * duration,
+        "loss": loss,
     }
 
 
-def _best(target: Target, output: dict[str, Array], signal: str) -> Array:
-    recorded = target.signal(signal)
+def _best(run: Run, output: dict[str, Array], signal: str) -> Array:
+    recorded = run.signal(signal)
     return recorded if recorded.size else output[signal]
 
 

@@ -6,12 +6,17 @@ the ripples go down it, coarse to fine (graduated optimisation: Blake, Zisserman
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.hypothesis import Candidate, fit
+from rwn.fit.budget import shares_by_rank
+from rwn.fit.fit import Fit, fit
+from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.levenberg_marquardt import Minimum, Unknown, minimise
-from rwn.fit.problem import CountedNormal, OutputError
+from rwn.fit.problem import CountedNormal, Problem
 from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
@@ -20,23 +25,25 @@ SECANTS = (0.2, 0.06, 0.02)  # relative steps, coarse to fine
 STEPS = 6  # along each of them
 ITERATIONS = 12  # with derivatives
 GAIN = 2e-3  # least relative gain in cost that is worth another turn, or step
+TURNS = 3  # of the best fits
+RIVAL = 2.0  # cost in units of the best, up to which a fit may still turn out to be better
 NEAR_ZERO = 0.02  # of its range or its prior: what a parameter near zero is stepped by, as if it were that large
 
 
-def rough(this: Candidate, *names: str) -> list[int]:
+def rough(this: Hypothesis, *names: str) -> list[int]:
     """The unknowns of effects that idealise a contact, all or among `names`; empty where the error is smooth."""
     owners = {name for name in names or this.effects if any(p.idealised for p in this.table[name].parameters)}
     return [k for k, u in enumerate(this.unknowns) if u.name.partition(".")[0] in owners and u.lower > 0.0]
 
 
-def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int, share: float = np.inf) -> Minimum:
-    """The fit of `this` from the end of another, by turns as long as they gain; `start` where its error is smooth.
+def down_secants(problem: Problem, start: Fit, *, turns: int, share: float = np.inf) -> Fit:
+    """A fit gone on from the end of another, by turns as long as they gain; `start` where its error is smooth.
 
     `share`: what it may cost, the beginning of every part aside.
     """
-    best, own = start, problem.metered()
+    this, best, own = start.hypothesis, start, problem.metered()
     for _ in range(turns if rough(this) else 0):
-        values = best.values
+        values = best.minimum.values
         for relative in SECANTS:
             found = _by_secants(own, this.starting_at(values), relative, share)
             values = found.values
@@ -44,14 +51,26 @@ def settled(problem: OutputError, this: Candidate, start: Minimum, *, turns: int
                 break  # the bowl is left, and what remains are ripples
         again = fit(own, this.starting_at(values), max_iterations=ITERATIONS, share=share - own.work.done)
         gained = again.cost < (1.0 - GAIN) * best.cost
-        best = min(best, again, key=lambda m: m.cost)
+        best = min(best, again, key=lambda f: f.cost)
         if not gained or own.work.done >= share:
             break
     problem.work.add(own.work.done)
-    return best
+    return replace(best, hypothesis=this)
 
 
-def _by_secants(problem: OutputError, this: Candidate, relative: float, share: float) -> Minimum:
+def all_down_secants(problem: Problem, nominal: Fit, fits: Sequence[Fit]) -> list[Fit]:
+    """The fits, those that may yet be the best gone on from by `down_secants`."""
+    bar = RIVAL * min(f.cost for f in (nominal, *fits))
+    worth = [f for f in fits if f.cost < bar and rough(f.hypothesis)]
+    shares = shares_by_rank(problem.work, [f.cost for f in worth])
+    ends = side_by_side(
+        lambda pair: down_secants(problem, pair[0], turns=TURNS, share=pair[1]), zip(worth, shares, strict=True)
+    )
+    better = {id(f): end for f, end in zip(worth, ends, strict=True)}
+    return [better.get(id(f), f) for f in fits]
+
+
+def _by_secants(problem: Problem, this: Hypothesis, relative: float, share: float) -> Minimum:
     """Where Levenberg-Marquardt ends with the slopes of secants over `relative` steps in place of derivatives.
 
     Or where the problem's meter has come to `share`.
@@ -110,7 +129,7 @@ def _with(values: Array, k: int, value: float) -> Array:
     return moved
 
 
-def _weighted(problem: OutputError, this: Candidate, values: Array) -> Array:
+def _weighted(problem: Problem, this: Hypothesis, values: Array) -> Array:
     """Weighted errors of all recordings and signals, end to end; nothing where nothing was recorded."""
     with _overflowing():  # of every thread its own
         errors = problem.residuals(this.with_values(values), this.active)

@@ -14,13 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.fit import Fitted
-from rwn.fit.problem import OutputError
-from rwn.locate.unknown_inputs import Unknown
-from rwn.name.initial_guesses.spectra import drive_filter
-from rwn.networks.conventional_network import ConventionalNetwork
-from rwn.networks.wavelets import Wavelet
-from rwn.report.text import quantity
+from rwn.fit.fit import Fit
+from rwn.fit.problem import Problem
+from rwn.networks.wavelets import Wavelet, dyadic_places
+from rwn.simulate.linear_response import speed_filter
+from rwn.simulate.unknown_inputs import UnknownInputs
 
 Array = NDArray[np.float64]
 
@@ -42,12 +40,6 @@ class Law:
     x: Array  # (n,) of the curve
     torque: Array  # (n,)
 
-    def words(self, *, linear: bool) -> str:
-        """One clause: "a torque that depends on angle, 14 periods per revolution, 3 mN m"."""
-        size = quantity(self.amplitude, "N" if linear else "N m", 2)
-        place = f"angle, {self.periods} periods per revolution" if self.periods else self.coordinate
-        return f"a {'force' if linear else 'torque'} that depends on {place}, {size}"
-
 
 @dataclass(frozen=True, kw_only=True)
 class _Error:
@@ -60,34 +52,34 @@ class _Error:
 
 
 def laws(
-    problem: OutputError, fitted: Fitted, unknown: Sequence[Unknown], *, linear: bool = False
+    problem: Problem, this: Fit, unknown: Sequence[UnknownInputs], *, linear: bool = False
 ) -> tuple[Law, ...]:
     """The dependence on each state, the one that explains most first; states that explain nothing are left out."""
-    error = _error(problem, fitted, unknown)
+    error = _error(problem, this, unknown)
     found = [_over(name, error, linear) for name in COORDINATES if np.ptp(error.states[name]) > 0.0]
     if np.ptp(error.states["angle"]) > 2.0 * np.pi:
         found.append(_over_angle(error))
     return tuple(sorted((law for law in found if law.share > 0.02), key=lambda law: -law.share))
 
 
-def _error(problem: OutputError, fitted: Fitted, unknown: Sequence[Unknown]) -> _Error:
+def _error(problem: Problem, this: Fit, unknown: Sequence[UnknownInputs]) -> _Error:
     from scipy.signal import lfilter  # late: the command line starts without it
 
     states = {name: np.concatenate([getattr(u, name) for u in unknown]) for name in (*COORDINATES, "angle")}
     ends = np.cumsum([u.time.size for u in unknown])[:-1]
-    by_filter = problem.kind == "dc" and all(t.speed.size for t in problem.targets)
+    by_filter = problem.drive.winding and all(r.speed.size for r in problem.runs)
 
     def answer(columns: Array) -> Array:
         if not by_filter:
             return columns
         parts = []
-        for target, part in zip(problem.targets, np.split(columns, ends), strict=True):
-            a, b = drive_filter(problem, fitted.vector, float(np.median(np.diff(target.time))))
+        for run, part in zip(problem.runs, np.split(columns, ends), strict=True):
+            a, b = speed_filter(problem.drive, this.vector, run.sample_time)
             parts.append(lfilter([0.0, b], [1.0, -a], part, axis=0))
         return np.concatenate(parts)
 
     if by_filter:
-        residuals = problem.residuals(fitted.vector, fitted.candidate.active)
+        residuals = problem.residuals(this.vector, this.active)
         value = np.concatenate([r["speed"] for r in residuals])
     else:
         value = np.concatenate([u.torque for u in unknown])
@@ -129,22 +121,10 @@ def _over_angle(error: _Error) -> Law:
     )  # fmt: skip
 
 
-def dyadic_places(count: int) -> tuple[tuple[float, float], ...]:
-    """(centre, dilation) of the first `count` wavelets of a dyadic grid over [0, 1] (2.10-2.11)."""
-    places = [((k + 0.5) / 2**level, 0.7 / 2**level) for level in range(5) for k in range(2**level)]
-    return tuple(places[:count])
-
-
 def _wavelets(x: Array) -> Array:
     """Outputs (n, wavelets) of single wavelets over [0, 1]."""
-    columns = []
-    for m, d in dyadic_places(WAVELETS):
-        network = ConventionalNetwork(
-            wavelet=Wavelet("mexican-hat"), b=np.zeros(1), a=np.zeros((1, 1)), w=np.ones((1, 1)),
-            m=np.array([[m]]), d=np.array([[d]]),
-        )  # fmt: skip
-        columns.append(network.output(np.ascontiguousarray(x[:, None]))[:, 0])
-    return np.stack(columns, axis=1)
+    hat = Wavelet("mexican-hat")
+    return np.stack([hat.value((x - m) / d) for m, d in dyadic_places(WAVELETS)], axis=1)
 
 
 def _fitted(basis: Array, error: _Error) -> tuple[float, Array]:

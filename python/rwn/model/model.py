@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Protocol, cast
 
-from rwn.errors import InputError, unknown
-from rwn.model import drives
-from rwn.model import vocabulary as effects
-from rwn.model.drives import Drive, Nominal
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.errors import unknown
+from rwn.model import drives, vocabulary
+from rwn.model.drives.drive import Drive, NominalParameter
 from rwn.model.own_effects import OwnEffect, check_constants, check_own_effects, with_own
 from rwn.model.vocabulary import Effect
 from rwn.recording.columns import Layout
@@ -37,6 +38,8 @@ class EffectEntry(Protocol):
 
 
 EffectTable = Mapping[str, EffectEntry]
+
+GRAVITY = 9.80665  # standard gravity [m/s^2]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +74,7 @@ class Model:
             object.__setattr__(self, name, MappingProxyType(tables))
         if self.own_effects:
             where = self.source or "model"
-            check_own_effects(self.own_effects, self.kind, where=f"{where}, [own_effects]")
+            check_own_effects(self.own_effects, self.drive, where=f"{where}, [own_effects]")
             check_constants(self.own_effects, self.effects, where=where)
             own = tuple(e if e.drive == self.drive else replace(e, drive=self.drive) for e in self.own_effects)
             object.__setattr__(self, "own_effects", own)
@@ -93,17 +96,32 @@ class Model:
     @cached_property
     def effect_table(self) -> Mapping[str, Effect]:
         """Every effect that this model knows by name: those that come with rwn, then its own."""
-        return with_own(effects.table(), self.own_effects)
+        return with_own(vocabulary.table(), self.own_effects)
 
     @property
     def drive(self) -> Drive:
         """The kind's entry in the table of drives."""
-        return drives.LINEAR_AXIS if self.kind == "axis" and self.linear else drives.KINDS[self.kind]
+        drive = drives.KINDS[self.kind]
+        return drive.on_a_line if self.linear and drive.on_a_line else drive
 
     @property
-    def nominal(self) -> tuple[Nominal, ...]:
+    def nominal(self) -> tuple[NominalParameter, ...]:
         """The nominal parameters that this model can have."""
-        return self.drive.parameters or lti_parameters(self.order)
+        return self.drive.nominal(self.order)
+
+    @cached_property
+    def motor(self) -> Mapping[str, float]:
+        """Values of the parameter vector that belong to the drive itself: nominal parameters and known loads."""
+        known = vocabulary.motor_parameters()
+        motor = {n: v for n, v in self.parameters.items() if n in known or self.drive.coefficients}
+        for load in self.load.values():
+            motor["pendulum_torque"] = load["mass"] * GRAVITY * load["length"]
+        return MappingProxyType(motor)
+
+    @property
+    def vector(self) -> NDArray[np.float64]:
+        """The parameter vector of the model as it is, as the core takes it."""
+        return vocabulary.parameter_vector(self.motor, self.effects, self.effect_table)
 
     def unit(self, parameter: str) -> str:
         """SI unit of a nominal parameter."""
@@ -118,78 +136,6 @@ def _require(names: Iterable[str], kind: str, known: Iterable[str], *, where: st
             raise unknown(kind, name, known, where=where)
 
 
-def lti_parameters(order: int) -> tuple[Nominal, ...]:
-    """Coefficients of a transfer function of `order` from voltage to speed."""
-    numerator = [
-        Nominal(
-            name=f"b{k}",
-            unit=_coefficient_unit(order - k, "rad/(V s)"),
-            meaning=f"numerator, s^{k}",
-            required=False,
-        )
-        for k in range(order)
-    ]
-    denominator = [
-        Nominal(
-            name=f"a{k}", unit=_coefficient_unit(order - k, ""), meaning=f"denominator, s^{k}", required=False
-        )
-        for k in range(order)
-    ]
-    return (*numerator, *denominator)
-
-
-def _coefficient_unit(power: int, unit: str) -> str:
-    per = f"1/s^{power}"
-    return f"{unit}*{per}" if unit else per
-
-
 def effect_table() -> EffectTable:
     """The effects that rwn knows, from the core."""
-    return cast(EffectTable, effects.table())
-
-
-def read_model(path: str | Path, *, effects: EffectTable | None = None) -> Model:
-    """Read a model file; see docs/models.md. `effects`: what may stand in [effects] (default: all known).
-
-    Raises InputError: what, in which table and key, what was expected, how to fix it.
-    """
-    from rwn.model.toml_reader import parse_model
-
-    return parse_model(_read_text(Path(path)), where=str(path), effects=effects)
-
-
-def write_model(model: Model, path: str | Path) -> None:
-    """Write a model file that `read_model` reads back as an equal model."""
-    from rwn.model.toml_writer import format_model
-
-    Path(path).write_text(format_model(model), encoding="utf-8")
-
-
-def _read_text(path: Path) -> str:
-    if path.is_dir():
-        raise InputError(
-            "this is a folder", where=path, expected="a model file (TOML)", fix="name the file in it"
-        )
-    try:
-        if path.stat().st_size > 2**20:
-            raise InputError(
-                "the model file is larger than 1 MB",
-                where=path,
-                expected="a short TOML file",
-                fix="was a recording given as --model?",
-            )
-        return path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(
-            "this is not a text file",
-            where=path,
-            expected="a model file (TOML, UTF-8)",
-            fix="give the model file, not a recording",
-        ) from error
-    except OSError as error:
-        raise InputError(
-            f"cannot read the file ({(error.strerror or str(error)).lower()})",
-            where=path,
-            expected="a readable model file",
-            fix="check the path and its permissions",
-        ) from error
+    return cast(EffectTable, vocabulary.table())

@@ -11,9 +11,10 @@ from functools import cached_property
 from rwn import _core
 from rwn.errors import InputError, unknown
 from rwn.model import formula as expression
-from rwn.model.drives import DC, Drive
+from rwn.model.drives.dc import DC
+from rwn.model.drives.drive import Drive
 from rwn.model.formula import Expression, Instruction
-from rwn.model.vocabulary import Effect, Parameter, motor_index, table
+from rwn.model.vocabulary import Effect, Parameter, Scale, motor_index, table
 
 # term: (site, SI unit on a shaft, on a linear axis, what the formula is); signs as in the motor equations.
 TERMS: dict[str, tuple[str, str, str, str]] = {
@@ -176,9 +177,9 @@ def _check_parameter(p: OwnParameter, where: str) -> None:
         )
 
 
-def check_own_effects(own: Sequence[OwnEffect], kind: str, *, where: str) -> None:
-    """Whether a model of this kind can have these effects together. Raises InputError."""
-    if own and kind == "lti":
+def check_own_effects(own: Sequence[OwnEffect], drive: Drive, *, where: str) -> None:
+    """Whether a model of this kind of drive can have these effects together. Raises InputError."""
+    if own and drive.coefficients:
         raise InputError(
             "a transfer function has no equations to add effects to",
             where=where,
@@ -240,9 +241,9 @@ _EQUATIONS = {effect.site: effect.mismatch for effect in table().values()}
 
 def _as_parameter(p: OwnParameter, among: Sequence[OwnParameter]) -> Parameter:
     return Parameter(
-        name=p.name, unit=p.unit, meaning=p.meaning, lower=p.lower, upper=p.upper, start=p.start, scale="none",
-        scan=_scan(p, among), inverse=False, strength=p.strength, fixed=p.fixed, cyclic=False, order=False,
-        window=False, resonance=False, many_minima=False, lattice=False, idealised=False, replaces=None,
+        name=p.name, unit=p.unit, meaning=p.meaning, lower=p.lower, upper=p.upper, start=p.start, scale=Scale(),
+        scan=_scan(p, among), strength=p.strength, fixed=p.fixed, cyclic=False, order=False, idealised=False,
+        natural=False, replaces=None,
     )  # fmt: skip
 
 

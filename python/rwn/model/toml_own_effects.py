@@ -7,7 +7,7 @@ from typing import Any
 import msgspec
 
 from rwn.errors import InputError
-from rwn.model.drives import Drive
+from rwn.model.drives.drive import Drive
 from rwn.model.own_effects import OwnEffect, OwnParameter
 
 

@@ -7,8 +7,9 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rwn.errors import InputError, unknown
-from rwn.model.drives import KINDS, LINEAR_AXIS, Nominal
-from rwn.model.model import EffectTable, Model, effect_table, lti_parameters
+from rwn.model.drives import KINDS
+from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
+from rwn.model.model import EffectTable, Model, effect_table
 from rwn.model.own_effects import OwnEffect, check_own_effects
 from rwn.model.toml_own_effects import from_entry
 from rwn.model.toml_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
@@ -17,30 +18,28 @@ from rwn.recording.columns import Column, Layout
 from rwn.recording.signals import COLUMNS, TIME
 
 _PENDULUM = (
-    Nominal(name="mass", unit="kg", meaning="mass of the pendulum", positive=True),
-    Nominal(name="length", unit="m", meaning="distance from the axis to its centre of mass", positive=True),
+    NominalParameter(name="mass", unit="kg", meaning="mass of the pendulum", positive=True),
+    NominalParameter(name="length", unit="m", meaning="distance from the axis to its centre of mass", positive=True),
 )
 
 
 def parse_model(text: str, *, where: str, effects: EffectTable | None = None) -> Model:
     """The model that `text` describes. Raises InputError."""
     file = decode(text, where)
-    kind, linear, order = _kind(file.motor, where)
-    nominal = KINDS[kind].parameters or lti_parameters(order)
-    given = {key: value for key, value in file.motor.items() if key not in ("kind", "linear", "order")}
-    if kind == "lti":
-        given = _coefficients(given, order, where)
-    parameters = _values(given, nominal, linear=linear, where=f"{where}, [motor]")
-    drive = LINEAR_AXIS if linear else KINDS[kind]
+    place = f"{where}, [motor]"
+    drive, linear = _drive(file.motor, place)
+    motor = {key: value for key, value in file.motor.items() if key not in ("kind", "linear")}
+    given, order = drive.read(motor, where=place)
+    parameters = _values(given, drive.nominal(order), linear=linear, where=place)
     own = {name: from_entry(name, entry, drive, where=where) for name, entry in file.own_effects.items()}
-    check_own_effects(tuple(own.values()), kind, where=f"{where}, [own_effects]")
+    check_own_effects(tuple(own.values()), drive, where=f"{where}, [own_effects]")
     return Model(
-        kind=kind,
+        kind=drive.kind,
         parameters=parameters,
         uncertainty=_uncertainty(file.uncertainty, parameters, f"{where}, [uncertainty]"),
         effects=_effects(file.effects, own, effects, where) if file.effects else {},
         own_effects=tuple(own.values()),
-        load=_load(file.load, kind, linear, where),
+        load=_load(file.load, drive, where),
         linear=linear,
         order=order,
         recording=_layout(file.recording, f"{where}, [recording]"),
@@ -48,73 +47,26 @@ def parse_model(text: str, *, where: str, effects: EffectTable | None = None) ->
     )
 
 
-def _kind(motor: Mapping[str, Any], where: str) -> tuple[str, bool, int]:
-    place = f"{where}, [motor]"
-    kind, linear, order = motor.get("kind"), motor.get("linear", False), motor.get("order", 0)
+def _drive(motor: Mapping[str, Any], where: str) -> tuple[Drive, bool]:
+    """The kind of drive, and whether it moves along a line."""
+    kind, linear = motor.get("kind"), motor.get("linear", False)
     if not isinstance(kind, str):
         raise InputError(
             "there is no kind" if kind is None else f"kind is {kind!r}",
-            where=place,
+            where=where,
             expected="kind = one of " + ", ".join(f'"{k}"' for k in KINDS),
             fix='add kind = "dc" for a motor fed with a voltage',
         )
     if kind not in KINDS:
-        raise unknown("kind", kind, KINDS, where=place)
-    if not isinstance(linear, bool) or (linear and kind != "axis"):
-        raise InputError(
-            f"linear is {linear!r}",
-            where=place,
-            expected='true or false, with kind = "axis" only',
-            fix="remove linear",
-        )
-    if kind == "lti" and "order" not in motor and isinstance(motor.get("denominator"), list):
-        order = len(motor["denominator"]) - 1
-    if kind == "lti" and (isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= 20):
-        raise InputError(
-            f"order is {order!r}",
-            where=place,
-            expected="a whole number from 1 to 20",
-            fix="write for instance order = 3",
-        )
-    if kind != "lti" and "order" in motor:
-        raise unknown("key", "order", [p.name for p in KINDS[kind].parameters], where=place)
-    return kind, linear, order
-
-
-def _coefficients(given: Mapping[str, Any], order: int, where: str) -> dict[str, Any]:
-    """numerator and denominator (highest power first) as b_k and a_k with a leading denominator of 1."""
-    place = f"{where}, [motor]"
-    for key in given:
-        if key not in ("numerator", "denominator"):
-            raise unknown("key", key, ("kind", "order", "numerator", "denominator"), where=place)
-    if not given:
-        return {}
-    lists = {key: given.get(key, []) for key in ("numerator", "denominator")}
-    for key, values in lists.items():
-        if not isinstance(values, list) or not all(
-            type(x) in (int, float) and math.isfinite(x) for x in values
-        ):
-            raise InputError(
-                f"{key} is {values!r}",
-                where=place,
-                expected="a list of numbers, highest power first",
-                fix=f"write for instance {key} = [1.0, 20.0]",
-            )
-    numerator, denominator = lists["numerator"], lists["denominator"]
-    if len(denominator) != order + 1 or denominator[0] == 0 or not 1 <= len(numerator) <= order:
-        raise InputError(
-            f"numerator has {len(numerator)} and denominator {len(denominator)} coefficients",
-            where=place,
-            expected=f"1 to {order} and {order + 1} for order {order}, the first not zero",
-            fix="correct order or the coefficients",
-        )
-    lead = float(denominator[0])
-    b = {f"b{k}": float(x) / lead for k, x in enumerate(reversed(numerator))}
-    return {**b, **{f"a{k}": float(x) / lead for k, x in enumerate(reversed(denominator[1:]))}}
+        raise unknown("kind", kind, KINDS, where=where)
+    on_a_line = KINDS[kind].on_a_line
+    if not isinstance(linear, bool) or (linear and on_a_line is None):
+        raise refused_linear(linear, where, [k for k, drive in KINDS.items() if drive.on_a_line])
+    return (on_a_line if linear and on_a_line else KINDS[kind]), linear
 
 
 def _values(
-    given: Mapping[str, Any], table: Iterable[Nominal], *, linear: bool, where: str
+    given: Mapping[str, Any], table: Iterable[NominalParameter], *, linear: bool, where: str
 ) -> dict[str, float]:
     entries = {entry.name: entry for entry in table}
     for key in given:
@@ -232,11 +184,11 @@ def _si(unit: str) -> str:
     return "dimensionless" if unit in ("", "1") else unit
 
 
-def _load(load: LoadTable, kind: str, linear: bool, where: str) -> dict[str, dict[str, float]]:
+def _load(load: LoadTable, drive: Drive, where: str) -> dict[str, dict[str, float]]:
     if load.pendulum is None:
         return {}
     place = f"{where}, [load.pendulum]"
-    if kind == "lti" or linear:
+    if not drive.shaft:
         raise InputError(
             "a pendulum on a drive without a shaft",
             where=place,

@@ -16,8 +16,7 @@ def format_model(model: Model) -> str:
     """The TOML text of a model, in SI, with units as comments."""
     lines = ["[motor]", f'kind = "{model.kind}"']
     lines += ["linear = true"] if model.linear else []
-    lines += [f"order = {model.order}"] if model.kind == "lti" else []
-    lines += _coefficient_lines(model) if model.kind == "lti" else _parameter_lines(model)
+    lines += model.drive.lines(model.parameters, model.order) or _parameter_lines(model)
     lines += _table("uncertainty", model.uncertainty)
     for name, values in model.effects.items():
         lines += ["", f"[effects.{name}]", *_effect_lines(model, name, values)]
@@ -46,14 +45,6 @@ def _commented(values: Mapping[str, float], units: Mapping[str, str]) -> list[st
         f"{line:<{width}}  # {units[name]}" if units.get(name, "1") != "1" else line
         for name, line in lines.items()
     ]
-
-
-def _coefficient_lines(model: Model) -> list[str]:
-    if not model.parameters:
-        return []
-    b = [model.parameters[f"b{k}"] for k in reversed(range(model.order)) if f"b{k}" in model.parameters]
-    a = [1.0, *(model.parameters[f"a{k}"] for k in reversed(range(model.order)))]
-    return [f"numerator = {b!r}", f"denominator = {a!r}"]
 
 
 def _table(name: str, values: Mapping[str, float]) -> list[str]:

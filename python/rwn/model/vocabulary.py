@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
@@ -14,8 +15,32 @@ from rwn import _core
 
 
 @dataclass(frozen=True, kw_only=True)
+class Scale:
+    """A factor times powers of quantities that every drive has: torque^1 speed^-2 for a drag."""
+
+    factor: float = 1.0
+    powers: Mapping[str, int] = field(default_factory=dict)
+
+    def of(self, quantities: Mapping[str, float]) -> float:
+        """Its value (SI) where the quantities have these values."""
+        return self.factor * math.prod(quantities[name] ** power for name, power in self.powers.items())
+
+    @property
+    def words(self) -> str:
+        """ "torque / speed^2"; empty where it is a pure number."""
+        above = [_power(name, power) for name, power in self.powers.items() if power > 0]
+        below = [_power(name, -power) for name, power in self.powers.items() if power < 0]
+        top = " ".join(above) or ("1" if below else "")
+        return f"{top} / {' '.join(below)}" if below else top
+
+
+def _power(name: str, power: int) -> str:
+    return name if power == 1 else f"{name}^{power}"
+
+
+@dataclass(frozen=True, kw_only=True)
 class Parameter:
-    """One parameter: bounds, first guess and scan are in units of `scale` (see cpp/include/rwn/parameter.hpp)."""
+    """One parameter: bounds, first guess and scan are in units of `scale` (see cpp/include/rwn/model/parameter.hpp)."""
 
     name: str
     unit: str
@@ -23,18 +48,14 @@ class Parameter:
     lower: float
     upper: float
     start: float
-    scale: str
+    scale: Scale
     scan: tuple[float, ...]
-    inverse: bool
     strength: bool
     fixed: bool
     cyclic: bool
     order: bool
-    window: bool
-    resonance: bool
-    many_minima: bool
-    lattice: bool
     idealised: bool
+    natural: bool
     replaces: str | None
 
 
@@ -53,6 +74,7 @@ class Effect:
     first: int  # position of its first parameter in the parameter vector
     turns: bool = False  # whether it depends on the angle
     second_mass: bool = False  # whether it brings one; there is room for one
+    guess: str = "scan"  # where first guesses come from, besides what its parameters scan (effect.hpp)
     own: bool = False  # defined by the user
 
     @property
@@ -60,13 +82,19 @@ class Effect:
         """Whether it belongs to what drives or what is read, not to the motor."""
         return self.site in ("actuator", "sensor")
 
+    @property
+    def instants(self) -> tuple[Parameter, ...]:
+        """Begin and end of the time that it acts for, where it acts for a while."""
+        return tuple(p for p in self.parameters if p.scale.powers == {"duration": 1}) if self.guess == "window" else ()
+
     def at(self, parameter: str) -> int:
         """Position of one of its parameters in the parameter vector."""
         return self.first + [p.name for p in self.parameters].index(parameter)
 
 
 def _parameter(row: Mapping[str, Any]) -> Parameter:
-    return Parameter(**{**row, "scan": tuple(row["scan"])})
+    factor, powers = row["scale"]
+    return Parameter(**{**row, "scan": tuple(row["scan"]), "scale": Scale(factor=factor, powers=powers)})
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Starts that race: what tells them apart, and which of them go on."""
+"""Starts of the fits of an effect: what tells them apart, and which of them go on (multi-start, successive halving)."""
 
 from __future__ import annotations
 
@@ -8,18 +8,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rwn.fit.hypothesis import Candidate
-from rwn.fit.levenberg_marquardt import DAMPING, Minimum
+from rwn.fit.fit import FAR_BEHIND, Fit
+from rwn.fit.hypothesis import Hypothesis, hypothesis
+from rwn.fit.levenberg_marquardt import DAMPING
+from rwn.fit.problem import Problem
 from rwn.fit.secant import rough
+from rwn.name.initial_guesses.guesses import initial_guesses
 
-HOPELESS = 4.0  # cost in units of the best's, above which an explanation is refitted in passing
-SIGHTED = 4  # starts that are worth an iteration where derivatives mislead from afar,
-PHASES = 2  # and of each order of a periodic effect
-MET = 1.0  # squared error in units of its variance, within which two starts have come to the same end
+KEPT_UNFITTED = 4  # starts of a kind that are fitted, of those where derivatives mislead from afar
+KEPT_OF_AN_ORDER = 2  # the same of each order of a periodic effect
+SAME_END = 1.0  # squared error in units of its variance, within which two starts have come to the same end
+BENT = 0.5  # declared standard deviations, from which the motor of a fit differs from the one as given
 
 
-class Racer(NamedTuple):
-    """A start of one effect; starts of different kinds (the first three) do not compete before they are fitted.
+class Start(NamedTuple):
+    """A start of one effect; starts of different kinds (the first three fields) do not compete before they are fitted.
 
     Those of a drive's ends compete with the same first guess of the motor: a lag and a time constant of the motor that
     have changed places fit nearly as well, and lie next to a motor that the missing lag has bent.
@@ -27,88 +30,127 @@ class Racer(NamedTuple):
 
     name: str
     order: float  # periods per revolution; 0: not periodic
-    begin: int  # 0 from the motor as the base has it, 1 from any other
-    candidate: Candidate
-    damping: float = DAMPING  # that its next leg begins with
+    motor: int  # 0: begins from the motor as the base has it, 1: from any other
+    hypothesis: Hypothesis
+    damping: float = DAMPING  # that its next iterations begin with
 
-    def after(self, m: Minimum) -> Racer:
-        """The same where a leg ended; steps that were too long there are not tried again."""
-        return self._replace(candidate=self.candidate.starting_at(m.values), damping=max(m.damping, DAMPING))
+    def after(self, this: Fit) -> Start:
+        """The same where a fit ended; steps that were too long there are not tried again."""
+        begun = self.hypothesis.starting_at(this.minimum.values)
+        return self._replace(hypothesis=begun, damping=max(this.minimum.damping, DAMPING))
 
 
-Row = tuple[Racer, Minimum]
+class Attempt(NamedTuple):
+    """A start, moved to where its fit has come, and that fit."""
+
+    start: Start
+    fit: Fit
+
+    @property
+    def cost(self) -> float:
+        """Weighted squared error and priors."""
+        return self.fit.cost
+
+
 Kind = tuple[str, float, int]
 
 
-def misleads(racer: Racer) -> bool:
+def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start]:
+    """The starts of `base` with the effect `name` added; `orders`: how many of a periodic effect."""
+    effect = problem.prior.table[name]
+    periodic = next((p.name for p in effect.parameters if p.order), "")
+    known = {other: base.values_of(other) for other in base.added}
+    motors = (base.motor, *(({},) if _bent(base) else ()), *problem.prior.starts)
+    return [
+        Start(
+            name,
+            guess.get(periodic, 0.0),
+            min(k, 1) if effect.at_an_end else 0,
+            hypothesis(problem.prior, (*base.added, name), problem.scales, {**known, name: guess}, motor),
+        )
+        for guess in initial_guesses(problem, base, effect, count=orders)
+        for k, motor in enumerate(motors)
+    ]
+
+
+def _bent(base: Fit) -> bool:
+    """Whether a fit has moved the motor so far that what is missing may have bent it: then its start is worth a try."""
+    return any(
+        u.prior is not None and u.prior > 0.0 and abs(v - u.prior) > BENT * u.prior_std * u.prior
+        for u, v in zip(base.hypothesis.unknowns, base.minimum.values, strict=True)
+    )
+
+
+def derivatives_mislead(start: Start) -> bool:
     """Whether the derivatives at a start may point away from the minimum."""
-    bumpy = any(p.many_minima for p in racer.candidate.table[racer.name].parameters)
-    return bool(racer.order or bumpy or rough(racer.candidate, racer.name))
+    many_minima = start.hypothesis.table[start.name].guess == "best_of_scan"
+    return bool(start.order or many_minima or rough(start.hypothesis, start.name))
 
 
-def kind_of(racer: Racer) -> Kind:
-    return racer.name, racer.order, racer.begin
+def kind_of(start: Start) -> Kind:
+    """What it competes within."""
+    return start.name, start.order, start.motor
 
 
-def worth_an_iteration(ranked: Sequence[Racer]) -> list[Racer]:
+def best_unfitted(ranked: Sequence[Start]) -> list[Start]:
     """Of starts whose derivatives mislead, by what they leave, least first, the foremost of each kind."""
     met: Counter[Kind] = Counter()
     kept = []
-    for racer in ranked:
-        met[kind_of(racer)] += 1
-        if met[kind_of(racer)] <= (PHASES if racer.order else SIGHTED):
-            kept.append(racer)
+    for start in ranked:
+        met[kind_of(start)] += 1
+        if met[kind_of(start)] <= (KEPT_OF_AN_ORDER if start.order else KEPT_UNFITTED):
+            kept.append(start)
     return kept
 
 
-def best_of_each(rows: Sequence[Row], keep: int, orders: int) -> list[Row]:
+def best_of_each(attempts: Sequence[Attempt], keep: int, orders: int) -> list[Attempt]:
     """The `keep` best starts of each kind, of a periodic effect the best of each of its `orders` best orders."""
-    groups: dict[Kind, list[Row]] = {}
-    for row in sorted(rows, key=lambda row: row[1].cost):
-        groups.setdefault(kind_of(row[0]), []).append(row)
+    groups: dict[Kind, list[Attempt]] = {}
+    for attempt in sorted(attempts, key=lambda a: a.cost):
+        groups.setdefault(kind_of(attempt.start), []).append(attempt)
     met: Counter[tuple[str, int]] = Counter()
-    kept: list[Row] = []
-    for (name, order, begin), group in groups.items():
+    kept: list[Attempt] = []
+    for (name, order, motor), group in groups.items():
         if not order:
             kept += group[:keep]
-        elif met[name, begin] < orders:
-            met[name, begin] += 1
+        elif met[name, motor] < orders:
+            met[name, motor] += 1
             kept.append(group[0])
     return kept
 
 
-def promising(rows: Sequence[Row], base_cost: float, least: int = 6, most: int = 8) -> list[Row]:
-    """The rows of effects that have gained at least half of what the best has; at least `least`, at most `most`."""
-    if not rows:
+def promising(attempts: Sequence[Attempt], base_cost: float, least: int = 6, most: int = 8) -> list[Attempt]:
+    """Those of effects that have gained at least half of what the best has; at least `least`, at most `most`."""
+    if not attempts:
         return []
     costs: dict[str, float] = {}
-    for racer, m in rows:
-        costs[racer.name] = min(costs.get(racer.name, np.inf), m.cost)
+    for start, fit in attempts:
+        costs[start.name] = min(costs.get(start.name, np.inf), fit.cost)
     ranked = sorted(costs, key=lambda name: costs[name])
     bar = base_cost - 0.5 * max(base_cost - costs[ranked[0]], 0.0)
     kept = {name for k, name in enumerate(ranked[:most]) if k < least or costs[name] < bar}
-    return [row for row in rows if row[0].name in kept]
+    return [a for a in attempts if a.start.name in kept]
 
 
-def apart(rows: Sequence[Row], samples: int) -> list[Row]:
-    """The rows without those that have met a better one of their effect; `samples`: that they were fitted to."""
-    kept: list[Row] = []
-    for row in sorted(rows, key=lambda row: row[1].cost):
-        if not any(_met(row, better, samples) for better in kept):
-            kept.append(row)
+def distinct_ends(attempts: Sequence[Attempt], samples: int) -> list[Attempt]:
+    """Those that have not come to the end of a better one of their effect; `samples`: that they were fitted to."""
+    kept: list[Attempt] = []
+    for attempt in sorted(attempts, key=lambda a: a.cost):
+        if not any(_same_end(attempt, better, samples) for better in kept):
+            kept.append(attempt)
     return kept
 
 
-def _met(row: Row, better: Row, samples: int) -> bool:
+def _same_end(attempt: Attempt, better: Attempt, samples: int) -> bool:
     """Whether a fit has come to the end of another: by its cost, and by the other's quadratic."""
-    (racer, m), (other, end) = row, better
-    little = MET * max(1.0, end.cost / samples)
-    if racer.name != other.name or m.cost - end.cost > little:
+    end = better.fit.minimum
+    little = SAME_END * max(1.0, end.cost / samples)
+    if attempt.start.name != better.start.name or attempt.cost - end.cost > little:
         return False
-    off = m.values - end.values
+    off = attempt.fit.minimum.values - end.values
     return float(off @ end.information @ off) < little
 
 
-def hopeless_from(rows: Sequence[Row], best: float) -> float:
-    """The cost from which a row is hopeless."""
-    return HOPELESS * min([best, *(m.cost for _, m in rows)])
+def far_behind(attempts: Sequence[Attempt], best: float) -> float:
+    """The cost from which an attempt is far behind the best, which costs no more than `best`."""
+    return FAR_BEHIND * min([best, *(a.cost for a in attempts)])

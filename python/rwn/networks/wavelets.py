@@ -65,3 +65,9 @@ def _floats(z: ArrayLike) -> Array:
     if array.dtype.kind not in "fiub":
         raise ValueError(f"z must hold real numbers, got {array.dtype}")
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def dyadic_places(count: int) -> tuple[tuple[float, float], ...]:
+    """(centre, dilation) of the first `count` wavelets of a dyadic grid over [0, 1] (2.10-2.11)."""
+    places = [((k + 0.5) / 2**level, 0.7 / 2**level) for level in range(5) for k in range(2**level)]
+    return tuple(places[:count])

@@ -2,73 +2,80 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.preparation import motion, noise_levels
-from rwn.fit.problem import OutputError, Target
+from rwn.fit.hypothesis import Hypothesis
+from rwn.fit.noise import noise_levels
+from rwn.fit.problem import Problem
 from rwn.fit.residuals import correlation_time
-from rwn.report.diagnosis import HeldoutRow
 from rwn.simulate.inverse_dynamics import force_error
+from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 RAN_AWAY = 1e100  # error of a simulation that diverged
+FEWEST = 20  # samples that a row judges
+DRAWS = 400  # of the bootstrap
 
 
 @dataclass(frozen=True, kw_only=True)
-class Contender:
-    """A parameter vector with the effects that are switched on."""
+class HeldoutRow:
+    """Free-run rms error on a recording not used for fitting; `gain` = 1 - corrected / refitted."""
 
-    vector: Array
-    active: tuple[int, ...]
+    recording: str
+    region: str  # "all", or the name of a region
+    signal: str
+    unit: str
+    samples: int
+    nominal: float
+    refitted: float
+    corrected: float | None
+    noise_floor: float | None
+    gain: float | None = None
+    gain_interval: tuple[float, float] | None = None  # 95 %, block bootstrap
 
 
 def heldout_rows(
-    problem: OutputError,
-    targets: Sequence[Target],
-    nominal: Contender,
-    refitted: Contender,
-    corrected: Contender | None,
+    problem: Problem,
+    runs: Sequence[Run],
+    nominal: Hypothesis,
+    refitted: Hypothesis,
+    corrected: Hypothesis | None,
     *,
-    units: dict[str, str],
+    units: Mapping[str, str],
     seed: int,
     first: int = 0,
 ) -> tuple[HeldoutRow, ...]:
     """Rms free-run error of each recorded signal, whole and at low speed; block-bootstrap interval on the gain.
 
-    Samples before `first` are simulated but not judged: they were fitted.
+    The hypotheses are simulated at their own values. Samples before `first` are simulated but not judged: they were
+    fitted.
     """
+    contenders = [h for h in (nominal, refitted, corrected) if h is not None]
     rows = []
-    for target in targets:
-        runs = [_errors(problem, target, c) for c in (nominal, refitted, corrected) if c is not None]
-        begin = max(first, target.judged_from)
-        late = np.arange(target.time.size) >= begin
-        slow = _slow(target) & late
-        best = runs[-1]
-        floor = noise_levels([target], [best])
-        for signal in target.recorded:
+    for run in runs:
+        errors = [_errors(problem, run, h) for h in contenders]
+        begin = max(first, run.judged_from)
+        late = np.arange(run.time.size) >= begin
+        slow = _slow(run) & late
+        floor = noise_levels([run], [errors[-1]])
+        for signal in run.recorded:
             for region, chosen in (("all", late), ("low speed", slow)):
-                if chosen.sum() < 20:
+                if chosen.sum() < FEWEST:
                     continue
-                parts = [run[signal][chosen] for run in runs]
-                rows.append(
-                    _row(target, region, signal, units, parts, floor[signal], corrected is not None, seed)
-                )
-        if problem.kind == "axis" and first == 0:
-            rows += _force_row(
-                problem, target, [c for c in (nominal, refitted, corrected) if c is not None], seed
-            )
+                parts = [error[signal][chosen] for error in errors]
+                rows.append(_row(run, region, signal, units, parts, floor[signal], corrected is not None, seed))
+        if problem.drive.force and first == 0:
+            rows += _force_row(problem, run, contenders, seed)
     return tuple(rows)
 
 
-def _force_row(
-    problem: OutputError, target: Target, contenders: list[Contender], seed: int
-) -> list[HeldoutRow]:
+def _force_row(problem: Problem, run: Run, contenders: Sequence[Hypothesis], seed: int) -> list[HeldoutRow]:
     """Error of the inverse dynamics relative to the driving force, in percent of its norm."""
-    parts = [force_error(problem, target, c.vector, list(c.active)) for c in contenders]
+    parts = [force_error(problem.simulator, run, h.vector, h.active) for h in contenders]
     errors, force = [e for e, _ in parts], parts[0][1]
     if not force.size:
         return []
@@ -76,7 +83,7 @@ def _force_row(
     found = len(percent) == 3
     return [
         HeldoutRow(
-            recording=target.name, region="all", signal="driving force", unit="%", samples=force.size,
+            recording=run.name, region="all", signal="driving force", unit="%", samples=force.size,
             nominal=percent[0], refitted=percent[1], corrected=percent[2] if found else None, noise_floor=None,
             gain=1.0 - percent[2] / percent[1] if found else None,
             gain_interval=gain_interval(errors[1], errors[2], seed=seed) if found else None,
@@ -84,24 +91,24 @@ def _force_row(
     ]  # fmt: skip
 
 
-def _errors(problem: OutputError, target: Target, contender: Contender) -> dict[str, Array]:
-    alone = replace(problem, targets=(replace(target, angle=np.empty(0)),))
-    found = alone.residuals(contender.vector, contender.active)[0]
+def _errors(problem: Problem, run: Run, this: Hypothesis) -> dict[str, Array]:
+    alone = replace(problem, runs=(run.following_nothing(),))
+    found = alone.residuals(this.vector, this.active)[0]
     # a run that left for infinity is cut at a finite number, so that it can be squared
     return {signal: np.clip(error, -RAN_AWAY, RAN_AWAY) for signal, error in found.items()}
 
 
-def _slow(target: Target) -> NDArray[np.bool_]:
-    speed = np.abs(motion(target)[0])
+def _slow(run: Run) -> NDArray[np.bool_]:
+    speed = np.abs(run.motion()[0])
     result: NDArray[np.bool_] = speed < 0.1 * np.percentile(speed, 99.5)
     return result
 
 
 def _row(
-    target: Target,
+    run: Run,
     region: str,
     signal: str,
-    units: dict[str, str],
+    units: Mapping[str, str],
     parts: list[Array],
     floor: float,
     found: bool,
@@ -110,7 +117,7 @@ def _row(
     rms = [_rms(p) for p in parts]
     gain = 1.0 - rms[2] / rms[1] if found else None
     return HeldoutRow(
-        recording=target.name,
+        recording=run.name,
         region=region,
         signal=signal,
         unit=units[signal],
@@ -128,7 +135,7 @@ def _rms(x: Array) -> float:
     return float(np.sqrt(np.nanmean(x**2))) if np.nanmax(np.abs(x)) < RAN_AWAY else float("inf")
 
 
-def gain_interval(before: Array, after: Array, *, seed: int, draws: int = 400) -> tuple[float, float]:
+def gain_interval(before: Array, after: Array, *, seed: int, draws: int = DRAWS) -> tuple[float, float]:
     """95 % interval of 1 - rms(after)/rms(before) by circular block bootstrap.
 
     Blocks of twice the correlation time of the longer-lived squared error (after Politis, White 2004).

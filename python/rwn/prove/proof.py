@@ -7,49 +7,46 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn.fit.fit import Fitted
-from rwn.fit.problem import OutputError, Target
-from rwn.fit.residuals import Hypothesis
-from rwn.model.model import Model
-from rwn.name.forward import Explanation
-from rwn.name.screening import Search
+from rwn.fit.fit import Fit, refit
+from rwn.fit.hypothesis import Hypothesis
+from rwn.fit.problem import Problem
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
-from rwn.prove.heldout import Contender, heldout_rows
-from rwn.report.diagnosis import HeldoutRow
+from rwn.prove.heldout import HeldoutRow, heldout_rows
+from rwn.simulate.run import Run
 
-Again = Callable[[OutputError], tuple[Explanation, Fitted] | None]
-Fold = tuple[OutputError, Target, int]  # what is fitted, what is simulated, first sample that was not fitted
+Again = Callable[[Problem], tuple[Ranking, Fit] | None]
+Fold = tuple[Problem, Run, int]  # what is fitted, what is simulated, first sample that was not fitted
 
 LEFT_OUT = "(left out)"  # marks what a fold did not fit
 FITTED_PART = 0.7  # of a lone recording, when its rest has to serve as proof
 
 
 def proved(
-    found: Explanation, chosen: Hypothesis, heldout: Sequence[Target], model: Model, *, seed: int,
-    again: Again | None = None,
-) -> tuple[HeldoutRow, ...]:  # fmt: skip
-    """Rows on the held-out recordings; without any, every recording is judged by fits that did not see it.
+    ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], *, seed: int, again: Again | None = None
+) -> tuple[HeldoutRow, ...]:
+    """Rows on the held-out runs; without any, every recording is judged by fits that did not see it.
 
     `again`: how the correction is found anew from some of the recordings (default: its parameters are fitted anew);
     nothing is proved where it finds none.
     """
     if heldout:
-        return _rows(found, found.nominal, chosen.final, heldout, model, seed=seed)
+        return _rows(ranking, ranking.nominal, chosen.final, heldout, seed=seed)
 
     def fold(case: Fold) -> tuple[HeldoutRow, ...] | None:
-        problem, target, first = case
+        problem, run, first = case
         if again is not None:
             other = again(problem)
             if other is None:
                 return None
-            return _rows(other[0], other[0].nominal, other[1], [target], model, seed=seed, first=first)
-        search = Search.of(found.setup, problem=problem)
-        nominal = search.refit(found.nominal, problem)
-        weighted = replace(found.weighted, targets=problem.targets)
-        fitted = search.refit(chosen.final, weighted) if chosen.fitted.added else chosen.final
-        return _rows(found, nominal, fitted, [target], model, seed=seed, first=first)
+            return _rows(other[0], other[0].nominal, other[1], [run], seed=seed, first=first)
+        nominal = refit(ranking.nominal, problem)
+        weighted = replace(ranking.weighted, runs=problem.runs)
+        fitted = refit(chosen.final, weighted) if chosen.added else chosen.final
+        return _rows(ranking, nominal, fitted, [run], seed=seed, first=first)
 
-    parts = side_by_side(fold, _folds(found))
+    parts = side_by_side(fold, _folds(ranking.problem))
     return tuple(row for part in parts for row in part or ()) if None not in parts else ()
 
 
@@ -62,41 +59,36 @@ def hurts(rows: Sequence[HeldoutRow]) -> bool:
 
 
 def _rows(
-    found: Explanation, refitted: Fitted, fitted: Fitted, targets: Sequence[Target], model: Model, *, seed: int,
-    first: int = 0,
-) -> tuple[HeldoutRow, ...]:  # fmt: skip
-    setup = found.setup
-    given = Search.of(setup).fit_start()
-    units = {
-        "current": "A",
-        "speed": "m/s" if model.linear else "rad/s",
-        "position": "m" if model.linear else "rad",
-    }
+    ranking: Ranking, refitted: Fit, fitted: Fit, runs: Sequence[Run], *, seed: int, first: int = 0
+) -> tuple[HeldoutRow, ...]:
+    problem = ranking.problem.in_free_run()
+    linear = problem.simulator.angle_per_position != 1.0
+    units = {"current": "A", "speed": "m/s" if linear else "rad/s", "position": "m" if linear else "rad"}
     return heldout_rows(
-        setup.whole,
-        targets,
-        Contender(vector=given.vector, active=tuple(given.active)),
-        _contender(refitted),
-        _contender(fitted) if fitted.added else None,
+        problem,
+        runs,
+        problem.as_given(),
+        _at_minimum(refitted),
+        _at_minimum(fitted) if fitted.added else None,
         units=units,
         seed=seed,
         first=first,
     )
 
 
-def _contender(fitted: Fitted) -> Contender:
-    return Contender(vector=fitted.vector, active=tuple(fitted.candidate.active))
+def _at_minimum(this: Fit) -> Hypothesis:
+    return this.hypothesis.starting_at(this.minimum.values)
 
 
-def _folds(found: Explanation) -> Iterator[Fold]:
+def _folds(problem: Problem) -> Iterator[Fold]:
     """One recording left out at a time, or the last part of a lone one."""
-    problem, whole = found.setup.problem, found.setup.whole
-    if len(whole.targets) > 1:
-        for k, target in enumerate(whole.targets):
-            others = tuple(t for j, t in enumerate(problem.targets) if j != k)
-            yield replace(problem, targets=others), replace(target, name=f"{target.name} {LEFT_OUT}"), 0
+    whole = problem.whole
+    if len(whole) > 1:
+        for k, run in enumerate(whole):
+            others = tuple(r for j, r in enumerate(problem.runs) if j != k)
+            yield replace(problem, runs=others), replace(run, name=f"{run.name} {LEFT_OUT}"), 0
         return
-    first = int(FITTED_PART * whole.targets[0].time.size)
-    begin = whole.targets[0].time[first]
-    late = replace(whole.targets[0], name=f"{whole.targets[0].name} from {begin:.3g} s {LEFT_OUT}")
-    yield replace(problem, targets=(problem.targets[0].until(first),)), late, first
+    first = int(FITTED_PART * whole[0].time.size)
+    begin = whole[0].time[first]
+    late = replace(whole[0], name=f"{whole[0].name} from {begin:.3g} s {LEFT_OUT}")
+    yield replace(problem, runs=(problem.runs[0].until(first),)), late, first

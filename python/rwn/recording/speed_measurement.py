@@ -7,7 +7,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.lattice import lattice
+from rwn.recording.quantisation import quantum
 
 Array = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ def speed_measurement(time: Array, speed: Array, position: Array) -> SpeedMeasur
     """How a speed was obtained, as far as the values (n,) show it; instantaneous where they do not.
 
     A difference of the position that was recorded beside it repeats its noise; one of encoder counts that were not
-    recorded lies on their lattice. Whether such a difference is a backward or a forward one no value tells: the
+    recorded lies on multiples of a step. Whether such a difference is a backward or a forward one no value tells: the
     backward one is what a drive can compute as it runs.
     """
     if speed.size < SHORTEST:
@@ -102,7 +102,7 @@ def _of_counts(time: Array, speed: Array) -> SpeedMeasurement:
     The central difference (q[k+1] - q[k-1]) / 2T vanishes there, whatever gear is between encoder and shaft; that over
     one sample, with a whole number of counts per revolution, holds most there; what a coarse converter rounds neither.
     """
-    step = lattice(speed)
+    step = quantum(speed)
     if step == 0.0:
         return SpeedMeasurement.INSTANTANEOUS
     quarter = _power(speed, 0.2, 0.3)

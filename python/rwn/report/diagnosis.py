@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -11,40 +10,17 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-Verdict = Literal[
-    "missing-physics", "adequate", "unexplained", "insufficient-excitation", "recording-mistake"
-]
+from rwn.decide.verdict import Verdict
+from rwn.locate.regions import Region
+from rwn.name.found_effect import FoundEffect
+from rwn.prove.heldout import HeldoutRow
+from rwn.report.nominal_fit import NominalFit
+
 Slot = Literal[
     "response", "residual-time", "residual-speed", "residual-angle", "torque-speed", "spectrum", "other"
 ]
 Role = Literal["measured", "nominal", "refitted", "corrected", "before", "after", "reference", "noise-floor"]
 Array = NDArray[np.float64]
-
-BELIEVABLE = 4.0  # declared standard deviations, beyond which a parameter is not merely off
-RECORDING = "recording"  # the equation of a mistake in the recordings
-NEAREST = 0.5  # probability of being the whole, up to which a name is only the nearest one; a proved one that leaves
-# more than noise has no more
-
-
-@dataclass(frozen=True, kw_only=True)
-class Estimate:
-    """A number with its unit and 95 % interval (`None`: not estimated, e.g. fixed by the user)."""
-
-    value: float
-    unit: str
-    interval: tuple[float, float] | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class FoundEffect:
-    """One physics that the nominal model lacks."""
-
-    name: str
-    equation: str  # "mechanical" | "electrical" | "actuator" | "sensor" | "recording"
-    probability: float
-    parameters: Mapping[str, Estimate] = field(default_factory=dict)
-    formula: str = ""  # as in the effect table: "T sign(w)"
-    meaning: str = ""  # one sentence for people: "dry friction that does not depend on speed"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,69 +33,12 @@ class Alternative:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Region:
-    """The samples with `low <= coordinate < high`; their share of the residual energy and of the samples."""
-
-    coordinate: str  # "speed", "angle", "current", "direction", "acceleration", "time"
-    low: float
-    high: float
-    unit: str
-    share: float
-    samples_share: float
-    name: str = ""  # "low speed", "reversals"
-
-
-@dataclass(frozen=True, kw_only=True)
 class Location:
     """The equation that carries unknown input, and the regions where the mismatch's energy sits."""
 
     equation: str = ""
     regions: tuple[Region, ...] = ()
     description: str = ""  # "a torque that depends on angle, 14 periods per revolution, 3 mN m"
-
-
-@dataclass(frozen=True, kw_only=True)
-class FittedParameter:
-    """A nominal parameter: as given, its declared relative standard deviation (0: exact), and as refitted."""
-
-    nominal: float
-    uncertainty: float
-    refitted: Estimate  # the nominal structure alone
-    corrected: Estimate | None = None  # together with the found effects
-
-    @property
-    def moved(self) -> float:
-        """By how many declared standard deviations the refit moved it, relative or in its logarithm; 0 where exact."""
-        if self.uncertainty == 0.0 or self.nominal <= 0.0:
-            return 0.0
-        ratio = self.refitted.value / self.nominal
-        return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
-
-
-@dataclass(frozen=True, kw_only=True)
-class NominalFit:
-    """The nominal structure refitted within its declared uncertainty."""
-
-    parameters: Mapping[str, FittedParameter] = field(default_factory=dict)
-    status: str = "converged"
-    advice: str = ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class HeldoutRow:
-    """Free-run rms error on a recording not used for fitting; `gain` = 1 - corrected / refitted."""
-
-    recording: str
-    region: str  # "all", or the name of a region
-    signal: str
-    unit: str
-    samples: int
-    nominal: float
-    refitted: float
-    corrected: float | None
-    noise_floor: float | None
-    gain: float | None = None
-    gain_interval: tuple[float, float] | None = None  # 95 %, block bootstrap
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.problem import OutputError
-from rwn.fit.residuals import Hypothesis
+from rwn.correct.network import NetworkCorrection
+from rwn.fit.network_formula import states_of, unit_of_state
+from rwn.fit.problem import Problem
 from rwn.locate.dependence import CLEAR, Law
-from rwn.locate.unknown_inputs import Unknown, regions, unknown_inputs
+from rwn.locate.regions import Region, regions
 from rwn.model.vocabulary import motor_index
-from rwn.name.initial_guesses import spectra as hints
-from rwn.report.diagnosis import Mark, Plot, Region, Trace
-
-if TYPE_CHECKING:
-    from rwn.name.forward import Explanation
+from rwn.name.initial_guesses import spectra
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
+from rwn.report.diagnosis import Mark, Plot, Trace
+from rwn.report.text import law_in_words
+from rwn.simulate.run import Run
+from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
 Array = NDArray[np.float64]
 MOST_POINTS = 4000  # of one line
@@ -26,7 +28,7 @@ MOST_POINTS = 4000  # of one line
 
 def describe(where: Sequence[Region], laws: Sequence[Law], *, linear: bool) -> str:
     """The located regions, and what the unknown torque depends on, in words."""
-    law = [laws[0].words(linear=linear)] if laws and laws[0].share > CLEAR else []
+    law = [law_in_words(laws[0], linear=linear)] if laws and laws[0].share > CLEAR else []
     strong = [r for r in where if r.share - r.samples_share > 0.1][:2]
     places = [
         f"{r.share:.0%} of the mismatch's energy in {r.samples_share:.0%} of the samples, at "
@@ -37,24 +39,24 @@ def describe(where: Sequence[Region], laws: Sequence[Law], *, linear: bool) -> s
 
 
 def plots(
-    found: Explanation, chosen: Hypothesis, unknown: Sequence[Unknown], laws: Sequence[Law], *, linear: bool
+    ranking: Ranking, chosen: RankedFit, unknown: Sequence[UnknownInputs], laws: Sequence[Law], *, linear: bool
 ) -> tuple[Plot, ...]:
     """Response, residuals over time and speed, torque over speed, what it depends on, spectrum over angle."""
-    whole = found.setup.whole
-    free = replace(whole, targets=tuple(replace(t, angle=np.empty(0)) for t in whole.targets))
+    whole = ranking.problem.in_free_run()
+    free = replace(whole, runs=tuple(r.following_nothing() for r in whole.runs))
     speed_unit, torque_unit = ("m/s", "N") if linear else ("rad/s", "N m")
     position_unit = "m" if linear else "rad"
     made: list[Plot] = []
-    for k, target in enumerate(free.targets):
-        signal = "speed" if target.speed.size else target.recorded[-1]
+    for run in free.runs:
+        signal = "speed" if run.speed.size else run.recorded[-1]
         unit = {"speed": speed_unit, "position": position_unit, "current": "A"}[signal]
-        made += _response(free, found, chosen, k, signal, unit)
-    if whole.kind == "lti":
+        made += _response(free, ranking, chosen, run, signal, unit)
+    if whole.drive.coefficients:
         return tuple(made)
     made.append(_residual_speed(unknown, speed_unit, torque_unit))
-    made.append(_torque_speed(found, chosen, speed_unit, torque_unit))
+    made.append(_torque_speed(whole, chosen, speed_unit, torque_unit))
     made += [_law(law, torque_unit) for law in laws[:1] if law.share > CLEAR]
-    spectrum = _spectrum(found, linear)
+    spectrum = _spectrum(ranking, linear)
     return (*made, spectrum) if spectrum else tuple(made)
 
 
@@ -64,33 +66,30 @@ def _thin(*arrays: Array) -> list[Array]:
 
 
 def _response(
-    free: OutputError, found: Explanation, chosen: Hypothesis, k: int, signal: str, unit: str
+    free: Problem, ranking: Ranking, chosen: RankedFit, run: Run, signal: str, unit: str
 ) -> list[Plot]:
-    target = free.targets[k]
-    measured = target.signal(signal)
-    refitted = free.simulate(target, found.nominal.vector, found.nominal.candidate.active).signals[signal]
-    t, y, a = _thin(target.time, measured, refitted)
+    measured = run.signal(signal)
+    refitted = free.simulate(run, ranking.nominal.vector, ranking.nominal.active).signals[signal]
+    t, y, a = _thin(run.time, measured, refitted)
     lines = [
         Trace(name="measured", role="measured", x=t, y=y),
         Trace(name="nominal, refitted", role="refitted", x=t, y=a),
     ]
     errors = [Trace(name="nominal, refitted", role="before", x=t, y=y - a)]
-    if chosen.fitted.added:
-        (b,) = _thin(
-            free.simulate(target, chosen.final.vector, chosen.final.candidate.active).signals[signal]
-        )
+    if chosen.added:
+        (b,) = _thin(free.simulate(run, chosen.final.vector, chosen.final.active).signals[signal])
         lines.append(Trace(name="corrected", role="corrected", x=t, y=b))
         errors.append(Trace(name="corrected", role="after", x=t, y=y - b))
     label = f"{signal}"
     return [
-        Plot(slot="response", title=f"{signal.capitalize()}, {target.name}", x_label="time", x_unit="s", y_label=label,
+        Plot(slot="response", title=f"{signal.capitalize()}, {run.name}", x_label="time", x_unit="s", y_label=label,
              y_unit=unit, traces=tuple(lines)),
-        Plot(slot="residual-time", title=f"Error of the free run, {target.name}", x_label="time", x_unit="s",
+        Plot(slot="residual-time", title=f"Error of the free run, {run.name}", x_label="time", x_unit="s",
              y_label=f"{signal} error", y_unit=unit, traces=tuple(errors)),
     ]  # fmt: skip
 
 
-def _residual_speed(unknown: Sequence[Unknown], speed_unit: str, torque_unit: str) -> Plot:
+def _residual_speed(unknown: Sequence[UnknownInputs], speed_unit: str, torque_unit: str) -> Plot:
     speed = np.concatenate([u.speed for u in unknown])
     torque = np.concatenate([u.torque for u in unknown])
     rows = _speed_regions(unknown)
@@ -107,7 +106,7 @@ def _residual_speed(unknown: Sequence[Unknown], speed_unit: str, torque_unit: st
     )  # fmt: skip
 
 
-def _speed_regions(unknown: Sequence[Unknown]) -> list[Mark]:
+def _speed_regions(unknown: Sequence[UnknownInputs]) -> list[Mark]:
     found = [r for r in regions(unknown) if r.coordinate == "speed" and r.share - r.samples_share > 0.1]
     if not found:
         return []
@@ -126,13 +125,12 @@ def _mean_curve(x: Array, y: Array, name: str, role: str) -> Trace:
     return Trace(name=name, role=role, x=middles, y=means)  # type: ignore[arg-type]
 
 
-def _torque_speed(found: Explanation, chosen: Hypothesis, speed_unit: str, torque_unit: str) -> Plot:
+def _torque_speed(whole: Problem, chosen: RankedFit, speed_unit: str, torque_unit: str) -> Plot:
     """Friction over speed: the recordings' own (drive torque minus acceleration torque) and the models'."""
-    whole = found.setup.whole
     bare = chosen.final.vector.copy()
     for name in ("viscous_friction", "coulomb_friction"):
         bare[motor_index(name)] = 0.0
-    own = [unknown_inputs(whole, bare, t) for t in whole.targets]
+    own = [unknown_inputs(whole.drive, whole.simulator, r, bare) for r in whole.runs]
     speed = np.concatenate([u.speed for u in own])
     torque = -np.concatenate([u.torque for u in own])
     x, y = _thin(speed, torque)
@@ -154,18 +152,34 @@ def _law(law: Law, torque_unit: str) -> Plot:
     )  # fmt: skip
 
 
-def _spectrum(found: Explanation, linear: bool) -> Plot | None:
+def _spectrum(ranking: Ranking, linear: bool) -> Plot | None:
     """Share of the residual that a torque periodic in angle would explain, where it matters."""
-    problem = found.setup.problem
-    if not all(t.angle.size and t.speed.size for t in problem.targets):
+    problem, nominal = ranking.problem, ranking.nominal
+    if not all(r.angle.size and r.speed.size for r in problem.runs):
         return None
-    grid = hints.order_grid(problem)
-    residuals = problem.residuals(found.nominal.vector, found.nominal.candidate.active)
-    share = hints.angle_spectrum(problem, found.nominal.vector, residuals, grid)
+    grid = spectra.order_grid(problem)
+    residuals = problem.residuals(nominal.vector, nominal.active)
+    share = spectra.angle_spectrum(problem, nominal.vector, residuals, grid)
     if share.max() < 0.05:
         return None
     return Plot(
         slot="spectrum", title="Residual explained by a torque periodic in angle", x_label="order",
         x_unit="1/m" if linear else "per rev", y_label="share of the residual", y_unit="1",
         traces=(Trace(name="refitted nominal", role="before", x=grid, y=share),),
+    )  # fmt: skip
+
+
+def network_over_its_state(made: NetworkCorrection) -> Plot:
+    """The network that stands in for what has no name, as corrected.toml gives it."""
+    effect, place = made.model.own_effects[-1], made.place
+    states = states_of(made.ranking.problem, place)
+    low, high = np.percentile(states, [0.05, 99.95])
+    x = np.linspace(0.0, 2.0 * np.pi / place.periods, 400) if place.periods else np.linspace(low, high, 400)
+    values = {p.name: p.start for p in effect.parameters} | made.values | {place.state: x}
+    return Plot(
+        slot="other", title=f"What corrected.toml holds for it: {place.words}",
+        x_label=place.state, x_unit=unit_of_state(place),
+        y_label="voltage lost" if place.term == "drop" else "force" if place.linear else "torque", y_unit=place.unit,
+        traces=(Trace(name="wavelet network", role="corrected", x=x, y=effect.formula.evaluate(values)),),
+        note="Fitted in free run together with the nominal parameters.",
     )  # fmt: skip

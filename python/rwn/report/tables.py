@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 
+from rwn.locate.regions import Region
+from rwn.name.found_effect import FoundEffect
+from rwn.prove.heldout import HeldoutRow
 from rwn.report import text as words
-from rwn.report.diagnosis import Diagnosis, FoundEffect, HeldoutRow, Region
+from rwn.report.diagnosis import Diagnosis
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]], *, numbers_from: int = 1) -> str:

@@ -6,7 +6,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rwn.report.diagnosis import BELIEVABLE, NEAREST, RECORDING, Diagnosis, Estimate, FoundEffect, HeldoutRow
+from rwn.decide.verdict import NEAREST
+from rwn.faults.fault import RECORDING
+from rwn.fit.intervals import Estimate
+from rwn.fit.prior_weight import BELIEVABLE
+from rwn.locate.dependence import Law
+from rwn.name.found_effect import FoundEffect
+from rwn.prove.heldout import HeldoutRow
+from rwn.report.diagnosis import Diagnosis
 
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
@@ -118,6 +125,13 @@ def listing(names: Sequence[str], joint: str = "and") -> str:
     """a, b and c."""
     *head, last = names
     return f"{', '.join(head)} {joint} {last}" if head else last
+
+
+def law_in_words(law: Law, *, linear: bool) -> str:
+    """One clause: "a torque that depends on angle, 14 periods per revolution, 3 mN m"."""
+    size = quantity(law.amplitude, "N" if linear else "N m", 2)
+    place = f"angle, {law.periods} periods per revolution" if law.periods else law.coordinate
+    return f"a {'force' if linear else 'torque'} that depends on {place}, {size}"
 
 
 def verdict_sentence(found: Diagnosis) -> str:

@@ -6,11 +6,14 @@ zero-phase 100 Hz Butterworth filter of order 4, central differences, then both 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn import _core
-from rwn.fit.problem import OutputError, Target
+from rwn.simulate.run import Run
+from rwn.simulate.simulator import Simulator
+from rwn.simulate.unknown_inputs import along_motion
 
 Array = NDArray[np.float64]
 CUTOFF = 100.0  # [Hz]
@@ -18,22 +21,32 @@ DECIMATION = 10
 EDGE = 50  # samples at either end that the filters spoil
 
 
-def force_error(
-    problem: OutputError, target: Target, vector: Array, active: list[int]
-) -> tuple[Array, Array]:
+def needed_force(
+    simulator: Simulator, vector: Array, active: Sequence[int], *, time: Array, position: Array, speed: Array,
+    acceleration: Array,
+) -> Array:  # fmt: skip
+    """Driving torque or force (n,) that an axis needs for a given motion (n,)."""
+    force, _ = along_motion(
+        simulator, vector, active, time=time, driven=np.zeros(time.size), position=position, speed=speed,
+        acceleration=acceleration, current=np.empty(0),
+    )  # fmt: skip
+    return force
+
+
+def force_error(simulator: Simulator, run: Run, vector: Array, active: Sequence[int]) -> tuple[Array, Array]:
     """(error, driving force), decimated; empty where no position is recorded or the recording is too short."""
     from scipy.signal import butter, decimate, filtfilt  # late: scipy takes half a second to load
 
-    step = float(np.median(np.diff(target.time)))
-    if not target.position.size or target.time.size < 20 * EDGE:
+    step = run.sample_time
+    if not run.position.size or run.time.size < 20 * EDGE:
         return np.empty(0), np.empty(0)
     b, a = butter(4, min(2.0 * CUTOFF * step, 0.8))
-    position = np.ascontiguousarray(filtfilt(b, a, target.position))
+    position = np.ascontiguousarray(filtfilt(b, a, run.position))
     speed = np.gradient(position, step)
-    needed = _core.inverse_dynamics(
-        vector, active, problem.angle_per_position, target.time, position, speed, np.gradient(speed, step),
-        problem.own,
-    )
+    needed = needed_force(
+        simulator, vector, active, time=run.time, position=position, speed=speed,
+        acceleration=np.gradient(speed, step),
+    )  # fmt: skip
     inner = slice(EDGE, -EDGE)
-    force = decimate(target.input[inner], DECIMATION)
+    force = decimate(run.input[inner], DECIMATION)
     return force - decimate(needed[inner], DECIMATION), force

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
-from rwn.fit.hypothesis import candidate
-from rwn.fit.preparation import prepare
-from rwn.fit.problem import SIGNALS
+from rwn.errors import InputError
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
+from rwn.simulate.initial_state import nearest_state
+from rwn.simulate.run import SIGNALS, run_of
+from rwn.simulate.simulator import Simulator
 
 Array = NDArray[np.float64]
 
@@ -31,11 +32,21 @@ class Simulation:
 def simulate(model: Model, recording: Recording) -> Simulation:
     """Simulates `model` from the input signal of `recording` alone.
 
-    The state at the first sample is rest or what the recording shows, as the model's `[recording]` table says.
+    The state at the first sample is rest or what the recording shows, as the model's `[recording]` table says. Raises
+    InputError where the model has no values to simulate with.
     """
-    setup = prepare([recording], model)
-    this = candidate(setup.nominal, (), setup.scales)
-    output = setup.whole.simulate(setup.whole.targets[0], this.vector, this.active)
+    if not model.parameters:
+        raise InputError(
+            "the model has no values", where=model.source or "model", expected="numerator and denominator",
+            fix="write them under [motor], or find them with rwn identify",
+        )  # fmt: skip
+    run, simulator, vector = run_of(recording, model), Simulator.of(model), model.vector
+    active = [model.effect_table[name].index for name in model.effects]
+    if not model.drive.coefficients:
+        vector = simulator.started(run, vector)
+    elif model.recording.initial == "estimate":
+        vector = nearest_state(simulator, run, vector, active)
+    output = simulator.simulate(run, vector, active)
     wanted = [name for name in SIGNALS if name in model.drive.outputs]
     return Simulation(
         time=recording.time,

@@ -16,8 +16,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.problem import OutputError
-from rwn.name.initial_guesses.spectra import drive_filter
+from rwn.fit.fit import Fit
+from rwn.fit.problem import Problem
+from rwn.model.vocabulary import Effect, motor_index
+from rwn.name.initial_guesses.guess import Guess
+from rwn.simulate.linear_response import speed_filter
 
 Array = NDArray[np.float64]
 
@@ -49,8 +52,17 @@ class _Part(NamedTuple):
     step: float
 
 
+def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess] | None:  # noqa: ARG001
+    """Stiffness, damping and inertia of a second mass; None where the residual has no resonance to read."""
+    residuals = problem.residuals(base.vector, base.active)
+    inertia = float(base.vector[motor_index("inertia")])
+    names = ("stiffness", "damping", "load_inertia")
+    found = [dict(zip(names, r.of(inertia), strict=True)) for r in resonances(problem, base.vector, residuals)]
+    return list(found) or None
+
+
 def resonances(
-    problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]], count: int = 2
+    problem: Problem, motor: Array, residuals: Sequence[dict[str, Array]], count: int = 2
 ) -> list[Resonance]:
     """The resonances that explain most of the speed residual, best first; none without a free run of a recorded speed.
 
@@ -69,14 +81,14 @@ def resonances(
     return [Resonance(float(rates[k]), RATIOS[ratios[k]], float(behind[k])) for k in peaks[:count]]
 
 
-def _parts(problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]]) -> Iterator[_Part]:
+def _parts(problem: Problem, motor: Array, residuals: Sequence[dict[str, Array]]) -> Iterator[_Part]:
     from scipy.signal import lfilter  # late: the command line starts without it
 
-    for target, residual in zip(problem.targets, residuals, strict=True):
-        if "speed" not in residual or target.restart_every:  # where the motion restarts nothing rings for long
+    for run, residual in zip(problem.runs, residuals, strict=True):
+        if "speed" not in residual or run.restart_every:  # where the motion restarts nothing rings for long
             continue
-        speed, step = target.speed - residual["speed"], float(np.median(np.diff(target.time)))
-        a, b = drive_filter(problem, motor, step)
+        speed, step = run.speed - residual["speed"], run.sample_time
+        a, b = speed_filter(problem.drive, motor, step)
         acceleration = np.diff(speed, append=speed[-1]) / step
         lag = lfilter([0.0, b], [1.0, -a], acceleration)
         basis, _ = np.linalg.qr(np.stack([speed, lag, np.ones(speed.size)], axis=1))

@@ -1,4 +1,4 @@
-"""First guesses read off a residual: spatial frequencies from a spectrum over the angle, windows from a change in time.
+"""First guesses of spatial frequencies: spectra of what is left over the angle.
 
 A speed residual r answers an unknown torque T as the linear drive does, J dr/dt + (B + Kt Ke / R) r = T. Regressors are
 passed through that filter, so the residual is never differentiated.
@@ -12,42 +12,59 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn import _core
-from rwn.fit.preparation import motion
-from rwn.fit.problem import OutputError, Target
-from rwn.locate.unknown_inputs import unknown_inputs
-from rwn.model.vocabulary import motor_index
+from rwn.fit.fit import Fit
+from rwn.fit.problem import Problem
+from rwn.model.vocabulary import Effect, motor_index
+from rwn.name.initial_guesses.guess import Guess
 from rwn.recording.speed_measurement import integral
+from rwn.simulate.inverse_dynamics import needed_force
+from rwn.simulate.linear_response import speed_filter
+from rwn.simulate.run import Run
+from rwn.simulate.unknown_inputs import unknown_inputs
 
 Array = NDArray[np.float64]
 
 
-def drive_filter(problem: OutputError, motor: Array, step: float) -> tuple[float, float]:
-    """(a, b) of r[k] = a r[k-1] + b T[k-1], the drive's answer to a torque held over a step."""
-    inertia, damping = motor[motor_index("inertia")], motor[motor_index("viscous_friction")]
-    if problem.kind == "dc":
-        coupling = motor[motor_index("torque_constant")] * motor[motor_index("back_emf_constant")]
-        damping += coupling / motor[motor_index("resistance")]
-    rate = max(damping / inertia, 1e-9)
-    a = float(np.exp(-rate * step))
-    return a, (1.0 - a) / (rate * inertia)
+def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess] | None:
+    """Spatial frequencies that explain most of what `base` leaves; none where no angle is known."""
+    if not any(r.angle.size for r in problem.runs):
+        return []
+    (order,) = (p for p in effect.parameters if p.order)
+    problem = along_the_shaft(problem, base.vector, base.active)
+    grid = order_grid(problem)
+    grid = grid[grid >= order.lower]  # once per revolution is an unbalance
+    if not any(r.speed.size for r in problem.runs):
+        spectrum = torque_spectrum(problem, base.vector, base.active, grid)
+        return [{order.name: n} for n in orders_of(spectrum, grid, count)]
+    residuals = problem.residuals(base.vector, base.active)
+    found: list[float] = []
+    wanted: tuple[tuple[bool, int], ...] = ((False, count),)  # with the current or without, and how many orders
+    if effect.site == "flux" and all(r.current.size for r in problem.runs):
+        found = orders_of(flux_spectrum(problem, base.vector, grid), grid, count)
+        wanted = ((True, 1),)
+    elif effect.site == "flux":  # a current that was not recorded is known badly
+        wanted = ((True, count), (False, count))
+    for with_current, most in wanted:
+        spectrum = angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
+        found += orders_of(spectrum, grid, most)
+    return [{order.name: n} for n in dict.fromkeys(found)]
 
 
-def along_the_shaft(problem: OutputError, vector: Array, active: Sequence[int]) -> OutputError:
+def along_the_shaft(problem: Problem, vector: Array, active: Sequence[int]) -> Problem:
     """`problem` with the angles that effects act along: without what a simulated sensor adds to the speed."""
-    targets = []
-    for target in problem.targets:
-        if target.follows and target.angle_from_speed and target.speed.size:
-            run = problem.simulate(target, vector, active).signals
-            shown = integral(target.speed_measured, target.time, run["speed"])
-            angle = target.angle - (shown - (run["position"] - run["position"][0]))
-            target = replace(target, angle=angle, angle_from_speed=False)
-        targets.append(target)
-    return replace(problem, targets=tuple(targets))
+    runs = []
+    for run in problem.runs:
+        if run.follows and run.angle_from_speed and run.speed.size:
+            shown = problem.simulate(run, vector, active).signals
+            by_speed = integral(run.speed_measured, run.time, shown["speed"])
+            angle = run.angle - (by_speed - (shown["position"] - shown["position"][0]))
+            run = replace(run, angle=angle, angle_from_speed=False)
+        runs.append(run)
+    return replace(problem, runs=tuple(runs))
 
 
 def angle_spectrum(
-    problem: OutputError,
+    problem: Problem,
     motor: Array,
     residuals: Sequence[dict[str, Array]],
     orders: Array,
@@ -62,14 +79,14 @@ def angle_spectrum(
 
     energy = 1e-300
     grams, loads = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2))
-    for target, residual in zip(problem.targets, residuals, strict=True):
-        if "speed" not in residual or not target.angle.size:
+    for run, residual in zip(problem.runs, residuals, strict=True):
+        if "speed" not in residual or not run.angle.size:
             continue
-        angle = problem.angle_per_position * target.angle
+        angle = problem.simulator.angle_per_position * run.angle
         r = residual["speed"]
-        drive = current_of(problem, motor, target) if with_current else 1.0
+        drive = current_of(problem, motor, run) if with_current else 1.0
         r = r - r.mean()
-        a, b = drive_filter(problem, motor, float(np.median(np.diff(target.time))))
+        a, b = speed_filter(problem.drive, motor, run.sample_time)
         for k, wave in enumerate(_waves(angle, orders)):
             answer = lfilter([0.0, b], [1.0, -a], drive * wave)
             answer -= answer.mean()
@@ -80,16 +97,16 @@ def angle_spectrum(
     return _explained(grams, loads) / energy
 
 
-def flux_spectrum(problem: OutputError, motor: Array, orders: Array) -> Array:
+def flux_spectrum(problem: Problem, motor: Array, orders: Array) -> Array:
     """Share of the winding's voltage error that a back-EMF w cos(N theta), w sin(N theta) explains, per order N.
 
     The voltage that R, L and Ke leave along the recorded current and speed holds a ripple of Ke at once, whatever the
     free run has lost; what another R, L and Ke could take is taken out first. Of recordings that have a current.
     """
     parts = []
-    for target in problem.targets:
-        unknown = unknown_inputs(problem, motor, target)
-        linear = np.stack([unknown.current, np.gradient(unknown.current, target.time), unknown.speed], axis=1)
+    for run in problem.runs:
+        unknown = unknown_inputs(problem.drive, problem.simulator, run, motor)
+        linear = np.stack([unknown.current, np.gradient(unknown.current, run.time), unknown.speed], axis=1)
         parts.append((unknown.voltage, linear, unknown.speed, unknown.angle))
     voltage, linear, speed, angle = (np.concatenate(rows) for rows in zip(*parts, strict=True))
     basis, _ = np.linalg.qr(linear)
@@ -130,13 +147,13 @@ def _beside(basis: Array, x: Array) -> Array:
     return rest
 
 
-def torque_spectrum(problem: OutputError, vector: Array, active: Sequence[int], orders: Array) -> Array:
+def torque_spectrum(problem: Problem, vector: Array, active: Sequence[int], orders: Array) -> Array:
     """As `angle_spectrum`, of the torque lacking along the recorded motion: where speed is not recorded."""
     grams, loads, energy = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2)), 1e-300
-    for target in problem.targets:
-        lacking = _lacking_torque(problem, vector, active, target)
+    for run in problem.runs:
+        lacking = _lacking_torque(problem, vector, active, run)
         lacking = lacking - lacking.mean()
-        angle = problem.angle_per_position * target.angle
+        angle = problem.simulator.angle_per_position * run.angle
         for k, wave in enumerate(_waves(angle, orders)):
             grams[k] += _gram(wave)
             load = complex(wave @ lacking)
@@ -145,27 +162,26 @@ def torque_spectrum(problem: OutputError, vector: Array, active: Sequence[int], 
     return _explained(grams, loads) / energy
 
 
-def _lacking_torque(problem: OutputError, vector: Array, active: Sequence[int], target: Target) -> Array:
-    if problem.kind != "axis":
-        return unknown_inputs(problem, vector, target).torque
-    speed, acceleration = motion(target)
-    position = np.ascontiguousarray(target.position)
-    needed = _core.inverse_dynamics(
-        vector, list(active), problem.angle_per_position, target.time, position, speed, acceleration,
-        problem.own,
-    )
-    lacking: Array = needed - target.input
+def _lacking_torque(problem: Problem, vector: Array, active: Sequence[int], run: Run) -> Array:
+    if not problem.drive.force:
+        return unknown_inputs(problem.drive, problem.simulator, run, vector).torque
+    speed, acceleration = run.motion()
+    needed = needed_force(
+        problem.simulator, vector, active, time=run.time, position=np.ascontiguousarray(run.position), speed=speed,
+        acceleration=acceleration,
+    )  # fmt: skip
+    lacking: Array = needed - run.input
     return lacking
 
 
-def current_of(problem: OutputError, motor: Array, target: Target) -> Array:
+def current_of(problem: Problem, motor: Array, run: Run) -> Array:
     """What drives: the force of an axis, the recorded current, or what voltage and speed make of it."""
-    if problem.kind != "dc":
-        return target.input
-    if target.current.size:
-        return target.current
-    emf: Array = motor[motor_index("back_emf_constant")] * target.speed
-    return (target.input - emf) / float(motor[motor_index("resistance")])
+    if not problem.drive.winding:
+        return run.input
+    if run.current.size:
+        return run.current
+    emf: Array = motor[motor_index("back_emf_constant")] * run.speed
+    return (run.input - emf) / float(motor[motor_index("resistance")])
 
 
 def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
@@ -179,45 +195,9 @@ def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
     return found
 
 
-def order_grid(problem: OutputError) -> Array:
+def order_grid(problem: Problem) -> Array:
     """Orders worth looking at: whole numbers per revolution; as fine as the travel allows on a linear axis."""
-    if problem.angle_per_position == 1.0:
+    if problem.simulator.angle_per_position == 1.0:
         return np.arange(1.0, 121.0)
-    travel = max(float(np.ptp(t.angle)) for t in problem.targets if t.angle.size)
+    travel = max(float(np.ptp(r.angle)) for r in problem.runs if r.angle.size)
     return np.arange(2.0, 900.0) * (0.5 / max(travel, 1e-9))
-
-
-def windows(
-    problem: OutputError, motor: Array, residuals: Sequence[dict[str, Array]], count: int = 2
-) -> list[tuple[float, float]]:
-    """(t_start, t_end) of the time windows in which a constant extra torque explains most of the residual."""
-    length = max(float(t.time[-1] - t.time[0]) for t in problem.targets)
-    bins = 60
-    total, weight = np.zeros(bins), np.zeros(bins)
-    for target, residual in zip(problem.targets, residuals, strict=True):
-        if "speed" not in residual:
-            continue
-        r = residual["speed"]
-        a, b = drive_filter(problem, motor, float(np.median(np.diff(target.time))))
-        torque = (r[1:] - a * r[:-1]) / b
-        place = np.minimum((bins * (target.time[:-1] - target.time[0]) / length).astype(int), bins - 1)
-        total += np.bincount(place, torque, bins)
-        weight += np.bincount(place, minlength=bins)
-    mean = total.sum() / max(weight.sum(), 1.0)
-    sums = np.concatenate([[0.0], np.cumsum(total - mean * weight)])
-    counts = np.concatenate([[0.0], np.cumsum(weight)])
-    i, j = np.triu_indices(bins + 1, 2)
-    n, whole = counts[j] - counts[i], counts[-1]
-    gain = np.where(
-        (n > 0) & (n < whole),
-        (sums[j] - sums[i]) ** 2 / np.maximum(n * (1.0 - n / max(whole, 1.0)), 1e-9),
-        0.0,
-    )
-    found: list[tuple[float, float]] = []
-    for k in np.argsort(gain)[::-1]:
-        if all(abs(i[k] - p) + abs(j[k] - q) > bins / 6 for p, q in found):
-            found.append((float(i[k]), float(j[k])))
-        if len(found) == count:
-            break
-    # a little off the grid, so that the instants carry derivatives
-    return [(length * (p + 0.013) / bins, length * (q - 0.017) / bins) for p, q in found]

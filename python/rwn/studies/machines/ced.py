@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from rwn.fit.fit import Fitted
-from rwn.fit.preparation import prepare, proof_target
+from rwn.fit.fit import Fit
+from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.name.forward import explain
+from rwn.name.forward import rank
 from rwn.recording.recording import Recording
+from rwn.simulate.run import judging_run
 from rwn.studies.machines.machine import Error, Machine, Outcome, Say, cut, data_file, error_of, judged, nominal_model
 
 STEP = 0.02  # [s]
@@ -63,16 +64,17 @@ def _lasting(model: Model, train: Recording, test: Recording) -> tuple[str, ...]
 
 def _plain_and_final(model: Model, fitted: Recording, judge: Recording) -> tuple[float, float]:
     """Error on `judge` of the model with its sensor, plainly fitted and under coloured noise."""
-    found = explain(
+    ranking = rank(
         prepare([fitted], model), progress=lambda *_: None, names=["sensor-rectification"], at_once=1
     )
-    named, target = next(h for h in found.hypotheses if h.fitted.added), proof_target(judge, model)
+    named, run = next(r for r in ranking.fits if r.added), judging_run(judge, model)
+    problem = ranking.problem.in_free_run()
 
-    def error(fit: Fitted) -> float:
-        seen = found.setup.whole.simulate(target, fit.vector, fit.candidate.active).signals["speed"]
-        return float(np.sqrt(np.mean((target.speed - seen)[target.judged_from :] ** 2)))
+    def error(fit: Fit) -> float:
+        seen = problem.simulate(run, fit.vector, fit.active).signals["speed"]
+        return float(np.sqrt(np.mean((run.speed - seen)[run.judged_from :] ** 2)))
 
-    return error(named.fitted), error(named.final)
+    return error(named.fit), error(named.final)
 
 
 def _window(model: Model, samples: int) -> Model:

@@ -9,14 +9,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn import _core
-from rwn.fit.hypothesis import Candidate, candidate, fit
-from rwn.fit.preparation import Setup, motion, prepare, target, windowed
-from rwn.fit.problem import OutputError, Target
+from rwn.fit.fit import fit
+from rwn.fit.hypothesis import Hypothesis, hypothesis
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
 from rwn.fit.residuals import correlation_time
-from rwn.model.model import Model, read_model
+from rwn.model.files import read_model
+from rwn.model.model import Model
 from rwn.recording.recording import Recording, read_recording
 from rwn.report.diagnosis import Diagnosis
+from rwn.simulate.inverse_dynamics import needed_force
+from rwn.simulate.run import Run, run_of, windowed
+from rwn.simulate.simulator import Simulator
 from rwn.studies.machines.machine import Error, Machine, Outcome, Say, data_file, error_of, judged
 
 Array = NDArray[np.float64]
@@ -88,56 +92,54 @@ def free_run_error(
 
     The second figure is no prediction: it says what the structure can do where its friction is that of the file.
     """
-    setup = prepare([train], model)
+    problem = prepare([train], model).in_free_run()
     row = next(r for r in found.heldout if (r.signal, r.region) == ("position", "all"))
-    start = _candidate(found, setup)
-    scores = {length: _validated(setup, start, length) for length in WINDOWS}
+    start = _as_corrected(found, problem)
+    scores = {length: _validated(problem, start, length) for length in WINDOWS}
     best = min(scores, key=lambda length: scores[length])
-    fitted = fit(_in_windows(setup.whole, setup.whole.targets[0], best), start)
-    whole = target(pulses, model)
-    corrected = _rms(setup.whole, whole, start.with_values(fitted.values), start.active)
-    own = fit(_in_windows(setup.whole, whole, WHOLE), start.starting_at(fitted.values))
+    fitted = fit(_in_windows(problem, problem.runs[0], best), start)
+    judge = run_of(pulses, model)
+    corrected = _rms(problem, judge, fitted.vector, start.active)
+    own = fit(_in_windows(problem, judge, WHOLE), start.starting_at(fitted.minimum.values))
     how = "over the whole run" if best == WHOLE else f"in windows of {best} ms"
     error = Error(
         measure=f"free-running position, PULSES [mm], fitted {how}", nominal=1e3 * row.nominal,
         refitted=1e3 * row.refitted, corrected=1e3 * corrected, published="2.64 (dynoNet)", wanted=2.64,
     )  # fmt: skip
-    return error, 1e3 * _rms(setup.whole, whole, start.with_values(own.values), start.active)
+    return error, 1e3 * _rms(problem, judge, own.vector, start.active)
 
 
-def _validated(setup: Setup, start: Candidate, length: int) -> float:
+def _validated(problem: Problem, start: Hypothesis, length: int) -> float:
     """Rms on the last and on the first quarter of the fitted file, each from a fit to the other three."""
-    whole, n = setup.whole.targets[0], setup.whole.targets[0].time.size
+    (whole,), n = problem.runs, problem.runs[0].time.size
     errors = []
     for part, rest in (((0, 3 * n // 4), (3 * n // 4, n)), ((n // 4, n), (0, n // 4))):
-        values = fit(_in_windows(setup.whole, _part(whole, *part), length), start).values
-        errors.append(_rms(setup.whole, _part(whole, *rest), start.with_values(values), start.active))
+        fitted = fit(_in_windows(problem, _part(whole, *part), length), start)
+        errors.append(_rms(problem, _part(whole, *rest), fitted.vector, start.active))
     return float(np.linalg.norm(errors))
 
 
-def _candidate(found: Diagnosis, setup: Setup) -> Candidate:
+def _as_corrected(found: Diagnosis, problem: Problem) -> Hypothesis:
     names = tuple(e.name for e in found.effects)
-    return candidate(setup.nominal, names, setup.scales, found.corrected.effects, found.corrected.parameters)
+    return hypothesis(problem.prior, names, problem.scales, found.corrected.effects, found.corrected.parameters)
 
 
-def _part(whole: Target, first: int, last: int) -> Target:
+def _part(whole: Run, first: int, last: int) -> Run:
     part = slice(first, last)
-    speed = whole.start[1] if first == 0 else float(motion(whole)[0][first])
+    speed = whole.start[1] if first == 0 else float(whole.motion()[0][first])
     return replace(
         whole, time=whole.time[part] - whole.time[first], input=whole.input[part], position=whole.position[part],
         angle=whole.angle[part], start=(0.0, speed, float(whole.position[first])), restart_every=0,
     )  # fmt: skip
 
 
-def _in_windows(problem: OutputError, one: Target, length: int) -> OutputError:
-    free = replace(one, angle=np.empty(0))
-    return replace(problem, targets=(free if length == WHOLE else windowed(one, length),))
+def _in_windows(problem: Problem, run: Run, length: int) -> Problem:
+    return replace(problem, runs=(run.following_nothing() if length == WHOLE else windowed(run, length),))
 
 
-def _rms(problem: OutputError, one: Target, vector: Array, active: Sequence[int]) -> float:
-    free = replace(one, angle=np.empty(0))
-    simulated = problem.simulate(free, vector, active).signals["position"]
-    return float(np.sqrt(np.mean((one.position - simulated)[OFFICIAL:] ** 2)))
+def _rms(problem: Problem, run: Run, vector: Array, active: Sequence[int]) -> float:
+    simulated = problem.simulate(run.following_nothing(), vector, active).signals["position"]
+    return float(np.sqrt(np.mean((run.position - simulated)[OFFICIAL:] ** 2)))
 
 
 # ---- the force that is periodic in position --------------------------------------------------------------------------
@@ -168,10 +170,12 @@ def periodic_force(found: Diagnosis, train: Recording, pulses: Recording) -> str
 def _lacking(found: Diagnosis, recording: Recording) -> tuple[Array, Array]:
     """Position and the force that the corrected model lacks there."""
     position, speed, acceleration, force = (np.ascontiguousarray(x) for x in filtered(recording))
-    setup = prepare([recording], found.corrected)
-    this = candidate(setup.nominal, (), setup.scales)
-    time = np.ascontiguousarray(recording.time[50:-50])
-    needed = _core.inverse_dynamics(this.vector, this.active, 2.0 * np.pi, time, position, speed, acceleration)
+    model = found.corrected
+    active = [model.effect_table[name].index for name in model.effects]
+    needed = needed_force(
+        Simulator.of(model), model.vector, active, time=np.ascontiguousarray(recording.time[50:-50]),
+        position=position, speed=speed, acceleration=acceleration,
+    )  # fmt: skip
     return position, force - needed
 
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from rwn.diagnose import diagnose
 from rwn.errors import InputError
-from rwn.model.model import Model, read_model
+from rwn.model.files import read_model
+from rwn.model.model import Model
 from rwn.recording.recording import Recording
 from rwn.report.diagnosis import Diagnosis
 

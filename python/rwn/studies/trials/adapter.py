@@ -27,7 +27,7 @@ def diagnose_trial(folder: Path, out: Path) -> None:
     Writes diagnosis.json, corrected.toml, heldout_*_simulated.csv (time, speed) and timing.json to `out`.
     """
     from rwn.diagnose import diagnose  # heavy, and the score needs only the file names above
-    from rwn.model.model import read_model, write_model
+    from rwn.model.files import read_model, write_model
     from rwn.recording.recording import read_recording
     from rwn.simulate.simulation import simulate
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rwn.report.diagnosis import RECORDING
+from rwn.faults.fault import RECORDING
 from rwn.studies.trials.adapter import heldout_files, simulated_file
 from rwn.studies.trials.dossier import read_columns
 from rwn.studies.trials.plant import simulate

@@ -1,4 +1,4 @@
-"""The independent plant: runs of `cpp/src/plant.cpp`, which the diagnosing model never uses."""
+"""The independent plant: runs of `cpp/plant/plant.cpp`, which the diagnosing model never uses."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn import _core
+from rwn.studies.trials import _plant
 
 Array = NDArray[np.float64]
 Values = dict[str, float]
 
-PARAMETERS: frozenset[str] = frozenset(_core.plant_parameter_names())
+PARAMETERS: frozenset[str] = frozenset(_plant.parameter_names())
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def simulate(
     Raises ValueError for an unknown parameter or one without physical sense.
     """
     held = np.ascontiguousarray(voltage, dtype=np.float64)
-    rows = _core.plant_run(check(parameters), held, 1.0 / rate, effort.substeps, effort.fineness)
+    rows = _plant.run(check(parameters), held, 1.0 / rate, effort.substeps, effort.fineness)
     return Trace.of(held, rows)
 
 
@@ -72,7 +72,7 @@ class Bench:
     """The plant one sample at a time, for controllers in the loop."""
 
     def __init__(self, parameters: Mapping[str, float], *, rate: float, voltage_scale: float) -> None:
-        self._plant = _core.Plant(
+        self._plant = _plant.Plant(
             check(parameters), 1.0 / rate, voltage_scale, TRUTH.substeps, TRUTH.fineness
         )
 

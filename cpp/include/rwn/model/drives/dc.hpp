@@ -1,0 +1,78 @@
+// A DC motor fed with a voltage: L lambda di/dt = v - R rho i - Ke kappa w - drop drives the shaft with Kt kappa i.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "rwn/model/motor.hpp"
+
+namespace rwn {
+
+struct DcDrive {
+  static constexpr std::string_view name = "dc";
+  static constexpr int states = 1;              // before the speed in x: the current
+  static constexpr bool forced = false;         // the input is no torque
+  static constexpr bool coefficients = false;   // it has equations of motion
+  static constexpr int widths[] = {4, 8, 12, 16};  // derivatives at once that a run is compiled for
+
+  template <class S>
+  class Electrics {
+   public:
+    explicit Electrics(const Motor<S>& motor) : motor_(motor), inverse_inductance_(1.0 / motor[inductance]) {}
+
+    void begin(auto& x) const { x[0] = motor_[initial_current]; }
+    static S current(const auto& x) { return x[0]; }
+
+    /// Torque on the shaft: its linear part, and as the flux has it.
+    S linear_torque(const auto& x) const { return motor_[torque_constant] * x[0]; }
+    S torque(const auto& x, const S& flux, const S&) const { return motor_[torque_constant] * flux * x[0]; }
+
+    /// Its part of A (n by n), the speed in row `w`; the resistance counts 2^level times.
+    void couple(auto& a, std::size_t n, std::size_t w, double resistances, const S& inverse_inertia, bool stick) const {
+      a[0] = -(resistances * motor_[resistance] * inverse_inductance_);
+      a[w] = -(motor_[back_emf_constant] * inverse_inductance_);
+      if (!stick) a[w * n] = motor_[torque_constant] * inverse_inertia;
+    }
+
+    /// dx/dt that the linear part leaves where no effect changes the winding.
+    void drive(auto& f, const S& input) const { f[0] = input * inverse_inductance_; }
+
+    /// The same in general.
+    void remainder(auto& f, const auto& x, const S& speed, const Terms<S>& t, const S& input, double resistances) const {
+      const S back_emf = motor_[back_emf_constant] * speed;
+      S rate = voltage_left(x, back_emf, t, input);
+      rate *= inverse_inductance_;
+      if (value_of(t.inductance) != 1.0) rate /= t.inductance;
+      f[0] = rate + (resistances * motor_[resistance] * x[0] + back_emf) * inverse_inductance_;
+    }
+
+    /// Voltage that the equation leaves over along a motion whose current changes by `slope` [A/s].
+    S unknown_voltage(const auto& x, const S& speed, const Terms<S>& t, const S& input, double slope) const {
+      return voltage_left(x, motor_[back_emf_constant] * speed, t, input) - motor_[inductance] * t.inductance * slope;
+    }
+
+    /// Current in equilibrium with a speed: what a current that was not recorded is taken for.
+    S resting_current(const S& speed, const S& input) const {
+      return (input - motor_[back_emf_constant] * speed) / motor_[resistance];
+    }
+
+    /// Rate of its transient [1/s].
+    double rate(const Terms<S>& t) const { return value_of(motor_[resistance]) / value_of(motor_[inductance] * t.inductance); }
+
+    /// How much faster it is than R/L; `slope`: of the voltage drops over the current [ohm].
+    double speed_up(const Terms<S>& t, double slope) const {
+      return (value_of(t.resistance) + slope / value_of(motor_[resistance])) / value_of(t.inductance);
+    }
+
+   private:
+    S voltage_left(const auto& x, const S& back_emf, const Terms<S>& t, const S& input) const {
+      return input - motor_[resistance] * t.resistance * x[0] - back_emf * t.flux - t.drop;
+    }
+
+    const Motor<S>& motor_;
+    S inverse_inductance_;
+  };
+};
+
+}  // namespace rwn

@@ -1,0 +1,137 @@
+// What an effect is. Each lives in effects/<effect>.hpp as a struct with static members:
+//
+//   info          name, site, equation, meaning, source
+//   parameters    std::array<Parameter, n>
+//   traits        which of the functions below it has, and what the integrator and the first guesses have to know
+//
+// and functions ("hooks"), all templates on the scalar, which carries the derivatives; p points to the parameters:
+//
+//   apply(p, motor, motion, terms)    its share of the motor equations
+//   rate(p, motor, motion, acceleration, h)   fastest rate of change it brings over the next h [1/s]: sets the step
+//   joint(p, motor)                   what couples the motor to the second mass that it brings
+//   actuate(p, input)                 maps the commanded input to what acts
+//   delay(p)                          input delay [s]
+//   breaks(p)                         instants at which its terms jump [s]
+//   begin(p, reading, memory)         its memory at the first sample
+//   finish(p, motor, h, before, after, memory)     its memory after a step
+//   sense(p, reading, memory)         maps the true signals to what is recorded
+//
+// A function that is listed and not there, or there and not listed, or of another signature, does not compile.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <type_traits>
+
+#include "rwn/model/joint.hpp"
+#include "rwn/model/memory.hpp"
+#include "rwn/model/motor.hpp"
+#include "rwn/numerics/dual.hpp"
+
+namespace rwn {
+
+inline constexpr int max_effect_parameters = 8;
+inline constexpr int max_breaks = 2;
+
+enum class Site { torque, voltage, flux, actuator, sensor, load };
+
+constexpr std::string_view to_string(Site site) {
+  constexpr std::string_view names[] = {"torque", "voltage", "flux", "actuator", "sensor", "load"};
+  return names[static_cast<int>(site)];
+}
+
+/// The equation that an effect of this site belongs to, as diagnosis reports it.
+constexpr std::string_view equation_of(Site site) {
+  constexpr std::string_view names[] = {"mechanical", "electrical", "electrical", "actuator", "sensor", "mechanical"};
+  return names[static_cast<int>(site)];
+}
+
+struct EffectInfo {
+  std::string_view name;
+  Site site;
+  std::string_view equation;
+  std::string_view meaning;
+  std::string_view source;
+};
+
+enum class Hook : unsigned {
+  apply = 1, rate = 2, joint = 4, actuate = 8, delay = 16, breaks = 32, begin = 64, finish = 128, sense = 256
+};
+constexpr Hook operator|(Hook a, Hook b) { return Hook{static_cast<unsigned>(a) | static_cast<unsigned>(b)}; }
+constexpr bool has(Hook all, Hook one) { return (static_cast<unsigned>(all) & static_cast<unsigned>(one)) != 0; }
+
+/// Where first guesses come from: what the parameters scan; the same, of which the best are looked for before anything
+/// is fitted, since the error has many minima; a spectrum over the angle; a change of the residual in time; a resonance
+/// of it; or the recorded values themselves, so that nothing is fitted.
+enum class Guess { scan, best_of_scan, spectrum, window, resonance, values };
+
+constexpr std::string_view to_string(Guess guess) {
+  constexpr std::string_view names[] = {"scan", "best_of_scan", "spectrum", "window", "resonance", "values"};
+  return names[static_cast<int>(guess)];
+}
+
+struct EffectTraits {
+  Hook hooks;
+  bool varies = true;            // false: terms change only with direction and at `breaks`
+  bool dry = false;              // contributes to the level of dry friction
+  bool turns = false;            // depends on the angle
+  int memories = 0;              // numbers that it remembers from step to step
+  Guess guess = Guess::scan;
+};
+
+/// Signatures of the hooks for scalar S.
+template <class S>
+struct HookTypes {
+  using Apply = void (*)(const S*, const Motor<S>&, const Motion<S>&, Terms<S>&);
+  using Rate = double (*)(const S*, const Motor<S>&, const Motion<S>&, double, double);
+  using JointOf = Joint<S> (*)(const S*, const Motor<S>&);
+  using Actuate = S (*)(const S*, const S&);
+  using Delay = S (*)(const S*);
+  using Breaks = std::array<S, max_breaks> (*)(const S*);
+  using Begin = void (*)(const S*, const Reading<S>&, S*);
+  using Finish = void (*)(const S*, const Motor<S>&, const S&, const Motion<S>&, const Motion<S>&, S*);
+  using Sense = void (*)(const S*, Reading<S>&, const S*);
+};
+
+template <class Wanted, class Given>
+consteval bool is_signature() {
+  static_assert(std::is_same_v<Wanted, Given>, "a hook of this effect has another signature: see effect.hpp");
+  return std::is_same_v<Wanted, Given>;
+}
+
+/// Refuses, with a sentence, what would compile and do nothing.
+template <class E>
+consteval bool is_effect() {
+  using T = HookTypes<double>;
+  constexpr Hook hooks = E::traits.hooks;
+  static_assert(std::is_same_v<decltype(E::info), const EffectInfo>, "an effect has `info`");
+  static_assert(E::parameters.size() >= 1 && E::parameters.size() <= max_effect_parameters,
+                "an effect has one to max_effect_parameters parameters");
+  static_assert(E::traits.memories >= 0 && E::traits.memories <= max_memories, "an effect has at most max_memories");
+  static_assert(static_cast<unsigned>(hooks) != 0, "an effect does something: it lists at least one hook");
+#define RWN_HOOK(name, Type)                                                                                     \
+  if constexpr (has(hooks, Hook::name)) {                                                                        \
+    static_assert(requires { &E::template name<double>; }, "hook `" #name "` is listed in traits and not there"); \
+    if constexpr (requires { &E::template name<double>; }) is_signature<Type, decltype(&E::template name<double>)>(); \
+  } else {                                                                                                       \
+    static_assert(!requires { &E::template name<double>; }, "hook `" #name "` is there and not listed in traits"); \
+  }
+  RWN_HOOK(apply, T::Apply)
+  RWN_HOOK(rate, T::Rate)
+  RWN_HOOK(joint, T::JointOf)
+  RWN_HOOK(actuate, T::Actuate)
+  RWN_HOOK(delay, T::Delay)
+  RWN_HOOK(breaks, T::Breaks)
+  RWN_HOOK(begin, T::Begin)
+  RWN_HOOK(finish, T::Finish)
+  RWN_HOOK(sense, T::Sense)
+#undef RWN_HOOK
+  static_assert(E::traits.memories == 0 || has(hooks, Hook::finish) || has(hooks, Hook::begin),
+                "an effect that remembers something says how its memory changes");
+  return true;
+}
+
+template <class E>
+concept Effect = is_effect<E>();
+
+}  // namespace rwn

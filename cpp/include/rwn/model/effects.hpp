@@ -1,0 +1,54 @@
+// The table of effects. A new effect is a file in effects/, its include and its entry in the tuple; nothing else.
+#pragma once
+
+#include <tuple>
+
+#include "rwn/model/effects/actuator_deadzone.hpp"
+#include "rwn/model/effects/asymmetric_friction.hpp"
+#include "rwn/model/effects/backlash.hpp"
+#include "rwn/model/effects/brush_voltage_drop.hpp"
+#include "rwn/model/effects/cogging_torque.hpp"
+#include "rwn/model/effects/constant_load.hpp"
+#include "rwn/model/effects/coulomb_friction.hpp"
+#include "rwn/model/effects/inertia_variation.hpp"
+#include "rwn/model/effects/input_delay.hpp"
+#include "rwn/model/effects/load_dependent_friction.hpp"
+#include "rwn/model/effects/load_disturbance.hpp"
+#include "rwn/model/effects/magnetic_saturation.hpp"
+#include "rwn/model/effects/position_dependent_friction.hpp"
+#include "rwn/model/effects/presliding_hysteresis.hpp"
+#include "rwn/model/effects/quadratic_drag.hpp"
+#include "rwn/model/effects/resistance_heating.hpp"
+#include "rwn/model/effects/sensor_bias.hpp"
+#include "rwn/model/effects/sensor_quantization.hpp"
+#include "rwn/model/effects/sensor_rectification.hpp"
+#include "rwn/model/effects/shaft_compliance.hpp"
+#include "rwn/model/effects/speed_sensor_lag.hpp"
+#include "rwn/model/effects/stribeck_friction.hpp"
+#include "rwn/model/effects/torque_ripple.hpp"
+#include "rwn/model/effects/unbalance.hpp"
+#include "rwn/model/effects/viscous_asymmetry.hpp"
+#include "rwn/model/effects/viscous_friction.hpp"
+#include "rwn/model/effects/voltage_saturation.hpp"
+
+namespace rwn {
+
+using Effects =
+    std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
+               LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque, Unbalance,
+               ConstantLoad, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation, BrushVoltageDrop,
+               ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation, InputDelay,
+               SpeedSensorLag, SensorRectification, SensorBias, SensorQuantization>;
+
+inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
+
+namespace detail {
+template <class... E>
+consteval bool all_effects(const std::tuple<E...>*) {
+  static_assert((0 + ... + E::traits.memories) <= max_memories, "there is no room for the memories of all effects");
+  return (Effect<E> && ...);
+}
+}  // namespace detail
+static_assert(detail::all_effects(static_cast<const Effects*>(nullptr)));
+
+}  // namespace rwn

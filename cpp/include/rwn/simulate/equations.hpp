@@ -1,0 +1,296 @@
+// The equations of motor.hpp as functions of the state, with whatever effects are switched on.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "rwn/simulate/effect_terms.hpp"
+#include "rwn/simulate/second_mass.hpp"
+
+namespace rwn {
+
+/// Inputs that the equations do not know: a torque, and the voltage of a winding.
+template <class S>
+struct UnknownInputs {
+  S torque{}, voltage{};
+};
+
+template <class S, class Drive, int masses>
+class Equations {
+ public:
+  using Moving = MovingState<S, Drive, masses>;
+  using State = DriveState<S, Drive, masses>;
+  static constexpr int n = State::n;
+  static constexpr std::size_t w = State::w;
+  using Vector = SmallVector<S, n>;
+  using Matrix = SmallMatrix<S, n>;
+
+  Equations(const Motor<S>& motor, const ActiveEffect<S>* effects, int count, double angle_per_position)
+      : motor_(motor), electrics_(motor), effects_(motor, electrics_, effects, count, angle_per_position) {
+    bool replaced = false;
+    for (int k = 0; k < count; ++k) {
+      const auto& call = effects[k].call;
+      varies_ = varies_ || call.varies;
+      dry_ = dry_ || call.dry;
+      winds_ = winds_ || (call.electrical && call.varies);
+      rates_ = rates_ || electrical() || call.rate != nullptr || (effects[k].own != nullptr && call.varies);
+      timed_ = timed_ || call.breaks != nullptr;
+      replaced = replaced || call.replaces;
+      finishes_ = finishes_ || call.finish != nullptr;
+      if constexpr (masses == 2) {
+        if (call.joint != nullptr) second_ = SecondMass<S, Drive>(call.joint(effects[k].p, motor_), motor_);
+      }
+    }
+    base_friction_ = replaced ? S(0.0) : motor_[coulomb_friction];
+    dry_ = dry_ || (!replaced && is_used(motor_[coulomb_friction]));
+    pendulum_ = is_used(motor_[pendulum_torque]);
+    varies_ = varies_ || pendulum_;
+    inertia_ = motor_[inertia];
+    viscous_ = motor_[viscous_friction];
+    if constexpr (masses == 2) {
+      inertia_ = second_.motor_inertia();
+      viscous_ = second_.motor_viscous(motor_);
+    }
+    inverse_inertia_ = 1.0 / inertia_;
+  }
+
+  /// Something is left of the inertia in front of a joint.
+  bool sound() const { return value_of(inertia_) > 0.0; }
+
+  bool varies() const { return varies_; }      // within a step, other than with the direction of sliding
+  bool rates() const { return rates_; }        // something asks for short steps
+  bool dry() const { return dry_; }            // there is friction that holds
+  bool finishes() const { return finishes_; }  // effects have memories that follow the motion
+
+  /// Whether the equation of the winding is another than R, L and Ke make it.
+  bool electrical() const { return Drive::states > 0 && winds_; }
+
+  /// A gap opens and closes.
+  bool plays() const {
+    if constexpr (masses == 2) return second_.play();
+    return false;
+  }
+
+  /// Input and time (middle of the interval) of what is integrated next.
+  void begin(const S& input, double time) {
+    effects_.begin(input, time);
+    if (timed_) constants_known_ = {};
+  }
+
+  /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
+  void follow(const S& offset) { effects_.follow(offset); }
+
+  /// What stands before the shaft.
+  const auto& electrics() const { return electrics_; }
+
+  /// The mass behind a joint, where there are two.
+  const auto& second() const { return second_; }
+
+  Regime regime(const Moving& s, int level) const {
+    return {level, dry_ && s.direction == 0.0, masses == 2 && s.contact != 0.0};
+  }
+
+  /// A of the linear part.
+  Matrix system_matrix(const Regime& regime) const {
+    Matrix a{};
+    if constexpr (Drive::states > 0) {
+      electrics_.couple(a, n, w, times(regime.level()), inverse_inertia_, regime.stick());
+    }
+    if (!regime.stick()) a[w * n + w] = -(viscous_ * inverse_inertia_);
+    if constexpr (masses == 2) second_.couple(a, regime);
+    return a;
+  }
+
+  /// A winding that has become faster than R/L (saturation, brush contact) is linearised at R 2^level, which keeps the
+  /// remainder stable; `t` are the terms at s.
+  int choose_level(const State& s, const Terms<S>& t) const {
+    if constexpr (Drive::states > 0) {
+      if (!electrical()) return 0;
+      const double ratio = electrics_.speed_up(t, t.drop_slope + effects_.own_drop_slope(s));
+      return ratio > 1.3 ? static_cast<int>(std::min(12.0, std::ceil(std::log2(ratio)))) : 0;
+    }
+    return 0;
+  }
+
+  /// Steps that the fastest effect asks for over h, where `f` and `t` are those of its start (level 0).
+  int step_count(const State& s, double h, const Vector& f, const Terms<S>& t) const {
+    const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
+    const double effect_steps = h * effects_.rate(s, acceleration, h) / angle_of_a_step;
+    const double steps = std::ceil(std::max(winding_steps(t, h), effect_steps));
+    return steps > 1.0 ? static_cast<int>(std::min(16.0, steps)) : 1;
+  }
+
+  /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`, which is fresh.
+  Vector nonlinear(const Moving& s, const S* memory, const S& start, int level, Terms<S>& t) const {
+    put_terms(t, s, memory, start);
+    Vector f{};
+    if constexpr (masses == 2) f[State::load_speed] = second_.constant_torque(s) * second_.inverse_load();
+    if (!winds_ && value_of(t.inertia) == 0.0 && value_of(t.inertia_slope) == 0.0) {  // torques alone are added
+      if constexpr (Drive::states > 0) electrics_.drive(f, input());
+      if (s.direction == 0.0 && dry_) return f;
+      S torque = t.torque;
+      if constexpr (Drive::forced) torque += input();
+      if (dry_) torque -= s.direction * t.friction;
+      if constexpr (masses == 2) torque -= second_.constant_torque(s);
+      f[w] = torque * inverse_inertia_;
+      return f;
+    }
+    if constexpr (Drive::states > 0) electrics_.remainder(f, s.x, s.x[w], t, input(), times(level));
+    if (s.direction == 0.0 && dry_) {
+      f[w] = S(0.0);
+      return f;
+    }
+    const S torque = accelerating_torque(s, t);
+    const S linear_rate = linear_acceleration(s);
+    f[w] = value_of(t.inertia) == 0.0 ? torque * inverse_inertia_ : torque / (inertia_ + t.inertia);
+    f[w] -= linear_rate;
+    return f;
+  }
+
+  /// The same where no effect varies within a step: the terms depend on direction alone.
+  Vector constant_part(const State& s) {
+    const bool stick = dry_ && s.direction == 0.0;
+    Vector f{};
+    f[w] = stick ? S(0.0) : constants(s, s.direction).acceleration;
+    if constexpr (masses == 2) {
+      const S torque = second_.constant_torque(s);
+      f[State::load_speed] = torque * second_.inverse_load();
+      if (!stick) f[w] -= torque * inverse_inertia_;
+    }
+    if constexpr (Drive::states > 0) electrics_.drive(f, input());
+    if constexpr (Drive::forced) {
+      if (!stick) f[w] += input() * inverse_inertia_;
+    }
+    return f;
+  }
+
+  double acceleration(const State& s) const {
+    Terms<S> t;
+    const Vector f = nonlinear(s, s.memory.data(), s.position, 0, t);
+    return value_of(f[w]) + value_of(linear_acceleration(s));
+  }
+
+  /// Torque on the shaft beyond the friction level in `direction`, were it to slide that way.
+  S excess_torque(const State& s, double direction) {
+    S load(0.0);
+    if constexpr (masses == 2) load = second_.torque(s);
+    if (!varies_) {
+      const Constants& c = constants(s, direction);
+      if constexpr (Drive::states > 0) load -= electrics_.linear_torque(s.x);
+      if constexpr (Drive::forced) load -= input();
+      return direction * (c.torque - load) - c.friction;
+    }
+    State sliding = s;
+    sliding.direction = direction;
+    const Terms<S> t = terms_of(sliding, s.position);
+    return direction * (electrics_.torque(sliding.x, t.flux, input()) + t.torque - load) - t.friction;
+  }
+
+  /// Sliding direction that the torque on a standing shaft leads to; 0 while friction holds.
+  double breaking(const State& s) {
+    for (double direction : {1.0, -1.0}) {
+      if (value_of(excess_torque(s, direction)) > 0.0) return direction;
+    }
+    return 0.0;
+  }
+
+  /// Torque by which friction holds a shaft beyond what pulls at it.
+  double holding(const State& s) {
+    return -std::max(value_of(excess_torque(s, 1.0)), value_of(excess_torque(s, -1.0)));
+  }
+
+  /// What the equations leave over in a state whose speed changes by `acceleration` and whose current by `slope` [A/s].
+  UnknownInputs<S> unknown(const State& s, double acceleration, double slope) const {
+    const Terms<S> t = terms_of(s, s.position);
+    UnknownInputs<S> left;
+    left.torque = (inertia_ + t.inertia) * acceleration - accelerating_torque(s, t);
+    if constexpr (Drive::states > 0) left.voltage = electrics_.unknown_voltage(s.x, s.x[w], t, input(), slope);
+    return left;
+  }
+
+  /// Lets the memories of effects follow a step of length h.
+  void finish(const State& before, State& after, const S& h) const { effects_.finish(before, after, h); }
+
+ private:
+  static constexpr double angle_of_a_step = 0.7;     // of the fastest rate of an effect
+  static constexpr double angle_of_a_winding = 1.4;  // R/L h of a step, where its equation is nearly linear
+  static constexpr double most_winding_steps = 2.0;  // that its transient is worth, were it ever so short
+
+  struct Constants {
+    S torque{}, friction{}, acceleration{};
+  };
+
+  /// 2^level; the level is 0 nearly always.
+  static double times(int level) { return level == 0 ? 1.0 : std::ldexp(1.0, level); }
+
+  static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
+
+  /// Steps in which the winding's transient is followed where its equation is not linear.
+  double winding_steps(const Terms<S>& t, double h) const {
+    if constexpr (Drive::states > 0) {
+      return electrical() ? std::min(h * electrics_.rate(t) / angle_of_a_winding, most_winding_steps) : 0.0;
+    }
+    return 0.0;
+  }
+
+  const S& input() const { return effects_.input(); }
+
+  Terms<S> terms_of(const State& s, const S& start) const {
+    Terms<S> t;
+    put_terms(t, s, s.memory.data(), start);
+    return t;
+  }
+
+  void put_terms(Terms<S>& t, const Moving& s, const S* memory, const S& start) const {
+    t.friction = base_friction_;
+    effects_.add(t, s, memory, start);
+    if (pendulum_) {
+      using std::sin;
+      t.torque -= motor_[pendulum_torque] * sin(s.position);
+    }
+  }
+
+  /// What accelerates the motor's mass while it slides.
+  S accelerating_torque(const Moving& s, const Terms<S>& t) const {
+    S torque = electrics_.torque(s.x, t.flux, input()) + t.torque - viscous_ * s.x[w];
+    if constexpr (masses == 2) torque -= second_.torque(s);
+    if (dry_) torque -= s.direction * t.friction;
+    if (value_of(t.inertia_slope) != 0.0) torque -= 0.5 * t.inertia_slope * s.x[w] * s.x[w];
+    return torque;
+  }
+
+  /// Terms of sliding in `direction` where they depend on nothing else; made once.
+  const Constants& constants(const State& s, double direction) {
+    const std::size_t place = direction > 0.0 ? 2 : direction < 0.0 ? 0 : 1;
+    Constants& c = constants_[place];
+    if (constants_known_[place]) return c;
+    State sliding = s;
+    sliding.direction = direction;
+    const Terms<S> t = terms_of(sliding, s.position);
+    c = {t.torque, t.friction, (t.torque - direction * t.friction) * inverse_inertia_};
+    constants_known_[place] = true;
+    return c;
+  }
+
+  S linear_acceleration(const Moving& s) const {
+    S torque = -(viscous_ * s.x[w]);
+    if constexpr (masses == 2) {
+      if (s.contact != 0.0) torque -= second_.spring(s);
+    }
+    if constexpr (Drive::states > 0) torque += electrics_.linear_torque(s.x);
+    return torque * inverse_inertia_;
+  }
+
+  const Motor<S>& motor_;
+  typename Drive::template Electrics<S> electrics_;
+  EffectTerms<S, Drive, masses> effects_;
+  bool varies_ = false, dry_ = false, finishes_ = false, pendulum_ = false, winds_ = false, rates_ = false,
+       timed_ = false;
+  S base_friction_{}, inertia_{}, inverse_inertia_{};
+  S viscous_{};  // of the motor alone
+  [[no_unique_address]] std::conditional_t<masses == 2, SecondMass<S, Drive>, NoSecondMass> second_{};
+  std::array<Constants, 3> constants_{};  // sliding back, standing, sliding forth
+  std::array<bool, 3> constants_known_{};
+};
+
+}  // namespace rwn

@@ -1,0 +1,107 @@
+// Integrates the drive equations over one interval of constant input: chooses the cheapest exact way.
+#pragma once
+
+#include "rwn/simulate/events.hpp"
+
+namespace rwn {
+
+template <class S, class Drive, int masses>
+class Integrator {
+ public:
+  using State = DriveState<S, Drive, masses>;
+  static constexpr std::size_t w = State::w;
+  static constexpr int n = State::n;
+
+  Integrator(const Motor<S>& motor, const ActiveEffect<S>* effects, int count, double angle_per_position)
+      : equations_(motor, effects, count, angle_per_position) {}
+  Integrator(const Integrator&) = delete;  // its parts refer to each other
+  Integrator& operator=(const Integrator&) = delete;
+
+  /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
+  void follow(const S& offset) { equations_.follow(offset); }
+
+  /// False where no motion follows from the equations.
+  bool sound() const { return equations_.sound(); }
+
+  /// The electrical part begins as the parameters say, a second mass with the first.
+  void begin(State& s) const {
+    equations_.electrics().begin(s.x);
+    if constexpr (masses == 2) equations_.second().begin(s);
+  }
+
+  /// Fixes sliding or sticking, and contact, of a state that has just been set.
+  void settle(State& s) const {
+    events_.settle(s);
+    if (dry_) s.direction = value_of(s.x[w]) > 0.0 ? 1.0 : value_of(s.x[w]) < 0.0 ? -1.0 : 0.0;
+  }
+
+  /// Of all steps so far.
+  const StepCounts& counts() const { return stepper_.counts(); }
+
+  /// Advances `s` over `h` from time `time` with constant input.
+  void advance(State& s, const S& h, const S& input, double time) {
+    equations_.begin(input, time + 0.5 * value_of(h));
+    if (exact_ && keeps_on(s, h)) return;
+    dry_ || play_ ? advance_with_events(s, h) : advance_smoothly(s, h);
+  }
+
+ private:
+  void advance_smoothly(State& s, const S& h) {
+    const int steps = stepper_.step_count(s, value_of(h));
+    const S part = steps == 1 ? h : h / static_cast<double>(steps);
+    for (int k = 0; k < steps; ++k) s = stepper_.step(s, part);
+  }
+
+  /// The common cases of constant terms, done where it returns true: the whole interval goes on as it began.
+  bool keeps_on(State& s, const S& h) {
+    if (dry_ && s.direction == 0.0) {
+      s.direction = equations_.breaking(s);
+      if (s.direction == 0.0) return masses == 1 && Drive::states == 0;  // nothing moves
+    }
+    if constexpr (masses == 2) {
+      if ((dry_ || play_) && stepper_.step_count(s, value_of(h)) > 1) return false;
+    }
+    typename State::Moving next = s;
+    stepper_.linear_update(s, h, next.x, next.position);
+    if ((dry_ || play_) && !events_.moves_on(s, next)) return false;
+    s.x = next.x;
+    s.position = next.position;
+    return true;
+  }
+
+  void advance_with_events(State& s, S left) {
+    const double whole = value_of(left);
+    int events = 0;
+    for (; events < most_events && value_of(left) > 1e-12 * whole; ++events) {
+      if (dry_ && s.direction == 0.0) s.direction = equations_.breaking(s);
+      if (events > 0) stepper_.use(Use::rests);
+      const int steps = stepper_.step_count(s, value_of(left));
+      const S h = steps == 1 ? left : left / static_cast<double>(steps);
+      for (int k = 0; k < steps; ++k) {
+        const State next = stepper_.step(s, h);
+        if (!events_.continues(s, next)) {
+          left -= events_.pass(s, h, next);
+          break;
+        }
+        s = next;
+        left -= h;
+      }
+    }
+    if (events == most_events && value_of(left) > 0.0) {  // it rattles: what is left of the interval is gone over
+      s = stepper_.step(s, left);
+      settle(s);
+    }
+    stepper_.use(Use::intervals);
+  }
+
+  static constexpr int most_events = 40;  // between two samples
+
+  Equations<S, Drive, masses> equations_;
+  Stepper<S, Drive, masses> stepper_{equations_};
+  Events<S, Drive, masses> events_{equations_, stepper_};
+  const bool dry_ = equations_.dry();
+  const bool play_ = equations_.plays();
+  const bool exact_ = !equations_.varies() && !equations_.finishes();  // constant terms: one step whatever its length
+};
+
+}  // namespace rwn

@@ -1,0 +1,182 @@
+// By what a step of given length moves the state: matrices, made once for each length that comes back, or a series
+// along the way for a length that does not.
+#pragma once
+
+#include <utility>
+
+#include "rwn/simulate/equations.hpp"
+#include "rwn/numerics/flow.hpp"
+#include "rwn/simulate/step_counts.hpp"
+
+namespace rwn {
+
+/// What a length is used for: parts of the interval between samples come back, the rest after an event does not, and of
+/// an instant that is searched values alone are wanted.
+enum class Use { intervals, rests, search };
+
+template <class S, class Drive, int masses>
+class Operators {
+ public:
+  using Matrix = typename Equations<S, Drive, masses>::Matrix;
+  using Vector = typename Equations<S, Drive, masses>::Vector;
+  using Value = typename S::Value;
+  static constexpr int n = Equations<S, Drive, masses>::n;
+
+  /// The linear part, and its values.
+  struct System {
+    Regime regime{};
+    Matrix a{};
+    SmallMatrix<double, n> value{};
+    double norm = 0.0;
+  };
+
+  /// In scalar T: S, or values alone.
+  template <class T>
+  struct Step {
+    double h = -1.0;
+    Regime regime{};
+    SmallMatrix<T, n> e{}, p1{}, p2{};                // whole step: e^{Ah}, h phi1, h^2 phi2 (p2 of linear steps only)
+    SmallMatrix<T, n> eh{}, p1h{}, f1{}, f2{}, f3{};  // half step and Cox-Matthews weights (nonlinear steps only)
+
+    /// x after half the step with f.
+    Vector half(const Vector& x, const Vector& f) const {
+      SmallVector<T, n> y{};
+      add_product<T, n>(y, eh, in<T>(x));
+      add_product<T, n>(y, p1h, in<T>(f));
+      return in<S>(y);
+    }
+
+    /// x after the step with f at its start, `middle` twice the mean of f halfway, and `last` at its end.
+    Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
+      SmallVector<T, n> y{};
+      add_product<T, n>(y, e, in<T>(x));
+      add_product<T, n>(y, f1, in<T>(f));
+      add_product<T, n>(y, f2, in<T>(middle));
+      add_product<T, n>(y, f3, in<T>(last));
+      return in<S>(y);
+    }
+  };
+
+  /// The same along the way, in scalar T: S, or values alone.
+  template <class T>
+  struct Passage {
+    SmallMatrix<T, n> a;
+    double norm, h;
+
+    /// Parts in which the series of a nonlinear step are gone along.
+    int parts() const { return 3 * parts_of_flow<S>(0.5 * norm * h) + parts_of_flow<S>(norm * h); }
+
+    Vector half(const Vector& x, const Vector& f) const { return over(0.5 * h, x, {as<T>(f)}); }
+
+    Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
+      Flow<T, n> force{as<T>(f)};  // the quadratic whose phi functions are the weights of Cox and Matthews
+      for (std::size_t j = 0; j < n; ++j) {
+        const T begin = force.constant[j], half = as_scalar<T>(middle[j]), end = as_scalar<T>(last[j]);
+        force.linear[j] = 2.0 * half - 3.0 * begin - end;
+        force.quadratic[j] = 4.0 * (begin - half + end);
+      }
+      return over(h, x, force);
+    }
+
+    Vector over(double length, const Vector& x, const Flow<T, n>& force) const {
+      SmallVector<T, n> y = as<T>(x), way{};
+      flow<T, n>(a, norm, length, force, y, way);
+      return as<S>(y);
+    }
+  };
+
+  StepCounts counts;  // kept by those who step
+
+  explicit Operators(const Equations<S, Drive, masses>& equations) : equations_(equations) {}
+
+  const System& system(const Regime& regime) {
+    for (const System& s : systems_) {
+      if (s.regime == regime) return s;
+    }
+    System& slot = next_of(systems_, next_system_);
+    slot = {.regime = regime, .a = equations_.system_matrix(regime)};
+    for (std::size_t k = 0; k < slot.a.size(); ++k) slot.value[k] = value_of(slot.a[k]);
+    slot.norm = norm_of<S, n>(slot.a);
+    return slot;
+  }
+
+  const Step<S>& over(double h, const Regime& regime) {
+    for (const Step<S>& o : steps_) {
+      if (std::abs(o.h - h) <= 1e-9 * h && o.regime == regime) return o;
+    }
+    Step<S>& slot = next_of(steps_, next_step_);
+    make(slot, h, regime);
+    return slot;
+  }
+
+  /// The values, of a length that does not come back.
+  const Step<Value>& values_over(double h, const Regime& regime) {
+    make(passing_, h, regime);
+    return passing_;
+  }
+
+  template <class T>
+  Passage<T> along(double h, const Regime& regime) {
+    const System& s = system(regime);
+    return {as<T>(s.a), s.norm, h};
+  }
+
+  template <class T, class From, std::size_t size>
+  static std::array<T, size> as(const std::array<From, size>& from) {
+    std::array<T, size> a;
+    for (std::size_t k = 0; k < size; ++k) a[k] = as_scalar<T>(from[k]);
+    return a;
+  }
+
+  /// As `as`, without a copy where it is of that scalar.
+  template <class T, class From>
+  static decltype(auto) in(const SmallVector<From, n>& x) {
+    if constexpr (std::is_same_v<T, From>) {
+      return (x);
+    } else {
+      return as<T>(x);
+    }
+  }
+
+ private:
+  /// The oldest of the last few.
+  template <class List>
+  static auto& next_of(List& list, std::size_t& next) {
+    return list[std::exchange(next, (next + 1) % list.size())];
+  }
+
+  template <class T>
+  static SmallMatrix<T, n> scaled(SmallMatrix<T, n> a, double h) {
+    for (T& entry : a) entry *= h;
+    return a;
+  }
+
+  template <class T>
+  void make(Step<T>& o, double h, const Regime& regime) {
+    const SmallMatrix<T, n> a = as<T>(system(regime).a);
+    (std::is_same_v<T, S> ? counts.matrices : counts.matrices_of_values) += equations_.varies() ? 2 : 1;
+    const PhiFunctions<T, n> f = phi_functions<T, n>(scaled(a, h));
+    o.h = h;
+    o.regime = regime;
+    o.e = f.p0;
+    o.p1 = scaled(f.p1, h);
+    if (!equations_.varies()) {
+      o.p2 = scaled(f.p2, h * h);
+      return;
+    }
+    const PhiFunctions<T, n> half = phi_functions<T, n>(scaled(a, 0.5 * h));
+    o.eh = half.p0;
+    o.p1h = scaled(half.p1, 0.5 * h);
+    o.f1 = scaled(combine<T, n>(1.0, combine<T, n>(1.0, f.p1, -3.0, f.p2), 4.0, f.p3), h);
+    o.f2 = scaled(combine<T, n>(2.0, f.p2, -4.0, f.p3), h);
+    o.f3 = scaled(combine<T, n>(-1.0, f.p2, 4.0, f.p3), h);
+  }
+
+  const Equations<S, Drive, masses>& equations_;
+  std::array<System, 6> systems_{};
+  std::array<Step<S>, 8> steps_{};
+  Step<Value> passing_{};
+  std::size_t next_system_ = 0, next_step_ = 0;
+};
+
+}  // namespace rwn

@@ -1,0 +1,146 @@
+// The mass behind a joint, in the equations of motion of rwn/simulate/equations.hpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "rwn/simulate/drive_state.hpp"
+#include "rwn/model/joint.hpp"
+
+namespace rwn {
+
+struct NoSecondMass {};
+
+template <class S, class Drive>
+class SecondMass {
+ public:
+  using Moving = MovingState<S, Drive, 2>;
+  using Matrix = SmallMatrix<S, Moving::n>;
+  static constexpr int n = Moving::n;
+  static constexpr std::size_t w = Moving::w, twist = Moving::twist, load_speed = Moving::load_speed;
+
+  SecondMass() = default;
+  SecondMass(const Joint<S>& joint, const Motor<S>& motor)
+      : joint_(joint),
+        motor_inertia_(motor[inertia] - joint.load_inertia),
+        drag_(load_viscous_share * motor[viscous_friction]) {
+    const S inverse = 1.0 / motor_inertia_ + 1.0 / joint_.load_inertia;
+    rate_ = std::sqrt(std::abs(value_of(joint_.stiffness * inverse)));
+    if (!(rate_ > 1.0)) rate_ = 1.0;
+    inverse_load_ = 1.0 / joint_.load_inertia;
+    scaled_stiffness_ = joint_.stiffness / rate_;
+    preload_ = joint_.stiffness * joint_.half_gap;
+  }
+
+  bool play() const { return joint_.play; }
+  const S& motor_inertia() const { return motor_inertia_; }  // without the load
+  S motor_viscous(const Motor<S>& motor) const { return motor[viscous_friction] - drag_; }
+
+  /// The load starts with the motor, in the middle of the gap.
+  void begin(Moving& s) const {
+    s.x[load_speed] = s.x[w];
+    s.contact = joint_.play ? 0.0 : 1.0;
+  }
+
+  /// T of a joint whose contact is that of `s`, even where it would pull.
+  S torque(const Moving& s) const {
+    if (s.contact == 0.0) return S(0.0);
+    return spring(s) - s.contact * preload_;
+  }
+
+  /// How far into contact a gap is on `side` [rad]: T / k of the closed joint.
+  S pressing(const Moving& s, double side) const {
+    return side * (spring(s) / joint_.stiffness) - joint_.half_gap;
+  }
+
+  /// How far the gap is overlapped on `side` [rad].
+  S overlap(const Moving& s, double side) const { return side / rate_ * s.x[twist] - joint_.half_gap; }
+
+  /// Part of T that the linear equations leave out.
+  S constant_torque(const Moving& s) const { return -s.contact * preload_; }
+  const S& inverse_load() const { return inverse_load_; }
+
+  /// Part of T in the linear equations.
+  S spring(const Moving& s) const {
+    return scaled_stiffness_ * s.x[twist] + joint_.damping * (s.x[w] - s.x[load_speed]);
+  }
+
+  /// Contact as the twist has it, of a state that has just been set.
+  void touch(Moving& s) const {
+    if (!joint_.play) return;
+    s.contact = value_of(s.x[twist]) > 0.0 ? 1.0 : -1.0;
+    if (value_of(overlap(s, s.contact)) <= 0.0 || value_of(pressing(s, s.contact)) <= 0.0) s.contact = 0.0;
+  }
+
+  /// Takes twist and speed of the load over h while the motor's speed goes evenly from `from` to `to` (midpoint rule).
+  void follow(Moving& s, const S& from, const S& to, double h) const {
+    const double asked = std::ceil(h * (rate_ + value_of(joint_.damping * (1.0 / motor_inertia_ + inverse_load_))) / 0.3);
+    const int steps = asked > 1.0 ? static_cast<int>(std::min(asked, most_steps_along)) : 1;
+    const Moving end = s;
+    for (int k = 0; k < steps; ++k) {
+      const Moving begin = s;
+      const auto advance = [&](double share, double length) {
+        s.x[w] = from + share * (to - from);
+        touch(s);
+        const S twisting = rate_ * (s.x[w] - s.x[load_speed]), rate = load_acceleration(s);
+        s.x[twist] = begin.x[twist] + length * twisting;
+        s.x[load_speed] = begin.x[load_speed] + length * rate;
+      };
+      advance((k + 0.0) / steps, 0.5 * h / steps);
+      advance((k + 0.5) / steps, h / steps);
+    }
+    s.x[w] = end.x[w];
+  }
+
+  S load_acceleration(const Moving& s) const { return (torque(s) - drag_ * s.x[load_speed]) * inverse_load_; }
+
+  /// Puts the second mass into A, where the motor's own part is.
+  void couple(Matrix& a, const Regime& regime) const {
+    at(a, twist, w) = S(rate_);
+    at(a, twist, load_speed) = S(-rate_);
+    at(a, load_speed, load_speed) = -(drag_ * inverse_load_);
+    if (!regime.closed()) return;
+    at(a, load_speed, w) = joint_.damping * inverse_load_;
+    at(a, load_speed, twist) = scaled_stiffness_ * inverse_load_;
+    at(a, load_speed, load_speed) -= at(a, load_speed, w);
+    if (regime.stick()) return;
+    const S inverse = 1.0 / motor_inertia_;
+    at(a, w, load_speed) = joint_.damping * inverse;
+    at(a, w, twist) = -(scaled_stiffness_ * inverse);
+    at(a, w, w) -= at(a, w, load_speed);
+  }
+
+  /// Steps over h of which none overlooks that the contact ends or a direction turns, given the rates of `s` and the
+  /// torque by which a stuck shaft is held: one where the joint hardly swings.
+  template <class Rates>
+  int step_count(const Moving& s, const Rates& rates, bool dry, double held, double h) const {
+    if (s.contact == 0.0 || (!joint_.play && !dry)) return 1;
+    const bool stick = dry && s.direction == 0.0;
+    const double inverse = value_of(inverse_load_) + (stick ? 0.0 : 1.0 / value_of(motor_inertia_));
+    const double omega = std::sqrt(value_of(joint_.stiffness) * inverse);
+    const double damping = value_of(joint_.damping) * inverse;
+    const double turning = s.contact * (value_of(s.x[w]) - value_of(s.x[load_speed]));
+    const double bending = s.contact * (rates[w] - rates[load_speed]);
+    // of the swing about where the joint would rest: its acceleration can be no larger than this
+    const double swing = std::hypot(bending + damping * turning, omega * turning) * std::hypot(1.0, damping / omega);
+    if (!std::isfinite(swing)) return 1;
+    const bool lasts = !joint_.play || bending + s.contact * value_of(torque(s)) * inverse > swing;
+    const double change = (std::abs(rates[w]) + swing) * h + swing / omega;  // of the motor's speed, at most
+    const bool goes_on = !dry || (stick ? 2.0 * swing < held * inverse : s.direction * value_of(s.x[w]) > change);
+    if (lasts && goes_on) return 1;
+    return static_cast<int>(std::min(std::ceil(omega * h / angle_of_a_step), most_steps));
+  }
+
+ private:
+  static constexpr double angle_of_a_step = 1.0;
+  static constexpr double most_steps = 16.0;
+  static constexpr double most_steps_along = 64.0;  // of a given motion, between two samples
+
+  static S& at(Matrix& a, std::size_t row, std::size_t column) { return a[row * n + column]; }
+
+  Joint<S> joint_{};
+  S motor_inertia_{}, drag_{}, inverse_load_{}, scaled_stiffness_{}, preload_{};
+  double rate_ = 1.0;  // unit of the twist in x, so that all of x is of one size
+};
+
+}  // namespace rwn

@@ -1,0 +1,315 @@
+// The sample loop around the integrator, for one scalar type. Included by cpp/kernels/simulate.cpp only.
+#pragma once
+
+#include <type_traits>
+
+#include "rwn/model/drives.hpp"
+#include "rwn/simulate/integrator.hpp"
+#include "rwn/simulate/transfer_function.hpp"
+
+namespace rwn {
+
+/// Derivatives by which a motion of two masses is run at a time: a run with 12 takes longer than two with 8.
+inline constexpr int width_of_two_masses = 8;
+
+/// As SimulationTask, in plain pointers (files of cpp/kernels use no std containers); derivatives by columns
+/// [column, column + N) of `by`.
+struct SimulationSlice {
+  const double* time;
+  const double* input;
+  int samples;
+  const double* parameters;
+  const int* active;
+  int active_count;
+  const int* first_parameter;  // per effect of the table
+  const int* column_of;        // per parameter: its column, or -1
+  int column;
+  double angle_per_position;
+  double input_before;
+  const double* angle;  // recorded position, or null
+  bool angle_from_speed;
+  int restart_every;  // 0: never
+  const double* restart_speed;
+  const double* restart_position;
+  double *current, *speed, *position, *d_current, *d_speed, *d_position;
+  int columns;             // row length of the derivative arrays
+  int masses;              // 1, or 2 where an effect brings a joint
+  int order;               // of a transfer function
+  int first_coefficient;   // place of its coefficients among the parameters
+  const OwnProgram* own;   // by slot
+  int first_own;           // place of the parameters of slot 0
+  bool* formula_failed;    // set where a user's formula gave no finite number
+  long* work;              // what the run costs is added here
+  int width;               // derivatives at once: 0, 4, 8, 12 or 16; a kernel may hold more
+};
+
+/// What advances the state of a drive: a transfer function has no equations of motion.
+template <class S, class Drive, int masses, bool = Drive::coefficients>
+struct PlantOf {
+  using type = Integrator<S, Drive, masses>;
+};
+template <class S, class Drive, int masses>
+struct PlantOf<S, Drive, masses, true> {
+  using type = TransferFunction<S>;
+};
+
+template <class S, int N, class Drive, int masses = 1>
+class Simulation {
+  using Plant = typename PlantOf<S, Drive, masses>::type;
+  using State = typename Plant::State;
+  static constexpr std::size_t w = Plant::w;
+
+ public:
+  explicit Simulation(const SimulationSlice& slice) : slice_(slice) {
+    for (int k = 0; k < motor_parameter_count; ++k) motor_[static_cast<std::size_t>(k)] = parameter(k);
+    int slot = 0;
+    for (int a = 0; a < slice_.active_count; ++a) {
+      const int effect = slice_.active[a], own = effect - effect_count;
+      auto& e = effects_[static_cast<std::size_t>(a)];
+      if (own < 0) {
+        e = {all_effect_functions<S>[static_cast<std::size_t>(effect)], parameters_.data() + slot, memories_};
+        slot = take(slice_.first_parameter[effect], slice_.first_parameter[effect + 1], slot);
+      } else {
+        auto& formula = owns_[static_cast<std::size_t>(own)];
+        formula = {slice_.own[own], stack_.data(), slice_.formula_failed};
+        has_own_ = true;
+        e = {functions_of(formula), parameters_.data() + slot, memories_, &formula};
+        const int first = slice_.first_own + own * max_own_parameters;
+        slot = take(first, first + max_own_parameters, slot);
+      }
+      memories_ += e.call.memories;
+    }
+    if constexpr (Drive::coefficients) {
+      for (int k = 0; k < coefficient_count; ++k)
+        coefficients_[static_cast<std::size_t>(k)] = parameter(slice_.first_coefficient + k);
+    }
+  }
+
+  /// Number of samples that stayed finite.
+  int run() {
+    Plant integrator = plant();
+    if (!integrator.sound()) return 0;
+    const int finite = run(integrator);
+    *slice_.work += cost_of<S, Plant::n>(integrator.counts(), finite, slice_.width);
+    return finite;
+  }
+
+ private:
+  int run(Plant& integrator) {
+    State state = initial(integrator);
+    integrator.settle(state);
+    prepare(state);
+    start_ = state.position;
+    for (int k = 0; k < slice_.samples; ++k) {
+      if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position)))
+        return k;
+      write(k, state);
+      if (has_own_ && *slice_.formula_failed) return k;
+      if (slice_.restart_every > 0 && k > 0 && k % slice_.restart_every == 0) {
+        state.x[w] = S(slice_.restart_speed[k]);
+        start_ += slice_.restart_position[k] - state.position;
+        state.position = S(slice_.restart_position[k]);
+        integrator.settle(state);
+      }
+      if (slice_.angle != nullptr) integrator.follow(offset_ = offset(k, state.position));
+      if (k + 1 < slice_.samples) advance(integrator, state, k);
+    }
+    return slice_.samples;
+  }
+
+  Plant plant() const {
+    if constexpr (Drive::coefficients) {
+      return {coefficients_.data(), slice_.order, effects_.data(), slice_.active_count};
+    } else {
+      return {motor_, effects_.data(), slice_.active_count, slice_.angle_per_position};
+    }
+  }
+
+  /// Puts parameters [begin, end) behind the first `slot` of the active effects; returns how many there are then.
+  int take(int begin, int end, int slot) {
+    for (int k = begin; k < end; ++k) parameters_[static_cast<std::size_t>(slot++)] = parameter(k);
+    return slot;
+  }
+
+  S parameter(int index) const {
+    const int column = slice_.column_of[index];
+    return S::variable(slice_.parameters[index], column < 0 ? -1 : column - slice_.column);
+  }
+
+  State initial(const Plant& plant) const {
+    if constexpr (Drive::coefficients) {
+      return plant.initial();
+    } else {
+      State s;
+      s.x[w] = motor_[initial_speed];
+      s.position = motor_[initial_position];
+      plant.begin(s);
+      return s;
+    }
+  }
+
+  /// What of the actuators and sensors has to be done at every sample.
+  void prepare(State& s) {
+    s.memory.use(memories_);
+    for (int a = 0; a < slice_.active_count; ++a) {
+      const auto& e = effects_[static_cast<std::size_t>(a)];
+      if (e.call.delay != nullptr) delay_ += e.call.delay(e.p);
+      delayed_ = delayed_ || e.call.delay != nullptr;
+      if (e.call.breaks != nullptr) {
+        for (const S& instant : e.call.breaks(e.p)) breaks_[static_cast<std::size_t>(break_count_++)] = instant;
+      }
+      actuates_ = actuates_ || e.call.actuate != nullptr || (e.own != nullptr && e.own->term() == Term::input);
+      senses_ = senses_ || e.call.sense != nullptr || (e.own != nullptr && is_sensor(e.own->term()));
+      Reading<S> first = reading(s);
+      if (e.call.begin != nullptr) e.call.begin(e.p, first, s.memory.data() + e.memory);
+    }
+  }
+
+  /// What acts in place of a command from the instant of sample k on.
+  S acting(double command, const State& s, int k) const { return actuates_ ? actuated(command, s, k) : S(command); }
+
+  [[gnu::noinline]] S actuated(double command, const State& s, int k) const {
+    S input(command);
+    for (int a = 0; a < slice_.active_count; ++a) {
+      const auto& e = effects_[static_cast<std::size_t>(a)];
+      if (e.call.actuate != nullptr) input = e.call.actuate(e.p, input);
+      if (e.own != nullptr && e.own->term() == Term::input) input = e.own->value(e.p, motor_, motion(s, input, k));
+    }
+    return input;
+  }
+
+  /// Where the motor is at sample k, as formulas of actuators and sensors see it.
+  Motion<S> motion(const State& s, const S& input, int k) const {
+    Motion<S> x;
+    x.time = slice_.time[k] - slice_.time[0];
+    x.input = input;
+    const Reading<S> y = reading(s);
+    x.current = y.current;
+    x.speed = y.speed;
+    const bool recorded = slice_.angle != nullptr && !slice_.angle_from_speed;
+    x.angle = slice_.angle_per_position * (recorded ? S(slice_.angle[k]) : y.position + offset_);
+    x.angle_per_position = slice_.angle_per_position;
+    x.drive_torque = drive_torque(s, input);
+    if constexpr (!Drive::coefficients) x.direction = s.direction;
+    return x;
+  }
+
+  S drive_torque(const State& s, const S& input) const {
+    if constexpr (Drive::coefficients) {
+      return input;
+    } else {
+      return typename Drive::template Electrics<S>(motor_).torque(s.x, S(1.0), input);
+    }
+  }
+
+  double command_before(int index) const { return index < 0 ? slice_.input_before : slice_.input[index]; }
+
+  void advance(Plant& integrator, State& s, int k) {
+    const double begin = slice_.time[k];
+    const double end = slice_.time[k + 1];
+    if (!delayed_ && break_count_ == 0) {
+      integrator.advance(s, S(end - begin), acting(slice_.input[k], s, k), begin - slice_.time[0]);
+      return;
+    }
+    advance_pieces(integrator, s, k, begin, end);
+  }
+
+  /// Splits the interval at instants that depend on parameters: late commands and the breaks of effects.
+  void advance_pieces(Plant& integrator, State& s, int k, double begin, double end) {
+    S at(begin);
+    int row = k;
+    if (delayed_) {
+      while (row >= 0 && slice_.time[row] + value_of(delay_) > begin) --row;
+    }
+    while (value_of(at) < end) {
+      S next(end);
+      bool command = false;
+      if (delayed_ && row + 1 <= k && slice_.time[row + 1] + value_of(delay_) < end) {
+        next = slice_.time[row + 1] + delay_;
+        command = true;
+      }
+      for (int b = 0; b < break_count_; ++b) {
+        const S instant = breaks_[static_cast<std::size_t>(b)] + slice_.time[0];
+        if (value_of(instant) > value_of(at) && value_of(instant) < value_of(next)) {
+          next = instant;
+          command = false;
+        }
+      }
+      integrator.advance(s, next - at, acting(command_before(delayed_ ? row : k), s, k), value_of(at) - slice_.time[0]);
+      at = next;
+      if (command) ++row;
+    }
+  }
+
+  static S current_of(const State& s) {
+    if constexpr (Drive::coefficients) {
+      return S(0.0);
+    } else {
+      return Drive::template Electrics<S>::current(s.x);
+    }
+  }
+
+  Reading<S> reading(const State& s) const {
+    Reading<S> y;
+    y.current = current_of(s);
+    y.speed = s.x[w];
+    y.position = s.position;
+    return y;
+  }
+
+  void write(int k, const State& s) {
+    Reading<S> y = reading(s);
+    if (senses_) sense(k, s, y);
+    if (slice_.angle_from_speed) integrate(k, y.speed);
+    store(k, y.current, slice_.current, slice_.d_current);
+    store(k, y.speed, slice_.speed, slice_.d_speed);
+    store(k, y.position, slice_.position, slice_.d_position);
+  }
+
+  [[gnu::noinline]] void sense(int k, const State& s, Reading<S>& y) const {
+    for (int a = 0; a < slice_.active_count; ++a) {
+      const auto& e = effects_[static_cast<std::size_t>(a)];
+      if (e.call.sense != nullptr) e.call.sense(e.p, y, s.memory.data() + e.memory);
+      if (e.own != nullptr && is_sensor(e.own->term()))
+        e.own->sense(e.p, motor_, motion(s, S(command_before(k - 1)), k), y);
+    }
+  }
+
+  /// Integrates the simulated reading of the speed as the recorded one was integrated.
+  void integrate(int k, const S& shown) {
+    if (k > 0) turned_ += 0.5 * (slice_.time[k] - slice_.time[k - 1]) * (shown_ + shown);
+    shown_ = shown;
+  }
+
+  /// What angle-dependent effects follow minus the simulated position. An integrated speed turns with its sensor's
+  /// errors; the simulated reading, integrated likewise, takes them out.
+  S offset(int k, const S& position) const {
+    return slice_.angle_from_speed ? slice_.angle[k] - turned_ - start_ : slice_.angle[k] - position;
+  }
+
+  void store(int k, const S& y, double* values, double* slopes) const {
+    if (values != nullptr) values[k] = value_of(y);
+    if constexpr (N > 0) {
+      if (slopes == nullptr) return;
+      const int count = std::min(N, slice_.columns - slice_.column);
+      double* row = slopes + static_cast<std::ptrdiff_t>(k) * slice_.columns + slice_.column;
+      for (int j = 0; j < count; ++j) row[j] = y.d[j];
+    }
+  }
+
+  const SimulationSlice& slice_;
+  Motor<S> motor_{};
+  std::array<S, max_active_parameters> parameters_{};
+  std::array<ActiveEffect<S>, max_active_effects> effects_{};
+  std::array<ActiveOwnEffect<S>, max_own_effects> owns_{};
+  std::array<S, formula_depth> stack_{};
+  std::array<S, Drive::coefficients ? coefficient_count : 0> coefficients_{};
+  S delay_{0.0};
+  S shown_{0.0}, turned_{0.0};  // simulated reading of the speed, and its integral
+  S start_{0.0}, offset_{0.0};  // position where that integral starts; angle minus position, 0 without one
+  std::array<S, 8> breaks_{};
+  int break_count_ = 0, memories_ = 0;
+  bool delayed_ = false, actuates_ = false, senses_ = false, has_own_ = false;
+};
+
+}  // namespace rwn

@@ -1,0 +1,28 @@
+// What the steps of a simulation are made of, as far as it differs in cost.
+#pragma once
+
+namespace rwn {
+
+struct StepCounts {
+  long linear = 0, nonlinear = 0;             // steps
+  long electrical = 0;                        // nonlinear ones of a winding whose equation is not that of R, L and Ke
+  long series = 0, series_of_values = 0;      // parts of a length gone along (rwn/numerics/flow.hpp)
+  long matrices = 0, matrices_of_values = 0;  // sets of phi functions (rwn/numerics/exponential.hpp)
+};
+
+/// In the units of rwn/simulate/work.hpp, of a run with n states and derivatives by so many parameters as were asked for (what a
+/// kernel's width adds differs by machine): fitted to what runs of all kinds took, within a quarter for most. A template
+/// like all of the kernels, so that no two of them share it.
+template <class S, int n>
+long cost_of(const StepCounts& c, int samples, int derivatives) {
+  const long N = derivatives;
+  const long linear = n > 2 ? 15 + 13 * N : 8 + 8 * N;
+  const long nonlinear = n > 2 ? 250 + 40 * N : 130 + 30 * N;
+  const long electrical = 80 + 25 * N;
+  const long series_of_values = 90, series = 90 + 28 * N;
+  const long matrices_of_values = 6 * n * n * n + 20 * n, matrices = matrices_of_values * (1 + N);
+  return 20L * samples + linear * c.linear + nonlinear * c.nonlinear + electrical * c.electrical +
+         series * c.series + series_of_values * c.series_of_values + matrices * c.matrices + matrices_of_values * c.matrices_of_values;
+}
+
+}  // namespace rwn

@@ -1,5 +1,0 @@
-#include "rwn/isa.hpp"
-
-#include <gtest/gtest.h>
-
-TEST(Isa, HasAName) { EXPECT_FALSE(rwn::to_string(rwn::isa()).empty()); }

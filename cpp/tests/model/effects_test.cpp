@@ -1,0 +1,46 @@
+// What every row of the effect table has to keep.
+#include "rwn/model/effects.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rwn/simulate/active_effects.hpp"
+#include "rwn/model/memory.hpp"
+
+namespace rwn {
+namespace {
+
+Motor<double> small_motor() {
+  Motor<double> m{};
+  m[resistance] = m[inductance] = m[torque_constant] = m[back_emf_constant] = m[inertia] = 1.0;
+  m[viscous_friction] = 0.1;
+  return m;
+}
+
+template <class E>
+double friction_of() {
+  std::array<double, E::parameters.size()> p{};
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] = E::parameters[k].start;
+  Motion<double> x;
+  x.current = x.speed = x.position = x.angle = x.drive_torque = 0.5;
+  std::array<double, max_memories> memory{};
+  x.memory = memory.data();
+  Terms<double> t;
+  if constexpr (requires { E::template apply<double>; }) E::apply(p.data(), small_motor(), x, t);
+  return t.friction;
+}
+
+// An effect that sets a friction level but is not `dry` would never stick nor brake.
+template <class E>
+void expect_dry_where_it_brakes() {
+  const bool is_dry = functions_of<double, E>().dry;
+  EXPECT_TRUE(is_dry || friction_of<E>() == 0.0) << E::info.name;
+}
+
+TEST(Effects, EveryFrictionLevelIsIntegratedAsDryFriction) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (expect_dry_where_it_brakes<std::tuple_element_t<I, Effects>>(), ...);
+  }(std::make_index_sequence<effect_count>{});
+}
+
+}  // namespace
+}  // namespace rwn

@@ -1,0 +1,279 @@
+#include "rwn/simulate/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "allocations.hpp"
+#include "rwn/model/effects.hpp"
+#include "rwn/fit/normal_equations.hpp"
+
+namespace {
+
+struct Case {
+  std::vector<double> time, input, parameters, angle;
+  std::vector<int> active, by;
+  int drive = rwn::drive_of("dc");
+  bool angle_from_speed = false;
+
+  rwn::SimulationTask task() const {
+    rwn::SimulationTask t;
+    t.drive = drive;
+    t.time = time;
+    t.input = input;
+    t.parameters = parameters;
+    t.active = active;
+    t.by = by;
+    t.angle = angle;
+    t.angle_from_speed = angle_from_speed;
+    return t;
+  }
+};
+
+/// A 24 V motor under a chirp.
+Case motor(int samples = 400, double step = 1e-3) {
+  Case c;
+  for (int k = 0; k < samples; ++k) {
+    const double t = step * k;
+    c.time.push_back(t);
+    c.input.push_back(12.0 * std::sin(2.0 * std::numbers::pi * (1.0 + 4.0 * t) * t));
+  }
+  c.parameters.assign(static_cast<std::size_t>(rwn::parameter_count()), 0.0);
+  c.parameters[rwn::resistance] = 0.8;
+  c.parameters[rwn::inductance] = 1.5e-3;
+  c.parameters[rwn::torque_constant] = 0.1;
+  c.parameters[rwn::back_emf_constant] = 0.1;
+  c.parameters[rwn::inertia] = 3e-4;
+  c.parameters[rwn::viscous_friction] = 7e-5;
+  c.parameters[rwn::coulomb_friction] = 0.02;
+  return c;
+}
+
+std::vector<double> speed_of(const Case& c) {
+  std::vector<double> speed(c.time.size());
+  EXPECT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, {}, {}}), rwn::SimulationStatus::ok);
+  return speed;
+}
+
+/// A scale in SI for the motor above.
+double size_of(const rwn::Scale& scale) {
+  constexpr double sizes[] = {0.5, 100.0, 12.0, 5.0, 3e-4, 1e-3, 0.3977, 20.0};  // as in Scale::quantities
+  double size = scale.factor;
+  for (std::size_t k = 0; k < scale.powers.size(); ++k) size *= std::pow(sizes[k], scale.powers[k]);
+  return size;
+}
+
+/// First guesses of one effect, in SI for the motor above.
+void switch_on(Case& c, int effect, const rwn::Parameter* parameters, std::size_t count) {
+  c.active = {effect};
+  for (std::size_t k = 0; k < count; ++k) {
+    const rwn::Parameter& p = parameters[k];
+    const double unit = size_of(p.scale);
+    c.parameters[static_cast<std::size_t>(rwn::first_parameter(effect)) + k] = p.start * unit;
+  }
+}
+
+/// Place of an effect in the table.
+template <class E>
+int place_of() {
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return (0 + ... + (std::is_same_v<E, std::tuple_element_t<I, rwn::Effects>> ? static_cast<int>(I) : 0));
+  }(std::make_index_sequence<rwn::effect_count>{});
+}
+
+/// Derivatives by `c.by` against central differences.
+void expect_slopes(const Case& c) {
+  const std::size_t p = c.by.size(), n = c.time.size();
+  std::vector<double> speed(n), slopes(n * p);
+  ASSERT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}}), rwn::SimulationStatus::ok);
+  for (std::size_t j = 0; j < p; ++j) {
+    const auto index = static_cast<std::size_t>(c.by[j]);
+    const double value = c.parameters[index];
+    const double nudge = 1e-7 * (value != 0.0 ? std::abs(value) : 1.0);
+    Case up = c, down = c;
+    up.parameters[index] = value + nudge;
+    down.parameters[index] = value - nudge;
+    const std::vector<double> high = speed_of(up), low = speed_of(down);
+    double error = 0.0, size = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double difference = (high[k] - low[k]) / (2.0 * nudge);
+      error += std::pow(difference - slopes[k * p + j], 2);
+      size += difference * difference;
+    }
+    EXPECT_LE(std::sqrt(error), 2e-4 * std::sqrt(size) + 1e-12) << "parameter " << index;
+  }
+}
+
+template <class E>
+void check_slopes(int effect, bool follow) {
+  SCOPED_TRACE(std::string(E::info.name) + (follow ? " on a recorded angle" : ""));
+  Case c = motor();
+  switch_on(c, effect, E::parameters.data(), E::parameters.size());
+  if (follow) {
+    for (double t : c.time) c.angle.push_back(30.0 * t + 5.0 * std::sin(20.0 * t));
+  }
+  for (int k = 0; k <= rwn::viscous_friction; ++k) c.by.push_back(k);
+  bool staircase = false;
+  for (std::size_t k = 0; k < E::parameters.size(); ++k) {
+    staircase = staircase || E::traits.guess == rwn::Guess::values;
+    if (E::traits.guess != rwn::Guess::values) c.by.push_back(rwn::first_parameter(effect) + static_cast<int>(k));
+  }
+  if (staircase) {
+    std::vector<double> speed(c.time.size()), slopes(c.time.size() * c.by.size());
+    EXPECT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}}), rwn::SimulationStatus::ok);
+  } else {
+    expect_slopes(c);
+  }
+}
+
+/// A motor with a cog whose speed is filtered and offset; `angle` is the integral of that speed, as a recording has it.
+Case cogged_motor_without_a_position() {
+  Case c = motor();
+  const std::vector<std::pair<int, std::vector<double>>> effects = {
+      {place_of<rwn::CoggingTorque>(), {0.01, 7.0, 0.4}},
+      {place_of<rwn::SpeedSensorLag>(), {4e-3}},
+      {place_of<rwn::SensorBias>(), {3.0, 0.0}}};
+  for (const auto& [effect, values] : effects) {
+    c.active.push_back(effect);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const int index = rwn::first_parameter(effect) + static_cast<int>(k);
+      c.parameters[static_cast<std::size_t>(index)] = values[k];
+      c.by.push_back(index);
+    }
+  }
+  const std::vector<double> speed = speed_of(c);
+  c.angle.push_back(0.0);
+  for (std::size_t k = 1; k < speed.size(); ++k) {
+    c.angle.push_back(c.angle.back() + 0.5 * (c.time[k] - c.time[k - 1]) * (speed[k - 1] + speed[k]));
+  }
+  return c;
+}
+
+}  // namespace
+
+TEST(Simulate, LinearMotorIsExactAtAnySampleTime) {
+  Case fine = motor(401, 1e-3);
+  fine.parameters[rwn::coulomb_friction] = 0.0;
+  Case coarse = fine;
+  coarse.time.clear();
+  coarse.input.clear();
+  for (std::size_t k = 0; k < fine.time.size(); ++k) fine.input[k] = fine.input[k - k % 20];
+  for (std::size_t k = 0; k < fine.time.size(); k += 20) {
+    coarse.time.push_back(fine.time[k]);
+    coarse.input.push_back(fine.input[k]);
+  }
+  const auto a = speed_of(fine), b = speed_of(coarse);
+  for (std::size_t k = 0; k < b.size(); ++k) EXPECT_NEAR(a[20 * k], b[k], 1e-10);
+}
+
+TEST(Simulate, FrictionHoldsAtStandstill) {
+  Case c = motor();
+  for (double& v : c.input) v = 0.1;  // 0.0125 N m at stall, below 0.02
+  for (double w : speed_of(c)) EXPECT_EQ(w, 0.0);
+}
+
+TEST(Simulate, AnIntegratedSpeedIsFollowedWithoutWhatItsSensorAdds) {
+  Case c = cogged_motor_without_a_position();
+  Case free = c;
+  free.angle.clear();
+  const std::vector<double> truth = speed_of(free), astray = speed_of(c);
+  c.angle_from_speed = true;
+  const std::vector<double> found = speed_of(c);
+  double off = 0.0;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    EXPECT_NEAR(found[k], truth[k], 1e-9);
+    off = std::max(off, std::abs(astray[k] - truth[k]));
+  }
+  EXPECT_GT(off, 0.1);
+}
+
+TEST(Simulate, SlopesAlongAnIntegratedSpeedAgreeWithCentralDifferences) {
+  Case c = cogged_motor_without_a_position();
+  c.angle_from_speed = true;
+  expect_slopes(c);
+}
+
+TEST(Simulate, SlopesOfEveryEffectAgreeWithCentralDifferences) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (check_slopes<std::tuple_element_t<I, rwn::Effects>>(static_cast<int>(I), false), ...);
+    (check_slopes<std::tuple_element_t<I, rwn::Effects>>(static_cast<int>(I), true), ...);
+  }(std::make_index_sequence<rwn::effect_count>{});
+}
+
+TEST(Simulate, DivergenceIsAStatusNotANumber) {
+  Case c = motor();
+  c.parameters[rwn::viscous_friction] = -50.0;
+  std::vector<double> speed(c.time.size());
+  EXPECT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, {}, {}}), rwn::SimulationStatus::diverged);
+  for (double w : speed) EXPECT_TRUE(std::isfinite(w));
+}
+
+TEST(Simulate, WrongLengthsAreRefused) {
+  Case c = motor();
+  c.input.pop_back();
+  EXPECT_THROW(speed_of(c), std::invalid_argument);
+}
+
+TEST(Simulate, AllocationsDoNotGrowWithTheRecording) {
+  const auto count = [](int samples) {
+    Case c = motor(samples);
+    c.by = {rwn::resistance, rwn::inertia, rwn::coulomb_friction};
+    std::vector<double> speed(c.time.size()), slopes(3 * c.time.size());
+    const rwn::SimulationTask task = c.task();
+    const auto before = rwn::testing::allocations();
+    rwn::simulate(task, {{}, speed, {}, {}, slopes, {}});
+    return rwn::testing::allocations() - before;
+  };
+  EXPECT_EQ(count(400), count(4000));
+}
+
+TEST(NormalEquations, AreTheSumsOverTheSamples) {
+  Case c = motor();
+  c.by = {rwn::resistance, rwn::inertia};
+  const std::size_t n = c.time.size();
+  std::vector<double> speed(n), slopes(2 * n);
+  rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}});
+  std::vector<double> measured(n);
+  double chi2 = 0.0, gradient = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    measured[k] = speed[k] + std::sin(0.1 * static_cast<double>(k));
+    const double e = 2.0 * (measured[k] - speed[k]);
+    chi2 += e * e;
+    gradient += 2.0 * slopes[2 * k + 1] * e;
+  }
+  rwn::Measurements recorded;
+  recorded.speed = measured;
+  recorded.speed_weight = 2.0;
+  const auto sum = rwn::normal_equations(c.task(), recorded);
+  EXPECT_NEAR(sum.chi2, chi2, 1e-9 * chi2);
+  EXPECT_NEAR(sum.gradient[1], gradient, 1e-9 * std::abs(gradient));
+  EXPECT_EQ(sum.count, static_cast<long>(n));
+}
+
+TEST(NormalEquations, OfErrorsThatLastCountWhatIsNew) {
+  Case c = motor();
+  c.by = {rwn::resistance, rwn::inertia};
+  const std::size_t n = c.time.size();
+  std::vector<double> speed(n), slopes(2 * n), measured(n);
+  rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}});
+  const double share = 0.9, alone = std::sqrt(1.0 - share * share);
+  double chi2 = 0.0, gradient = 0.0, last = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double error = std::sin(0.1 * static_cast<double>(k));
+    measured[k] = speed[k] + error;
+    const double fresh = k == 0 ? alone * error : error - share * last;
+    const double slope = k == 0 ? alone * slopes[1] : slopes[2 * k + 1] - share * slopes[2 * k - 1];
+    chi2 += fresh * fresh;
+    gradient += slope * fresh;
+    last = error;
+  }
+  rwn::Measurements recorded;
+  recorded.speed = measured;
+  recorded.persistence = {0.0, share, 0.0};
+  const auto sum = rwn::normal_equations(c.task(), recorded);
+  EXPECT_NEAR(sum.chi2, chi2, 1e-9 * chi2);
+  EXPECT_NEAR(sum.gradient[1], gradient, 1e-9 * std::abs(gradient));
+}

@@ -1,0 +1,70 @@
+"""Values of a fit with their 95 % intervals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.fit.fit import Fit
+from rwn.fit.residuals import Statistics
+from rwn.fit.secant import rough
+
+Array = NDArray[np.float64]
+
+AGREEMENT = 1e-3  # relative standard deviation that stays when the noise is averaged out
+IDEALISED = 4e-3  # the same for effects whose law idealises a contact
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimate:
+    """A number with its unit and 95 % interval (`None`: not estimated, e.g. fixed by the user)."""
+
+    value: float
+    unit: str
+    interval: tuple[float, float] | None = None
+
+
+def deviations(this: Fit, left: Statistics) -> Array:
+    """Standard deviations (p) of the unknowns: white-noise covariance widened by the residual's variance and colour."""
+    minimum = this.minimum
+    information = minimum.data_information / (max(left.variance, 1.0) * left.correlation_time)
+    information = information + (minimum.information - minimum.data_information)
+    scale = np.sqrt(np.maximum(np.diag(information), 1e-300))
+    covariance = np.linalg.pinv(information / np.outer(scale, scale), rcond=1e-13, hermitian=True)
+    result: Array = np.sqrt(np.maximum(np.diag(covariance), 0.0)) / scale
+    return result
+
+
+def estimates(this: Fit, left: Statistics) -> dict[str, Estimate]:
+    """Value and 95 % interval of every unknown on which something depends, cut at its bounds."""
+    seen = np.diag(this.minimum.information) > 0.0
+    spread = np.hypot(deviations(this, left), _systematic(this))
+    found = {}
+    for u, value, std, known in zip(this.hypothesis.unknowns, this.minimum.values, spread, seen, strict=True):
+        if u.nuisance or not known:
+            continue
+        if u.logarithmic and value > 0.0:
+            factor = float(np.exp(min(1.96 * std / value, 50.0)))
+            interval = (max(value / factor, u.lower), min(value * factor, u.upper))
+        else:
+            interval = (max(value - 1.96 * std, u.lower), min(value + 1.96 * std, u.upper))
+        found[u.name] = Estimate(
+            value=float(value), unit=u.unit, interval=(float(interval[0]), float(interval[1]))
+        )
+    return found
+
+
+def _systematic(this: Fit) -> Array:
+    """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians."""
+    known = this.hypothesis.table
+    angles = {f"{name}.{p.name}" for name in this.added for p in known[name].parameters if p.cyclic}
+    contacts = rough(this.hypothesis)
+    pairs = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
+    return np.array(
+        [
+            (IDEALISED if k in contacts else AGREEMENT) * (1.0 if u.name in angles else abs(v))
+            for k, (u, v) in enumerate(pairs)
+        ]
+    )

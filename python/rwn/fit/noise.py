@@ -1,0 +1,58 @@
+"""The measurement noise of each signal, and a problem weighted by what a fit leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.fit.fit import Fit
+from rwn.fit.problem import Problem
+from rwn.fit.residuals import join
+from rwn.simulate.run import Run
+
+Array = NDArray[np.float64]
+
+CLOCK = 1e-5  # relative accuracy of a sample clock (a good crystal), and so of what was travelled by it
+DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
+
+
+def noise_levels(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> dict[str, float]:
+    """Standard deviation of the measurement noise per signal.
+
+    Encoder counts, and a speed that is their difference: of their quantisation. Else what is left of second
+    differences, robustly: a model error is smooth against the sample time, so it falls out, and a few sharp instants
+    do not count (median). No position is better known than the clock that its travel was timed with.
+    """
+    levels = {}
+    for signal in residuals[0]:
+        steps = float(np.median([r.quantisation(signal) for r in runs]))
+        found = [_noise(r[signal]) for r in residuals if r[signal].size > 8]
+        rough = max(float(np.median(found)) if found else 1.0, 1e-12)
+        encoder = signal == "position" or (signal == "speed" and any(r.speed_measured.is_difference for r in runs))
+        levels[signal] = steps if steps and encoder else max(steps, rough)
+    if "position" in levels:
+        levels["position"] = max(levels["position"], CLOCK * max(float(np.ptp(r.position)) for r in runs))
+    return levels
+
+
+def with_noise_of(problem: Problem, this: Fit) -> Problem:
+    """`problem` weighted by the noise that a fit leaves."""
+    residuals = problem.residuals(this.vector, this.active)
+    levels = noise_levels(problem.runs, residuals)
+    errors = join(replace(problem, noise=levels), residuals)
+    variances = {s: float(np.nanmean(r**2)) for s, r in errors.items()}
+    others = [v for s, v in variances.items() if s != "position"]
+    if "position" in variances and others:
+        excess = variances["position"] / (DRIFT * max(*others, 1.0))
+        levels["position"] *= np.sqrt(max(excess, 1.0))
+    return replace(problem, noise=levels)
+
+
+def _noise(residual: Array) -> float:
+    change = np.diff(residual[np.isfinite(residual)], 2)
+    spread = 1.4826 * float(np.median(np.abs(change - np.median(change)))) / np.sqrt(6.0)
+    rms = float(np.sqrt(np.nanmean(residual**2)))
+    return min(spread, rms) if spread > 0.0 else rms

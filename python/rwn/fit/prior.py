@@ -1,0 +1,30 @@
+"""What is known before a fit: the nominal model's values and how far they are believed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rwn.model.model import Model
+from rwn.model.vocabulary import Effect, table
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prior:
+    """Values of the nominal model and declared relative standard deviations (absent: exact)."""
+
+    motor: Mapping[str, float]
+    uncertainty: Mapping[str, float]
+    effects: Mapping[str, Mapping[str, float]]  # already part of the nominal model
+    free: Mapping[str, float]  # unknown without a prior (coefficients), with their first guess
+    reach: Mapping[str, float] = field(default_factory=dict)  # how far from 0 what is free may go
+    starts: tuple[Mapping[str, float], ...] = ()  # other first guesses of what is free, worth a try
+    table: Mapping[str, Effect] = field(default_factory=table)  # every effect that the model knows
+
+    @classmethod
+    def of(cls, model: Model) -> Prior:
+        """The values of a model with their declared uncertainty."""
+        return cls(
+            motor=model.motor, uncertainty=dict(model.uncertainty), effects=dict(model.effects), free={},
+            table=model.effect_table,
+        )  # fmt: skip

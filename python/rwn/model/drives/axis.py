@@ -1,0 +1,16 @@
+"""A machine axis driven by a known torque, or by a known force along a line."""
+
+from __future__ import annotations
+
+from rwn.model.drives.drive import MECHANICS, SITES, Drive
+
+_SITES = SITES - {"voltage", "flux"}
+
+LINEAR_AXIS = Drive(
+    kind="axis", input="force", outputs=("speed", "position"), parameters=MECHANICS, sites=_SITES, force=True,
+    shaft=False,
+)  # fmt: skip
+AXIS = Drive(
+    kind="axis", input="torque", outputs=("speed", "position"), parameters=MECHANICS, sites=_SITES, force=True,
+    on_a_line=LINEAR_AXIS,
+)  # fmt: skip

@@ -1,0 +1,85 @@
+"""What a kind of drive is: its signals, its nominal parameters, and where effects can attach to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rwn import _core
+from rwn.errors import InputError, unknown
+
+SITES = frozenset({"torque", "load", "voltage", "flux", "actuator", "sensor"})
+
+
+@dataclass(frozen=True, kw_only=True)
+class NominalParameter:
+    """A parameter of the nominal model. `positive`: zero is refused too; `linear_unit`: on a linear axis."""
+
+    name: str
+    unit: str
+    meaning: str
+    linear_unit: str = ""
+    positive: bool = False
+    required: bool = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drive:
+    """A kind of drive. The stages ask it what it is, never what it is called."""
+
+    kind: str
+    input: str
+    outputs: tuple[str, ...]
+    parameters: tuple[NominalParameter, ...]
+    sites: frozenset[str] = SITES  # where effects can attach
+    winding: bool = False  # a voltage drives the current of a winding
+    force: bool = False  # what drives the mechanics is recorded itself
+    coefficients: bool = False  # a transfer function, whose parameters are no physics
+    shaft: bool = True  # turns, so that a pendulum may hang on it
+    on_a_line: Drive | None = None  # the same moving along a line, where there is such
+
+    def nominal(self, order: int) -> tuple[NominalParameter, ...]:  # noqa: ARG002
+        """The nominal parameters that a model of this kind can have; `order`: of a transfer function."""
+        return self.parameters
+
+    def read(self, motor: Mapping[str, Any], *, where: str) -> tuple[dict[str, Any], int]:
+        """What [motor] gives, as parameter -> value with or without a unit, and the order. Raises InputError."""
+        if "order" in motor:
+            raise unknown("key", "order", [p.name for p in self.parameters], where=where)
+        return dict(motor), 0
+
+    def lines(self, parameters: Mapping[str, float], order: int) -> list[str] | None:  # noqa: ARG002
+        """How [motor] is written; None: a line for every parameter."""
+        return None
+
+
+_TABLE = {row["name"]: row for row in _core.motor_parameter_table()}
+
+
+def nominal(
+    name: str, *, linear_unit: str = "", positive: bool = False, required: bool = True
+) -> NominalParameter:
+    """A parameter of the motor, with unit and meaning as the core states them (drive.hpp)."""
+    row = _TABLE[name]
+    return NominalParameter(
+        name=name, unit=row["unit"], meaning=row["meaning"], linear_unit=linear_unit, positive=positive,
+        required=required,
+    )  # fmt: skip
+
+
+MECHANICS = (
+    nominal("inertia", linear_unit="kg", positive=True),
+    nominal("viscous_friction", linear_unit="N s/m"),
+    nominal("coulomb_friction", linear_unit="N", required=False),
+)
+
+
+def refused_linear(value: object, where: str, kinds: list[str]) -> InputError:
+    """`linear` where there is no line."""
+    return InputError(
+        f"linear is {value!r}",
+        where=where,
+        expected=f"true or false, with kind = {' or '.join(repr(k) for k in kinds)} only".replace("'", '"'),
+        fix="remove linear",
+    )

@@ -1,0 +1,53 @@
+"""Model files: TOML that is read into a model, and models written as TOML."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rwn.errors import InputError
+from rwn.model.model import EffectTable, Model
+from rwn.model.toml_reader import parse_model
+from rwn.model.toml_writer import format_model
+
+
+def read_model(path: str | Path, *, effects: EffectTable | None = None) -> Model:
+    """Read a model file; see docs/models.md. `effects`: what may stand in [effects] (default: all known).
+
+    Raises InputError: what, in which table and key, what was expected, how to fix it.
+    """
+    return parse_model(_read_text(Path(path)), where=str(path), effects=effects)
+
+
+def write_model(model: Model, path: str | Path) -> None:
+    """Write a model file that `read_model` reads back as an equal model."""
+    Path(path).write_text(format_model(model), encoding="utf-8")
+
+
+def _read_text(path: Path) -> str:
+    if path.is_dir():
+        raise InputError(
+            "this is a folder", where=path, expected="a model file (TOML)", fix="name the file in it"
+        )
+    try:
+        if path.stat().st_size > 2**20:
+            raise InputError(
+                "the model file is larger than 1 MB",
+                where=path,
+                expected="a short TOML file",
+                fix="was a recording given as --model?",
+            )
+        return path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(
+            "this is not a text file",
+            where=path,
+            expected="a model file (TOML, UTF-8)",
+            fix="give the model file, not a recording",
+        ) from error
+    except OSError as error:
+        raise InputError(
+            f"cannot read the file ({(error.strerror or str(error)).lower()})",
+            where=path,
+            expected="a readable model file",
+            fix="check the path and its permissions",
+        ) from error

@@ -1,0 +1,78 @@
+"""Effects that a diagnosis reports, as plain data, and how they come from a ranking."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from rwn.fit.intervals import Estimate, estimates
+from rwn.model.vocabulary import Effect
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
+from rwn.recording.units import linear_unit
+
+QUANTISATION = "sensor-quantization"
+SURE = 0.99  # probability that is stated of steps, which are read off the values
+
+
+@dataclass(frozen=True, kw_only=True)
+class FoundEffect:
+    """One physics that the nominal model lacks, or one fault of the recordings."""
+
+    name: str
+    equation: str  # "mechanical" | "electrical" | "actuator" | "sensor" | "recording"
+    probability: float
+    parameters: Mapping[str, Estimate] = field(default_factory=dict)
+    formula: str = ""  # as in the effect table: "T sign(w)"
+    meaning: str = ""  # one sentence for people: "dry friction that does not depend on speed"
+
+
+def found_effects(ranking: Ranking, chosen: RankedFit) -> tuple[FoundEffect, ...]:
+    """The named effects with parameters, intervals and probability, the one that explains most first."""
+    final = chosen.final
+    numbers, known = estimates(final, ranking.counted), final.hypothesis.table
+    if ranking.problem.simulator.angle_per_position != 1.0:
+        numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
+    rows = []
+    for name in chosen.added:
+        effect = known[name]
+        parameters = {
+            p.name: numbers[f"{name}.{p.name}"] for p in effect.parameters if f"{name}.{p.name}" in numbers
+        }
+        for p in effect.parameters:
+            if p.fixed:
+                parameters[p.name] = Estimate(value=float(final.vector[effect.at(p.name)]), unit=p.unit)
+        rows.append(
+            FoundEffect(
+                name=name,
+                equation=effect.mismatch,
+                probability=sum(r.probability for r in ranking.fits if name in r.added),
+                parameters=parameters,
+                formula=effect.equation,
+                meaning=effect.meaning,
+            )
+        )
+    alone = {r.added[0]: r.fit.cost for r in ranking.fits if len(r.added) == 1}
+    return tuple(sorted(rows, key=lambda row: alone.get(row.name, np.inf)))
+
+
+def coarse_speed(ranking: Ranking) -> FoundEffect | None:
+    """A speed signal that is rounded to steps, read off its values."""
+    steps = ranking.speed_steps
+    if not steps:
+        return None
+    effect, step = ranking.problem.prior.table[QUANTISATION], float(np.median(steps))
+    unit, interval = effect.parameters[0].unit, (min(steps) * 0.9999, max(steps) * 1.0001)
+    resolution = Estimate(value=step, unit=unit, interval=interval)
+    return FoundEffect(
+        name=QUANTISATION, equation=effect.mismatch, probability=SURE, formula=effect.equation, meaning=effect.meaning,
+        parameters={effect.parameters[0].name: resolution},
+    )  # fmt: skip
+
+
+def _unit_on_an_axis(unknown: str, unit: str, known: Mapping[str, Effect]) -> str:
+    """The unit of an unknown of a linear axis; a user has written those of own effects as they are."""
+    owner = known.get(unknown.split(".")[0])
+    return unit if owner is not None and owner.own else linear_unit(unit)

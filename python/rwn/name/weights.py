@@ -1,0 +1,62 @@
+"""How strongly recordings speak for one explanation against another when their residuals are coloured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rwn.fit.fit import Fit
+from rwn.fit.residuals import Statistics
+
+MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it is worth
+
+
+@dataclass(frozen=True, kw_only=True)
+class RankedFit:
+    """A fit with its probability among those that were tried."""
+
+    fit: Fit
+    final: Fit  # what is drawn and saved: `fit`, or the same refitted under coloured noise
+    score: float  # log of evidence, up to a constant
+    probability: float
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """Effects beside those of the nominal model."""
+        return self.fit.added
+
+
+def weigh(
+    fits: Sequence[Fit], left: Statistics, *, rivals: int, prior: Mapping[str, float] | None = None,
+    finals: Sequence[Fit] | None = None,
+) -> list[RankedFit]:  # fmt: skip
+    """Probabilities of the fits, best first.
+
+    BIC with the effective number of samples of the best explanation's residual (coloured residuals carry less), a
+    uniform prior over how many effects are missing, shared over the `rivals` names. `prior`: log prior odds per name.
+    `finals`: what the fits became under coloured noise, to be weighed in their place.
+    """
+    finals = fits if finals is None else finals
+    effective = left.effective if left.at_the_floor else min(left.effective, MISSPECIFIED)
+    scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
+    least = min(f.cost for f in finals)
+    base = min(f.unknowns_seen for f in finals)
+    scores = []
+    for f in finals:
+        unknowns = f.unknowns_seen - base
+        names = sum((prior or {}).get(name, 0.0) for name in f.added)
+        scores.append(
+            -(f.cost - least) / scale
+            - 0.5 * unknowns * np.log(max(effective, 2.0))
+            - len(f.added) * np.log(rivals)
+            + names
+        )
+    weights = np.exp(np.array(scores) - max(scores))
+    weights /= weights.sum()
+    rows = [
+        RankedFit(fit=f, final=g, score=float(s), probability=float(p))
+        for f, g, s, p in zip(fits, finals, scores, weights, strict=True)
+    ]
+    return sorted(rows, key=lambda r: -r.score)

@@ -1,0 +1,54 @@
+"""Quantised signals: the step that their values are multiples of, and what rounding adds on average."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+HARMONICS = 40  # of the mean rounding error
+
+
+def quantum(signal: Array) -> float:
+    """The step that all values are multiples of, as encoder counts and their differences are; 0: none.
+
+    A step of 1, 2 or 5 in some decimal is how numbers are written; it counts only where the values repeat.
+    """
+    if signal.size < 20:
+        return 0.0
+    values: Array = np.unique(signal - signal[0])
+    gaps = np.diff(values)
+    apart = gaps > 1e-9 * max(float(np.ptp(values)), 1e-300)  # others differ by how they were computed
+    values, gaps = values[np.append(apart, True)], gaps[apart]
+    if gaps.size < 2:
+        return 0.0
+    step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 5)]))
+    values = np.asarray(values[np.argsort(np.abs(values))], dtype=np.float64)
+    size = 8
+    while True:  # the step is known the better, the further it has been counted
+        part = values[:size]
+        counts = np.round(part / step)
+        step = float(part @ counts / max(float(counts @ counts), 1.0))
+        if size >= values.size or step <= 0.0:
+            break
+        size *= 2
+    if step <= 0.0:
+        return 0.0
+    off = np.abs(values / step - np.round(values / step))
+    repeats = values.size < signal.size / 3
+    return step if np.percentile(off, 95) < 0.1 and (repeats or not _decimal(step)) else 0.0
+
+
+def _decimal(step: float) -> bool:
+    """Whether a step is 1, 2 or 5 in some decimal place."""
+    leading = step / 10.0 ** np.floor(np.log10(step) + 1e-9)
+    return bool(min(abs(leading / m - 1.0) for m in (1.0, 2.0, 5.0, 10.0)) < 1e-4)
+
+
+def mean_rounding_error(cells: Array, noise: float) -> Array:
+    """Mean of round(x + n) - x for Gaussian noise n, both in steps (Widrow, Kollar 2008, ch. 4)."""
+    k = np.arange(1, HARMONICS + 1)
+    weights = (-1.0) ** k / (np.pi * k) * np.exp(-2.0 * (np.pi * k * noise) ** 2)
+    error: Array = np.sin(2.0 * np.pi * np.multiply.outer(cells, k)) @ weights
+    return error

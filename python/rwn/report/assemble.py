@@ -1,0 +1,168 @@
+"""From what the stages found to a Diagnosis."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rwn import _core
+from rwn._core import __version__
+from rwn.correct.correction import Correction
+from rwn.decide import excitation
+from rwn.decide.next_experiment import separated_by
+from rwn.decide.verdict import Verdict, is_certain, rests_on_what_was_declared, whole
+from rwn.faults.fault import Fault
+from rwn.locate.dependence import laws
+from rwn.locate.regions import regions
+from rwn.model.model import Model
+from rwn.name.found_effect import coarse_speed, found_effects
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
+from rwn.prove.heldout import HeldoutRow
+from rwn.prove.proof import LEFT_OUT
+from rwn.report import figures
+from rwn.report.diagnosis import Alternative, Beneath, Diagnosis, Location
+from rwn.report.nominal_fit import nominal_fit
+from rwn.simulate.unknown_inputs import unknown_inputs
+
+NOT_TOLD_APART = 0.05  # of the chosen one's probability, from which another explanation is in its set
+
+
+def ambiguous(ranking: Ranking, chosen: RankedFit) -> tuple[RankedFit, ...]:
+    """The explanations that these recordings do not tell from the chosen one, itself first."""
+    same = [
+        r
+        for r in ranking.fits
+        if r.added and len(r.added) == len(chosen.added) and r.probability > NOT_TOLD_APART * chosen.probability
+    ]
+    others = [r for r in same if r is not chosen]
+    return (chosen, *others)[:4]
+
+
+def assemble(
+    correction: Correction, faults: Sequence[Fault], model: Model, *, seed: int, elapsed: float
+) -> Diagnosis:
+    """The diagnosis, of a model that has the network among its own effects where one stands in."""
+    decision = correction.decision
+    ranking, chosen, verdict, rows = decision.ranking, decision.chosen, decision.verdict, decision.rows
+    model = correction.network.model if correction.network else model
+    problem, nominal = ranking.problem.in_free_run(), ranking.nominal
+    unknown = [
+        unknown_inputs(
+            problem.drive, problem.simulator, r, problem.started(r, nominal.vector, nominal.active), nominal.active
+        )
+        for r in problem.runs
+    ]
+    named = verdict == "missing-physics"
+    same = ambiguous(ranking, chosen) if named else ()
+    physics = found_effects(ranking, chosen) if chosen.added and named else ()
+    share = whole(ranking, chosen, certain=is_certain(rows), another=decision.other is not None)
+    physics = tuple(replace(e, probability=share * e.probability) for e in physics)
+    steps = coarse_speed(ranking)
+    if steps and verdict in ("adequate", "missing-physics"):
+        physics, verdict = (*physics, steps), "missing-physics"
+    names = tuple(dict.fromkeys([e.name for e in physics[:1]] + [_lead(r, chosen) for r in same[1:]]))
+    effects = (*(fault.found() for fault in faults), *physics)
+    beneath = Beneath(verdict=verdict, set=names) if faults else None
+    if faults:
+        verdict, names = "recording-mistake", (faults[0].name, *faults[0].also)
+    equation = effects[0].equation if effects else ""
+    where = regions(unknown, linear=model.linear)
+    torque_unknown = verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
+    depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
+    place = figures.describe(where, depends, linear=model.linear)
+    drawn = (figures.network_over_its_state(correction.network),) if correction.network else ()
+    return Diagnosis(
+        verdict=verdict,
+        equation=equation,
+        effects=effects,
+        set=names,
+        beneath=beneath,
+        alternatives=tuple(
+            Alternative(
+                effects=r.added,
+                probability=r.probability,
+                separated_by=separated_by((*chosen.added, *r.added)),
+            )
+            for r in ranking.fits[:6]
+            if r is not chosen and r.added and r.probability > 1e-3
+        ),
+        location=Location(equation=equation, regions=where, description=place),
+        nominal_fit=nominal_fit(ranking, chosen, model),
+        heldout=rows,
+        curves=(*figures.plots(ranking, chosen, unknown, depends, linear=model.linear), *drawn),
+        warnings=(*_warnings(ranking, chosen, verdict, rows), *correction.warnings),
+        next_experiment=_next_experiment(ranking, verdict, names),
+        adequate_probability=ranking.nothing_missing.probability,
+        whole=share if named else 1.0,
+        seed=seed,
+        version=__version__,
+        elapsed=elapsed,
+        stand_in=correction.stands_in,
+        corrected=correction.model,
+    )
+
+
+def _lead(ranked: RankedFit, chosen: RankedFit) -> str:
+    """The name by which an explanation differs from the chosen one."""
+    own = [n for n in ranked.added if n not in chosen.added]
+    return own[0] if own else ranked.added[0]
+
+
+def _next_experiment(ranking: Ranking, verdict: Verdict, names: Sequence[str]) -> str:
+    if verdict == "insufficient-excitation":
+        return excitation.advice(ranking.problem.whole)
+    return separated_by(names) if len(names) > 1 else ""
+
+
+def _does_not_run(ranking: Ranking) -> list[str]:
+    """What keeps the model as given from being simulated at all."""
+    problem = ranking.problem.in_free_run()
+    given = problem.as_given()
+    runs = [problem.simulate(r, given.vector, given.active).status for r in problem.runs]
+    failed = dict.fromkeys(status for status in runs if status != "ok")
+    return [f"the model as given does not run ({status}): {_core.simulation_advice(status)}" for status in failed]
+
+
+def _warnings(
+    ranking: Ranking, chosen: RankedFit, verdict: Verdict, rows: Sequence[HeldoutRow]
+) -> tuple[str, ...]:
+    texts = _does_not_run(ranking)
+    if chosen.added and rows and all(LEFT_OUT in r.recording for r in rows):
+        texts.append(
+            "no held-out recording was given: the proof is by cross-validation, each part simulated by fits without it"
+        )
+    if verdict == "missing-physics" and not ranking.left.at_the_floor:
+        texts.append(
+            f"something smaller is left over: the residual of the corrected model is coloured "
+            f"({ranking.left.effective:.0f} independent samples of {ranking.left.count})"
+        )
+    for signal, share in ranking.weighted.persistence.items():
+        texts.append(
+            f"what is left of the {signal} lasts (its correlation from sample to sample is {share:.2f}): the corrected "
+            "model was fitted to what is new in it"
+        )
+    if ranking.cut_short:
+        texts.append(
+            "more effects at once were not tried, since the search had cost what it may: recordings of fewer samples, "
+            "without the parts that say little, leave room for them"
+        )
+    if rests_on_what_was_declared(ranking, chosen):
+        texts.append(
+            "without it the nominal model fits as well, "
+            f"{ranking.nothing_missing.fit.farthest_move:.0f} declared uncertainties off: the name rests on these"
+        )
+    for f in ranking.at_a_limit[:1]:
+        texts.append(
+            f"{' + '.join(f.added)} fits better, but {', '.join(f.limits_met)} ran into a limit: there the law bends "
+            "towards one that it is not, and it is not named"
+        )
+    for u, value in zip(chosen.final.hypothesis.unknowns, chosen.final.minimum.values, strict=True):
+        if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and "." not in u.name:
+            off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
+            if off > 3.0:
+                moved = f"had to move by {off:.1f} times its declared uncertainty" if value > 0.0 else "went to zero"
+                texts.append(f"{u.name} {moved}")
+    return tuple(texts)

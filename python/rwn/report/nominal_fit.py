@@ -1,0 +1,57 @@
+"""The nominal parameters as a report shows them: as given, refitted alone, and together with the found effects."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from rwn.fit.intervals import Estimate, estimates
+from rwn.model.model import Model
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
+
+
+@dataclass(frozen=True, kw_only=True)
+class FittedParameter:
+    """A nominal parameter: as given, its declared relative standard deviation (0: exact), and as refitted."""
+
+    nominal: float
+    uncertainty: float
+    refitted: Estimate  # the nominal structure alone
+    corrected: Estimate | None = None  # together with the found effects
+
+    @property
+    def moved(self) -> float:
+        """By how many declared standard deviations the refit moved it, relative or in its logarithm; 0 where exact."""
+        if self.uncertainty == 0.0 or self.nominal <= 0.0:
+            return 0.0
+        ratio = self.refitted.value / self.nominal
+        return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
+
+
+@dataclass(frozen=True, kw_only=True)
+class NominalFit:
+    """The nominal structure refitted within its declared uncertainty."""
+
+    parameters: Mapping[str, FittedParameter] = field(default_factory=dict)
+    status: str = "converged"
+    advice: str = ""
+
+
+def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model) -> NominalFit:
+    """Nominal parameters: as given, refitted alone, and together with the found effects."""
+    alone = estimates(ranking.nominal, ranking.before)
+    together = estimates(chosen.final, ranking.counted) if chosen.added else {}
+    rows = {}
+    given = dict(model.parameters) or dict(ranking.problem.prior.free)
+    for name, value in given.items():
+        unit = model.unit(name)
+        rows[name] = FittedParameter(
+            nominal=value,
+            uncertainty=model.uncertainty.get(name, 0.0),
+            refitted=replace(alone[name], unit=unit) if name in alone else Estimate(value=value, unit=unit),
+            corrected=replace(together[name], unit=unit) if name in together else None,
+        )
+    status = ranking.nominal.minimum.status
+    return NominalFit(parameters=rows, status=status.name.lower().replace("_", "-"), advice=status.value)

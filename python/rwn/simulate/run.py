@@ -1,0 +1,177 @@
+"""A run: one recording made ready for simulation, with what drives it, where it starts and what it is compared with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.model.model import Model
+from rwn.recording.quantisation import quantum
+from rwn.recording.recording import Recording
+from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
+from rwn.recording.speed_measurement import SpeedMeasurement, integral, speed_measurement
+
+Array = NDArray[np.float64]
+SIGNALS = ("current", "speed", "position")
+WINDOW = 50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
+_NONE: Array = np.empty(0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """One recording as the core takes it; signals that were not recorded are empty.
+
+    Arrays are (n,), C-contiguous float64, SI. `start` holds the initial current, speed and position where they are
+    known; an unknown that fits them has its own place in the parameter vector.
+    """
+
+    name: str
+    time: Array
+    input: Array
+    current: Array = field(default_factory=lambda: _NONE)
+    speed: Array = field(default_factory=lambda: _NONE)
+    position: Array = field(default_factory=lambda: _NONE)
+    speed_measured: SpeedMeasurement = SpeedMeasurement.INSTANTANEOUS
+    known_from: Mapping[str, int] = field(default_factory=dict)  # first measured sample, of signals that begin late
+    start: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    input_before: float = 0.0
+    angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
+    angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
+    follows: bool = True  # angle-dependent effects follow `angle`, else the simulated position
+    restart_every: int = 0  # samples of a window after which the motion restarts from the recorded one; 0: free run
+    restart_speed: Array = field(default_factory=lambda: _NONE)
+    restart_position: Array = field(default_factory=lambda: _NONE)
+    judged_from: int = 0  # first sample that is judged; those before may serve to estimate the initial state
+
+    def signal(self, name: str) -> Array:
+        """A recorded signal (n,) by name; empty where it was not recorded."""
+        return {"current": self.current, "speed": self.speed, "position": self.position}[name]
+
+    def measured(self, name: str) -> Array:
+        """A recorded signal from its first measured sample on."""
+        return self.signal(name)[self.known_from.get(name, 0) :]
+
+    @cached_property
+    def compared(self) -> Mapping[str, Array]:
+        """The signals, NaN where they are not compared."""
+        signals = {}
+        for name in SIGNALS:
+            signal = self.signal(name)
+            if signal.size and (outside := self.outside(name)):
+                signal = signal.copy()
+                signal[outside] = np.nan
+            signals[name] = signal
+        return signals
+
+    def outside(self, name: str) -> list[int]:
+        """Indices of samples that were not measured, or where a difference would reach outside the recording.
+
+        For the ends of a difference there are as many formulas as makers.
+        """
+        before, after = self.speed_measured.reach if name == "speed" else (0, 0)
+        first = self.known_from.get(name, 0) + before
+        return [*range(first), *([-1] if after else [])]
+
+    @property
+    def followed(self) -> Array:
+        """The position that angle-dependent effects follow; empty: the simulated one."""
+        return self.angle if self.follows else _NONE
+
+    @property
+    def recorded(self) -> tuple[str, ...]:
+        """Names of the signals that were recorded."""
+        return tuple(s for s in SIGNALS if self.signal(s).size)
+
+    @property
+    def sample_time(self) -> float:
+        """Median time from one sample to the next [s]."""
+        return float(np.median(np.diff(self.time)))
+
+    def until(self, end: int) -> Run:
+        """Its first `end` samples."""
+        arrays = ("time", "input", "current", "speed", "position", "angle", "restart_speed", "restart_position")
+        return replace(self, **{name: getattr(self, name)[:end] for name in arrays})
+
+    def following_nothing(self) -> Run:
+        """The same, simulated from the input alone: angle-dependent effects follow the simulated position."""
+        return replace(self, angle=np.empty(0))
+
+    def quantisation(self, signal: str) -> float:
+        """Standard deviation of the quantisation of a signal; 0 where its values are multiples of no step.
+
+        q / sqrt(12) for steps of q, q / sqrt(6) where these are of a difference, which holds two roundings.
+        """
+        difference = signal == "speed" and self.speed_measured.is_difference
+        return float(quantum(self.measured(signal)) / np.sqrt(6.0 if difference else 12.0))
+
+    def motion(self) -> tuple[Array, Array]:
+        """Smoothed speed and acceleration (n,)."""
+        step, length = self.sample_time, self.smoothing_length()
+        if self.position.size and not self.speed.size:
+            speed = smooth(self.position, length, derivative=1, step=step)
+            return speed, smooth(self.position, length, derivative=2, step=step)
+        return smooth(self.speed, length), smooth(self.speed, length, derivative=1, step=step)
+
+    def smoothing_length(self) -> int:
+        """Samples over which it is smoothed: what its speed allows; for the derivatives of a position the most."""
+        if not self.speed.size:
+            return LENGTHS[0]
+        return smoothing_length(self.speed, resolution=self.quantisation("speed"))
+
+
+def run_of(recording: Recording, model: Model) -> Run:
+    """A recording as the core takes it; samples are at the rows' times, the input is held from its row on."""
+    drive = model.drive
+    signals = {name: np.array(values) for name, values in recording.signals.items()}
+    given = signals[drive.input]
+    time = recording.time - recording.time[0]
+    speed, position = signals.get("speed", _NONE), signals.get("position", _NONE)
+    rest = model.recording.initial == "rest"
+    known = max(recording.known_from.values(), default=0)
+    way = SpeedMeasurement.INSTANTANEOUS
+    if not drive.coefficients:
+        way = speed_measurement(time[known:], speed[known:], position[known:])
+    start_speed = 0.0 if rest else _start_speed(time, speed, position)
+    return Run(
+        name=recording.name,
+        time=np.ascontiguousarray(time),
+        input=np.ascontiguousarray(given),
+        current=signals.get("current", _NONE) if "current" in drive.outputs else _NONE,
+        speed=speed,
+        position=position,
+        speed_measured=way,
+        known_from=recording.known_from,
+        start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
+        input_before=0.0 if rest else float(given[0]),
+        angle=position if position.size else integral(way, time, speed),
+        angle_from_speed=position.size == 0,
+    )
+
+
+def judging_run(recording: Recording, model: Model) -> Run:
+    """As `run_of`, for a recording that is not fitted: a state to be estimated comes from its first samples alone."""
+    estimated = model.drive.coefficients and model.recording.initial == "estimate"
+    return replace(run_of(recording, model), judged_from=model.recording.initial_samples if estimated else 0)
+
+
+def windowed(run: Run, length: int = WINDOW) -> Run:
+    """The same recording in windows of `length` samples, each starting from the smoothed recorded motion."""
+    speed, position = run.motion()[0], run.angle
+    return replace(
+        run,
+        restart_every=length,
+        restart_speed=np.ascontiguousarray(speed),
+        restart_position=np.ascontiguousarray(position),
+        start=(0.0, float(speed[0]), float(position[0])),
+    )
+
+
+def _start_speed(time: Array, speed: Array, position: Array) -> float:
+    if speed.size:
+        return float(np.mean(speed[:5]))
+    k = min(20, time.size - 1)
+    return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if position.size else 0.0

@@ -1,0 +1,110 @@
+"""What turns a run and a parameter vector into simulated signals: the equations of one kind of drive, in the core."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn import _core
+from rwn.model.model import Model
+from rwn.model.vocabulary import motor_index
+from rwn.recording.speed_measurement import difference
+from rwn.simulate.run import SIGNALS, Run
+
+Array = NDArray[np.float64]
+
+_START = ("initial_current", "initial_speed", "initial_position")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Output:
+    """Simulated signals of one run, (n,) each; derivatives (n, p) where they were asked for."""
+
+    status: str
+    signals: dict[str, Array]
+    slopes: dict[str, Array]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NormalEquations:
+    """Weighted squared error of one run with its normal equations by p parameters; see `Simulator.normal_equations`."""
+
+    status: str
+    chi2: float
+    count: int  # samples that were compared
+    gradient: Array  # (p) J'r
+    curvature: Array  # (p, p) J'J
+
+
+@dataclass(frozen=True, kw_only=True)
+class Simulator:
+    """The equations of a drive with the effects that it knows, and a meter of what its runs cost."""
+
+    kind: str
+    angle_per_position: float = 1.0
+    order: int = 0  # of a transfer function
+    own: tuple[_core.OwnEffect, ...] = ()  # a user's effects
+    work: _core.Work = field(default_factory=_core.Work, compare=False)
+
+    @classmethod
+    def of(cls, model: Model, *, work: _core.Work | None = None) -> Simulator:
+        """The simulator of a model. `work`: the meter, where several share one."""
+        return cls(
+            kind=model.kind,
+            angle_per_position=2.0 * np.pi if model.linear else 1.0,
+            order=model.order,
+            own=tuple(effect.core for effect in model.own_effects),
+            work=work or _core.Work(),
+        )
+
+    @staticmethod
+    def started(run: Run, vector: Array) -> Array:
+        """The parameter vector with the known start of a run added to what is fitted of it."""
+        own = vector.copy()
+        for name, value in zip(_START, run.start, strict=True):
+            own[motor_index(name)] += value
+        return own
+
+    def task(self, run: Run) -> _core.Task:
+        """A run under these equations, as the core takes it."""
+        return _core.Task(
+            self.kind, time=run.time, input=run.input, angle_per_position=self.angle_per_position,
+            input_before=run.input_before, angle=run.followed, angle_from_speed=run.angle_from_speed,
+            restart_every=run.restart_every, restart_speed=run.restart_speed, restart_position=run.restart_position,
+            order=self.order, own=list(self.own),
+        )  # fmt: skip
+
+    def simulate(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:
+        """Signals (n,) of a run under the effects `active`, and their derivatives by the parameters `by`.
+
+        `vector` holds the start of the run (`started`); speed is as it was measured.
+        """
+        status, *arrays = _core.simulate(self.task(run), vector, list(active), list(by), self.work)
+        signals = dict(zip(SIGNALS, arrays[:3], strict=True))
+        slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
+        if run.speed_measured.is_difference:
+            signals["speed"] = difference(run.speed_measured, run.time, signals["position"])
+            slopes["speed"] = difference(run.speed_measured, run.time, slopes["position"])
+        return Output(status=status, signals=signals, slopes=slopes)
+
+    def normal_equations(
+        self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int], *, noise: Mapping[str, float],
+        persistence: Mapping[str, float],
+    ) -> NormalEquations:  # fmt: skip
+        """Squared error of a run in units of `noise` (per signal) with its normal equations.
+
+        `persistence`: correlation of a signal's error with the one before; an error then counts as what is new in it.
+        """
+        seen = run.compared
+        measurements = _core.Measurements(
+            current=seen["current"], speed=seen["speed"], position=seen["position"],
+            weights=tuple(1.0 / noise.get(s, 1.0) for s in SIGNALS), speed_measurement=run.speed_measured,
+            persistence=tuple(persistence.get(s, 0.0) for s in SIGNALS),
+        )  # fmt: skip
+        status, chi2, count, gradient, curvature = _core.normal_equations(
+            self.task(run), measurements, vector, list(active), list(by), self.work
+        )
+        return NormalEquations(status=status, chi2=chi2, count=count, gradient=gradient, curvature=curvature)
