@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from rwn.studies.trials.effects.torque import LOAD_VISCOUS_SHARE
+LOAD_VISCOUS_SHARE = 0.3  # of the viscous friction that is behind a shaft or gap, where a test does not say
 
 Array = NDArray[np.float64]
 
@@ -44,9 +44,12 @@ class Machine:
     motor_inertia: float | None = None
 
 
-def two_masses(motor: dict[str, float], load: float, stiffness: float, damping: float, gap: float = 0.0) -> Machine:
-    """A shaft to a load, which bears its part of the viscous friction; extra states: speed and angle of the load."""
-    drag = LOAD_VISCOUS_SHARE * motor["viscous_friction"]
+def two_masses(
+    motor: dict[str, float], load: float, stiffness: float, damping: float, gap: float = 0.0, *,
+    share: float = LOAD_VISCOUS_SHARE,
+) -> Machine:  # fmt: skip
+    """A shaft to a load, which bears its `share` of the viscous friction; extra states: its speed and angle."""
+    drag = share * motor["viscous_friction"]
 
     def torque(w: float, th: float, wl: float, thl: float) -> float:
         twist = th - thl

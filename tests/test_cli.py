@@ -190,3 +190,14 @@ def test_the_command_line_starts_quickly() -> None:
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert loaded.strip() == "[]"
     assert time.perf_counter() - start < 5.0
+
+
+def test_simulate_needs_the_time_and_the_input_alone(run: Run) -> None:
+    Path("model.toml").write_text(
+        '[motor]\nkind = "dc"\nresistance = 1.0\ninductance = 0.0\ntorque_constant = 0.05\n'
+        "back_emf_constant = 0.05\ninertia = 1e-5\nviscous_friction = 1e-6\n"
+    )
+    rows = "".join(f"{0.001 * k:.3f},5.0\n" for k in range(60))
+    Path("input.csv").write_text("time [s],voltage [V]\n" + rows)
+    status, output, _ = run("simulate", "model.toml", "--input", "input.csv", "--out", "sim.csv")
+    assert (status, "60 samples" in output) == (0, True)

@@ -100,7 +100,7 @@ def simulate(
 
     with output_file(out, overwrite=overwrite) as aside:
         drive = read_model(model)
-        (source,) = read_recordings([recording], drive)
+        (source,) = read_recordings([recording], drive, compared=False)
         run = _rwn().simulate(drive, source)
         write_csv(aside, run.time, run.signals, linear=drive.linear)
     typer.echo(f"{len(run.time)} samples of {', '.join(run.signals)} in {out}")

@@ -17,7 +17,8 @@ from rwn.model.model import Model
 
 MOTOR = {"resistance": 1.1, "inductance": 4e-4, "torque_constant": 0.037, "back_emf_constant": 0.037,
          "inertia": 2.8e-5, "viscous_friction": 4e-6}  # fmt: skip
-PLAY = {"gap": 0.02, "load_inertia": 1e-5, "contact_rate": 950.0, "contact_damping_ratio": 0.25}
+PLAY = {"gap": 0.02, "load_inertia": 1e-5, "contact_rate": 950.0, "contact_damping_ratio": 0.25,
+        "load_viscous_share": 0.3}
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +51,8 @@ def test_derivatives_find_a_gap_from_three_times_its_size(problem: Problem) -> N
     this = _hypothesis(problem, "backlash", {**PLAY, "gap": 0.06, "contact_rate": 1500.0})
     found = fit(problem, this).vector
     for unknown in this.unknowns:
-        if unknown.name.startswith("backlash."):
+        # of so little viscous friction it hardly shows where it is
+        if unknown.name.startswith("backlash.") and not unknown.name.endswith("load_viscous_share"):
             assert found[unknown.index] == pytest.approx(PLAY[unknown.name.removeprefix("backlash.")], rel=0.01)
 
 

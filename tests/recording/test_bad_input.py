@@ -163,8 +163,10 @@ MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
     ),
     "two second masses": (
         MODEL
-        + "[effects.backlash]\ngap = 0.1\nload_inertia = 1e-5\ncontact_rate = 1e3\ncontact_damping_ratio = 0.3\n"
-        + "[effects.shaft-compliance]\nstiffness = 1.0\ndamping = 0.01\nload_inertia = 1e-5\n",
+        + "[effects.backlash]\ngap = 0.1\nload_inertia = 1e-5\ncontact_rate = 1e3\n"
+        + "contact_damping_ratio = 0.3\nload_viscous_share = 0.3\n"
+        + "[effects.shaft-compliance]\nstiffness = 1.0\ndamping = 0.01\nload_inertia = 1e-5\n"
+        + "load_viscous_share = 0.3\n",
         ("backlash and shaft-compliance each bring a second mass", "one of them"),
     ),
     "effect without values": (MODEL + "[effects.coulomb-friction]\n", ("no coulomb_torque", "N m")),

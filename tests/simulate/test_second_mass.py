@@ -16,6 +16,7 @@ MOTOR = {"resistance": 1.1, "inductance": 4e-4, "torque_constant": 0.037, "back_
          "inertia": 2.8e-5, "viscous_friction": 4e-5}  # fmt: skip
 J, LOAD = MOTOR["inertia"], 1.1e-5
 REDUCED = LOAD * (J - LOAD) / J
+BEHIND = {"load_viscous_share": judge.LOAD_VISCOUS_SHARE}
 RATE = 500.0  # the closed gap swings once or twice a sample
 LEVELS = np.repeat(np.random.default_rng(4).uniform(-4.0, 4.0, 12), 10)
 
@@ -35,21 +36,21 @@ def _expect_the_same(found: Array, judged: Array, limit: float) -> None:
 @pytest.mark.parametrize("rate", [600.0, 2000.0, 5000.0])
 @pytest.mark.parametrize("damping", [0.1, 0.4, 1.5])
 def test_a_gap_closes_bounces_and_opens_as_its_law_says(rate: float, damping: float) -> None:
-    law = {"gap": 0.2, "load_inertia": LOAD, "contact_rate": rate, "contact_damping_ratio": damping}
+    law = {"gap": 0.2, "load_inertia": LOAD, "contact_rate": rate, "contact_damping_ratio": damping} | BEHIND
     machine = judge.two_masses(MOTOR, LOAD, REDUCED * rate**2, 2.0 * damping * REDUCED * rate, 0.2)
     # scipy does not know where they touch: by steps 100 times as short the simulation itself is exact to 1e-9
     _expect_the_same(_simulated({"backlash": law}), judge.run(MOTOR, machine, LEVELS, RATE), 5e-5)
 
 
-@pytest.mark.parametrize("stiffness", [0.01, 1.0])
-def test_a_shaft_twists_as_its_law_says(stiffness: float) -> None:
-    law = {"stiffness": stiffness, "damping": 1e-5, "load_inertia": LOAD}
-    machine = judge.two_masses(MOTOR, LOAD, stiffness, 1e-5)
+@pytest.mark.parametrize(("stiffness", "share"), [(0.01, 0.3), (1.0, 0.0), (1.0, 0.9)])
+def test_a_shaft_twists_as_its_law_says(stiffness: float, share: float) -> None:
+    law = {"stiffness": stiffness, "damping": 1e-5, "load_inertia": LOAD, "load_viscous_share": share}
+    machine = judge.two_masses(MOTOR, LOAD, stiffness, 1e-5, share=share)
     _expect_the_same(_simulated({"shaft-compliance": law}), judge.run(MOTOR, machine, LEVELS, RATE), 1e-6)
 
 
 def test_a_gap_beside_a_drag_that_is_not_linear() -> None:
-    law = {"gap": 0.2, "load_inertia": LOAD, "contact_rate": 1500.0, "contact_damping_ratio": 0.3}
+    law = {"gap": 0.2, "load_inertia": LOAD, "contact_rate": 1500.0, "contact_damping_ratio": 0.3} | BEHIND
     two = judge.two_masses(MOTOR, LOAD, REDUCED * 1500.0**2, 2.0 * 0.3 * REDUCED * 1500.0, 0.2)
     drag = 1e-6
     machine = judge.Machine(
@@ -64,7 +65,7 @@ def test_a_gap_beside_a_drag_that_is_not_linear() -> None:
 @pytest.mark.parametrize("friction", [0.0, 0.05])
 @pytest.mark.parametrize("damping", [0.02, 0.3])
 def test_no_bounce_is_overlooked_in_long_steps(friction: float, damping: float) -> None:
-    law = {"gap": 0.2, "load_inertia": LOAD, "contact_rate": 2500.0, "contact_damping_ratio": damping}
+    law = {"gap": 0.2, "load_inertia": LOAD, "contact_rate": 2500.0, "contact_damping_ratio": damping} | BEHIND
     model = Model(kind="dc", parameters={**MOTOR, "coulomb_friction": friction}, effects={"backlash": law})
     speeds = []
     for parts in (1, 20):
@@ -77,7 +78,7 @@ def test_no_bounce_is_overlooked_in_long_steps(friction: float, damping: float) 
 
 @pytest.mark.parametrize("effect", ["backlash", "shaft-compliance"])
 def test_a_load_heavier_than_the_whole_has_no_motion(effect: str) -> None:
-    law = {"gap": 0.2, "contact_rate": 1500.0, "contact_damping_ratio": 0.3} if effect == "backlash" else {
+    law = {"gap": 0.2, "contact_rate": 1500.0, "contact_damping_ratio": 0.3} | BEHIND if effect == "backlash" else {
         "stiffness": 1.0, "damping": 1e-5}  # fmt: skip
     model = Model(kind="dc", parameters=MOTOR, effects={effect: {**law, "load_inertia": 1.2 * J}})
     seen = rwn.Recording(name="two.csv", time=np.arange(LEVELS.size) / RATE, signals={"voltage": LEVELS})
@@ -85,7 +86,7 @@ def test_a_load_heavier_than_the_whole_has_no_motion(effect: str) -> None:
 
 
 def test_a_load_that_rattles_far_faster_than_the_samples_keeps_its_mean_motion() -> None:
-    law = {"gap": 2e-3, "load_inertia": LOAD, "contact_rate": 5000.0, "contact_damping_ratio": 0.01}
+    law = {"gap": 2e-3, "load_inertia": LOAD, "contact_rate": 5000.0, "contact_damping_ratio": 0.01} | BEHIND
     model = Model(kind="dc", parameters=MOTOR, effects={"backlash": law})
     ends = []
     for parts in (1, 40):

@@ -98,12 +98,13 @@ EQUATIONS = {
         Machine(inertia=lambda th: (0.3 * J * np.cos(2 * th), -0.6 * J * np.sin(2 * th))),
     ),
     "backlash": (
-        {"gap": 0.05, "load_inertia": 0.5 * J, "contact_rate": 900.0, "contact_damping": 0.4},
+        {"gap": 0.05, "load_inertia": 0.5 * J, "contact_rate": 900.0, "contact_damping": 0.4,
+         "load_viscous_share": 0.3},
         BOTH_WAYS,
         two_masses(NOMINAL, 0.5 * J, 0.25 * J * 900.0**2, 2.0 * 0.4 * 0.25 * J * 900.0, 0.05),
     ),
     "shaft-compliance": (
-        {"stiffness": 0.5, "damping": 2e-4, "load_inertia": 0.4 * J},
+        {"stiffness": 0.5, "damping": 2e-4, "load_inertia": 0.4 * J, "load_viscous_share": 0.3},
         BOTH_WAYS,
         two_masses(NOMINAL, 0.4 * J, 0.5, 2e-4),
     ),

@@ -121,7 +121,7 @@ TEST(UnknownInputs, FollowTheMemoriesOfEffectsAndASecondMass) {
   bristles.add<PreslidingHysteresis>({25.0, 0.01, 0.02});
   EXPECT_LT(left_over(bristles).torque, 0.005);
   Case shaft("axis");
-  shaft.add<ShaftCompliance>({30.0, 5e-4, 1.2e-4});
+  shaft.add<ShaftCompliance>({30.0, 5e-4, 1.2e-4, 0.4});
   EXPECT_LT(left_over(shaft).torque, 0.005);
 }
 

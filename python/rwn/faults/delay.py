@@ -147,9 +147,10 @@ def _shifts(recordings: Sequence[Recording], problem: Problem, nominal: Fit) -> 
     """One channel late or early against its simulation while another is in step."""
     if not problem.drive.winding:
         return
-    lags = {s: _lag(problem, nominal, s) for s in problem.runs[0].recorded if s != "position"}
+    signals = [s for s in problem.runs[0].recorded if all(s in r.recorded for r in problem.runs)]
+    lags = {s: _lag(problem, nominal, s) for s in signals if s != "position"}
     step = float(np.median(np.diff(recordings[0].time)))
-    groups = {"speed": tuple(s for s in MOTION if s in recordings[0].signals), "current": ("current",)}
+    groups = {"speed": tuple(s for s in MOTION if any(s in r.signals for r in recordings)), "current": ("current",)}
     alone = "current" not in lags  # late against the input alone: as well a delay of the drive, which is physics
     for signal, lag in lags.items():
         for delay in sorted({lag - 1, lag, lag + 1, *(lag - other for other in lags.values())}):

@@ -131,12 +131,12 @@ def _likeness(recordings: Sequence[Recording], model: Model) -> dict[str, Likene
     """Of each recorded signal to its free run from the model as given; of a position by its slope, free of drift."""
     problem = prepare(recordings, model)
     given = problem.as_given()
-    pairs: dict[str, list[tuple[Array, Array]]] = {s: [] for s in problem.whole[0].recorded}
+    pairs: dict[str, list[tuple[Array, Array]]] = {}
     for run in problem.whole:
         simulated = problem.simulate(run.following_nothing(), given.vector, given.active).signals
         for s in run.recorded:
             alike = (_slope(run), simulated["speed"]) if s == "position" else (run.signal(s), simulated[s])
-            pairs[s].append(alike)
+            pairs.setdefault(s, []).append(alike)
     return {s: Likeness.of(of) for s, of in pairs.items()}
 
 
@@ -252,7 +252,7 @@ def _of_axis(recordings: Sequence[Recording], model: Model) -> Fault | None:
         return None
     before = relative_error(recordings, model)
     given = "force" if "force" in recordings[0].signals else "torque"
-    moving = tuple(s for s in MOTION if s in recordings[0].signals)
+    moving = tuple(s for s in MOTION if any(s in r.signals for r in recordings))
     best, least = None, min((1.0 - REMOVED[UNIT]) * before, LEFT)
     for fault in chain(_any_scale((given,), model), _any_scale(moving, model)):
         after = relative_error(without(recordings, fault), model)

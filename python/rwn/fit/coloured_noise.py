@@ -37,8 +37,9 @@ def under_coloured_noise(problem: Problem, this: Fit) -> Problem:
     """`problem` weighted by what is new in each error that a plain fit leaves."""
     persistence, noise = dict(problem.persistence), dict(problem.noise)
     residuals = problem.residuals(this.vector, this.active)
-    for signal in residuals[0]:
-        pairs = np.concatenate([np.stack([r[signal][:-1], r[signal][1:]]) for r in residuals], axis=1)
+    for signal in dict.fromkeys(s for left in residuals for s in left):
+        parts = [left[signal] for left in residuals if signal in left]
+        pairs = np.concatenate([np.stack([x[:-1], x[1:]]) for x in parts], axis=1)
         before, after = pairs[:, np.isfinite(pairs).all(axis=0)]
         share = float(np.clip(before @ after / max(float(before @ before), 1e-300), 0.0, MOST))
         persistence[signal] = share

@@ -26,5 +26,6 @@ def fitted_model(this: Fit, model: Model) -> Model:
         name: {p.name: float(vector[known[name].at(p.name)]) for p in known[name].parameters}
         for name in active
     }
-    uncertainty = {name: value for name, value in model.uncertainty.items() if name in parameters}
+    # what came out as zero has no relative uncertainty
+    uncertainty = {name: value for name, value in model.uncertainty.items() if parameters.get(name, 0.0) != 0.0}
     return replace(model, parameters=parameters, effects=effects, uncertainty=uncertainty)

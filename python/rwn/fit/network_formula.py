@@ -51,6 +51,7 @@ def places(problem: Problem, model: Model) -> tuple[Place, ...]:
     """Every place that the recorded signals say something of."""
     travel = max((float(np.ptp(r.angle)) for r in problem.whole if r.angle.size), default=0.0)
     turns = travel > 4.0 * np.pi and not model.linear
+    varies = any(np.ptp(r.input) > 0.0 for r in problem.whole)
     mechanical = [Place(term="torque", state="speed", nominal="viscous_friction", linear=model.linear)]
     if travel > 0.0:
         mechanical.append(Place(term="torque", state="position", periods=int(turns), linear=model.linear))
@@ -60,7 +61,7 @@ def places(problem: Problem, model: Model) -> tuple[Place, ...]:
         *mechanical,
         Place(term="torque", state="current", nominal="torque_constant"),
         Place(term="drop", state="current", nominal="resistance"),
-        Place(term="drop", state="input"),
+        *((Place(term="drop", state="input"),) if varies else ()),
     )
 
 

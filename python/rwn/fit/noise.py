@@ -27,14 +27,15 @@ def noise_levels(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) 
     do not count (median). No position is better known than the clock that its travel was timed with.
     """
     levels = {}
-    for signal in residuals[0]:
-        steps = float(np.median([r.quantisation(signal) for r in runs]))
-        found = [_noise(r[signal]) for r in residuals if r[signal].size > 8]
+    for signal in dict.fromkeys(s for left in residuals for s in left):
+        steps = float(np.median([r.quantisation(signal) for r in runs if r.signal(signal).size]))
+        found = [_noise(left[signal]) for left in residuals if signal in left and left[signal].size > 8]
         rough = max(float(np.median(found)) if found else 1.0, 1e-12)
         encoder = signal == "position" or (signal == "speed" and any(r.speed_measured.is_difference for r in runs))
         levels[signal] = steps if steps and encoder else max(steps, rough)
     if "position" in levels:
-        levels["position"] = max(levels["position"], CLOCK * max(float(np.ptp(r.position)) for r in runs))
+        travel = max(float(np.ptp(r.position)) for r in runs if r.position.size)
+        levels["position"] = max(levels["position"], CLOCK * travel)
     return levels
 
 

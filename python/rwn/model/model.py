@@ -40,6 +40,7 @@ class EffectEntry(Protocol):
 EffectTable = Mapping[str, EffectEntry]
 
 GRAVITY = 9.80665  # standard gravity [m/s^2]
+NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,6 +115,8 @@ class Model:
         """Values of the parameter vector that belong to the drive itself: nominal parameters and known loads."""
         known = vocabulary.motor_parameters()
         motor = {n: v for n, v in self.parameters.items() if n in known or self.drive.coefficients}
+        if motor.get("inductance") == 0.0:
+            motor["inductance"] = NO_TRANSIENT * motor["resistance"]
         for load in self.load.values():
             motor["pendulum_torque"] = load["mass"] * GRAVITY * load["length"]
         return MappingProxyType(motor)

@@ -14,13 +14,16 @@ from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import SIGNALS
 
 
-def check_recording(recording: Recording, model: Model) -> Recording:
-    """It has the signals that the model needs, in its kind of units, and they move. Raises InputError."""
+def check_recording(recording: Recording, model: Model, *, compared: bool = True) -> Recording:
+    """It has the signals that the model needs, in its kind of units, and they move. Raises InputError.
+
+    `compared`: with something measured to compare a simulation with; its input alone will do otherwise.
+    """
     where = recording.source or recording.name
     drive = model.drive
     if drive.input not in recording.signals:
         raise _missing(recording, drive.input, f"the input of a drive of kind '{model.kind}'")
-    if not any(name in recording.signals for name in drive.outputs):
+    if compared and not any(name in recording.signals for name in drive.outputs):
         raise _missing(recording, drive.outputs[0], "something measured to compare with")
     if recording.linear != model.linear and any(name in recording.signals for name in ("speed", "position")):
         has, wants = ("linear", "rotary") if recording.linear else ("rotary", "linear")
@@ -67,8 +70,11 @@ def _check_movement(recording: Recording, model: Model, where: str) -> tuple[str
     return (f"{where}: '{drive.input}' is constant: a single step says little about what is missing",)
 
 
-def read_recordings(paths: Iterable[str | Path], model: Model) -> list[Recording]:
-    """Read and check every file against the model. Raises InputError, also for a file given twice."""
+def read_recordings(paths: Iterable[str | Path], model: Model, *, compared: bool = True) -> list[Recording]:
+    """Read and check every file against the model. Raises InputError, also for a file given twice.
+
+    `compared`: see `check_recording`.
+    """
     recordings: list[Recording] = []
     seen: set[Path] = set()
     for path in map(Path, paths):
@@ -80,5 +86,5 @@ def read_recordings(paths: Iterable[str | Path], model: Model) -> list[Recording
                 fix="remove one of them: a recording cannot judge itself",
             )
         seen.add(path.resolve())
-        recordings.append(check_recording(read_recording(path, layout=model.recording), model))
+        recordings.append(check_recording(read_recording(path, layout=model.recording), model, compared=compared))
     return recordings

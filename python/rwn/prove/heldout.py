@@ -85,7 +85,7 @@ def _force_row(problem: Problem, run: Run, contenders: Sequence[Hypothesis], see
         HeldoutRow(
             recording=run.name, region="all", signal="driving force", unit="%", samples=force.size,
             nominal=percent[0], refitted=percent[1], corrected=percent[2] if found else None, noise_floor=None,
-            gain=1.0 - percent[2] / percent[1] if found else None,
+            gain=_gain(percent[1], percent[2]) if found else None,
             gain_interval=gain_interval(errors[1], errors[2], seed=seed) if found else None,
         )
     ]  # fmt: skip
@@ -115,7 +115,7 @@ def _row(
     seed: int,
 ) -> HeldoutRow:
     rms = [_rms(p) for p in parts]
-    gain = 1.0 - rms[2] / rms[1] if found else None
+    gain = _gain(rms[1], rms[2]) if found else None
     return HeldoutRow(
         recording=run.name,
         region=region,
@@ -129,6 +129,13 @@ def _row(
         gain=gain,
         gain_interval=gain_interval(parts[1], parts[2], seed=seed) if found else None,
     )
+
+
+def _gain(before: float, after: float) -> float:
+    """Share of an error that is removed; of none at all nothing can be."""
+    if before > 0.0:
+        return 1.0 - after / before
+    return 0.0 if after == 0.0 else -np.inf
 
 
 def _rms(x: Array) -> float:

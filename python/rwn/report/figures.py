@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,9 +61,28 @@ def plots(
     return (*made, spectrum) if spectrum else tuple(made)
 
 
-def _thin(*arrays: Array) -> list[Array]:
-    step = max(1, arrays[0].size // MOST_POINTS)
-    return [a[::step] for a in arrays]
+def _thin(x: Array, *lines: Array) -> list[Array]:
+    """The same lines over fewer instants, the extremes of every stretch kept so that no spike is lost."""
+    stretches = MOST_POINTS // (2 * len(lines))
+    if x.size <= MOST_POINTS:
+        return [x, *lines]
+    edges = np.linspace(0, x.size, stretches + 1).astype(int)
+    kept = {0, x.size - 1}
+    for y in lines:
+        for begin, end in pairwise(edges):
+            part = y[begin:end]
+            kept |= {int(begin + np.argmin(part)), int(begin + np.argmax(part))}
+    chosen = np.array(sorted(kept))
+    return [a[chosen] for a in (x, *lines)]
+
+
+def _thinned_cloud(x: Array, y: Array) -> tuple[Array, Array]:
+    """Points of a cloud, evenly spaced in their order, and the farthest out."""
+    if x.size <= MOST_POINTS:
+        return x, y
+    far = np.argsort(np.abs(y - np.median(y)))[-MOST_POINTS // 20 :]
+    chosen = np.union1d(np.arange(0, x.size, 1 + x.size // MOST_POINTS), far)
+    return x[chosen], y[chosen]
 
 
 def _response(
@@ -70,14 +90,15 @@ def _response(
 ) -> list[Plot]:
     measured = run.signal(signal)
     refitted = free.simulate(run, ranking.nominal.vector, ranking.nominal.active).signals[signal]
-    t, y, a = _thin(run.time, measured, refitted)
+    named = chosen.added
+    corrected = free.simulate(run, chosen.final.vector, chosen.final.active).signals[signal] if named else refitted
+    t, y, a, b, *_ = _thin(run.time, measured, refitted, corrected, measured - refitted, measured - corrected)
     lines = [
         Trace(name="measured", role="measured", x=t, y=y),
         Trace(name="nominal, refitted", role="refitted", x=t, y=a),
     ]
     errors = [Trace(name="nominal, refitted", role="before", x=t, y=y - a)]
-    if chosen.added:
-        (b,) = _thin(free.simulate(run, chosen.final.vector, chosen.final.active).signals[signal])
+    if named:
         lines.append(Trace(name="corrected", role="corrected", x=t, y=b))
         errors.append(Trace(name="corrected", role="after", x=t, y=y - b))
     label = f"{signal}"
@@ -93,7 +114,7 @@ def _residual_speed(unknown: Sequence[UnknownInputs], speed_unit: str, torque_un
     speed = np.concatenate([u.speed for u in unknown])
     torque = np.concatenate([u.torque for u in unknown])
     rows = _speed_regions(unknown)
-    x, y = _thin(speed, torque)
+    x, y = _thinned_cloud(speed, torque)
     return Plot(
         slot="residual-speed", title="Unknown torque of the refitted nominal model over speed", x_label="speed",
         x_unit=speed_unit, y_label="unknown torque", y_unit=torque_unit,
@@ -133,7 +154,7 @@ def _torque_speed(whole: Problem, chosen: RankedFit, speed_unit: str, torque_uni
     own = [unknown_inputs(whole.drive, whole.simulator, r, bare) for r in whole.runs]
     speed = np.concatenate([u.speed for u in own])
     torque = -np.concatenate([u.torque for u in own])
-    x, y = _thin(speed, torque)
+    x, y = _thinned_cloud(speed, torque)
     return Plot(
         slot="torque-speed", title="Braking torque over speed", x_label="speed", x_unit=speed_unit,
         y_label="braking torque", y_unit=torque_unit,

@@ -3,18 +3,29 @@
 //   T = k bend + c (w - w_L),   bend = theta - theta_L beyond half the gap on the side of contact,
 //
 // in contact only and never pulling where there is play. Its equations are linear while contact lasts and while the gap
-// is open, so the integrator solves them exactly (rwn/simulate/equations.hpp) and locates what changes (rwn/simulate/contact_events.hpp).
+// is open, so the integrator solves them exactly (rwn/simulate/equations.hpp) and locates what changes
+// (rwn/simulate/contact_events.hpp).
 #pragma once
+
+#include "rwn/model/parameter.hpp"
 
 namespace rwn {
 
-inline constexpr double load_viscous_share = 0.3;  // of B, on the load side
+/// Of B, behind a joint: part of the law of every effect that brings one, since no data sheet says it.
+inline constexpr Parameter load_viscous_share{.name = "load_viscous_share",
+                                              .unit = "1",
+                                              .meaning = "part of the viscous friction that is behind it",
+                                              .lower = 0.0,
+                                              .upper = 1.0,
+                                              .start = 0.4,
+                                              .natural = true};
 
 template <class S>
 struct Joint {
   S stiffness{};     // k [N m/rad]
   S damping{};       // c [N m s/rad]
   S load_inertia{};  // part of J behind it [kg m^2]
+  S load_viscous{};  // part of B behind it [N m s/rad]
   S half_gap{};      // [rad]
   bool play = false;
 };

@@ -23,7 +23,7 @@ class SecondMass {
   SecondMass(const Joint<S>& joint, const Motor<S>& motor)
       : joint_(joint),
         motor_inertia_(motor[inertia] - joint.load_inertia),
-        drag_(load_viscous_share * motor[viscous_friction]) {
+        drag_(joint.load_viscous) {
     const S inverse = 1.0 / motor_inertia_ + 1.0 / joint_.load_inertia;
     rate_ = std::sqrt(std::abs(value_of(joint_.stiffness * inverse)));
     if (!(rate_ > 1.0)) rate_ = 1.0;

@@ -7,7 +7,7 @@ namespace rwn {
 struct Backlash {
   static constexpr EffectInfo info{
       "backlash", Site::load,
-      "T_shaft = k dead(theta - theta_L, gap) + c (w - w_L) in contact, never pulls; J_L dw_L/dt = T_shaft - 0.3 B w_L",
+      "T_shaft = k dead(theta - theta_L, gap) + c (w - w_L) in contact, never pulls; J_L dw_L/dt = T_shaft - s B w_L",
       "play between motor and load", "Nordin, Gutman 2002; contact: Brogliato 1999, ch. 2"};
   static constexpr std::array parameters{Parameter{.name = "gap",
                                                    .unit = "rad",
@@ -37,7 +37,8 @@ struct Backlash {
                                                    .lower = 0.01,
                                                    .upper = 2.0,
                                                    .start = 0.4,
-                                                   .idealised = true}};
+                                                   .idealised = true},
+                                         load_viscous_share};
   static constexpr EffectTraits traits{.hooks = Hook::joint};
 
   template <class S>
@@ -47,6 +48,7 @@ struct Backlash {
     return {.stiffness = reduced * p[2] * p[2],
             .damping = 2.0 * p[3] * reduced * p[2],
             .load_inertia = load,
+            .load_viscous = p[4] * m[viscous_friction],
             .half_gap = 0.5 * p[0],
             .play = true};
   }

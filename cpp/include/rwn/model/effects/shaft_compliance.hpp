@@ -6,7 +6,7 @@ namespace rwn {
 
 struct ShaftCompliance {
   static constexpr EffectInfo info{"shaft-compliance", Site::load,
-                                   "T_shaft = k (theta - theta_L) + c (w - w_L); J_L dw_L/dt = T_shaft - 0.3 B w_L",
+                                   "T_shaft = k (theta - theta_L) + c (w - w_L); J_L dw_L/dt = T_shaft - s B w_L",
                                    "a shaft or coupling that twists between motor and load (two masses)",
                                    "Schroeder, Elektrische Antriebe; thesis ref. 25"};
   static constexpr std::array parameters{Parameter{.name = "stiffness",
@@ -32,12 +32,13 @@ struct ShaftCompliance {
                                                    .upper = 0.95,
                                                    .start = 0.4,
                                                    .scale = scale::inertia,
-                                                   .scan = {0.25, 0.6}}};
+                                                   .scan = {0.25, 0.6}},
+                                         load_viscous_share};
   static constexpr EffectTraits traits{.hooks = Hook::joint, .guess = Guess::resonance};
 
   template <class S>
-  static Joint<S> joint(const S* p, const Motor<S>&) {
-    return {.stiffness = p[0], .damping = p[1], .load_inertia = p[2]};
+  static Joint<S> joint(const S* p, const Motor<S>& m) {
+    return {.stiffness = p[0], .damping = p[1], .load_inertia = p[2], .load_viscous = p[3] * m[viscous_friction]};
   }
 };
 

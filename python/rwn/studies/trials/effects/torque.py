@@ -9,7 +9,6 @@ from rwn.studies.trials.plant import Values
 
 Rng = np.random.Generator
 
-LOAD_VISCOUS_SHARE = 0.3  # of the viscous friction sits behind a shaft or gap
 PERIODS = (3, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 22, 24, 28)
 
 
@@ -55,6 +54,7 @@ def _draw_shaft(rng: Rng, s: Situation) -> Values:
         "stiffness": reduced * resonance**2,
         "damping": 2.0 * log_uniform(rng, 0.01, 0.1) * reduced * resonance,
         "load_inertia": load,
+        "load_viscous_share": rng.uniform(0.0, 0.9),
     }
 
 
@@ -65,13 +65,14 @@ def _scale_shaft(values: Values, factor: float) -> Values:
     }
 
 
-def _behind(load: float, nominal: Values) -> Values:
-    return {"load_inertia": load, "load_viscous": LOAD_VISCOUS_SHARE * nominal["viscous_friction"]}
+def _behind(load: float, values: Values, nominal: Values) -> Values:
+    share = values["load_viscous_share"]
+    return {"load_inertia": load, "load_viscous": share * nominal["viscous_friction"]}
 
 
 def _shaft(values: Values, nominal: Values) -> Values:
     load = min(values["load_inertia"], 0.97 * nominal["inertia"])
-    return _behind(load, nominal) | {"stiffness": values["stiffness"], "damping": values["damping"]}
+    return _behind(load, values, nominal) | {"stiffness": values["stiffness"], "damping": values["damping"]}
 
 
 def _draw_backlash(rng: Rng, s: Situation) -> Values:
@@ -81,13 +82,14 @@ def _draw_backlash(rng: Rng, s: Situation) -> Values:
         # The closed gap: teeth on a stiff shaft, faster than any drive of the table [rad/s], damping.
         "contact_rate": log_uniform(rng, 800.0, 2500.0),
         "contact_damping": rng.uniform(0.2, 0.6),
+        "load_viscous_share": rng.uniform(0.0, 0.9),
     }
 
 
 def _backlash(values: Values, nominal: Values) -> Values:
     load = min(values["load_inertia"], 0.97 * nominal["inertia"])
     reduced = _reduced(load, nominal["inertia"])
-    return _behind(load, nominal) | {
+    return _behind(load, values, nominal) | {
         "gap": values["gap"],
         "stiffness": reduced * values["contact_rate"] ** 2,
         "damping": 2.0 * values["contact_damping"] * reduced * values["contact_rate"],
@@ -144,11 +146,11 @@ EFFECTS = (
     Effect(
         name="backlash",
         equation="mechanical",
-        units={"gap": "rad", "load_inertia": "kg m^2"},
+        units={"gap": "rad", "load_inertia": "kg m^2", "load_viscous_share": "1"},
         draw=_draw_backlash,
         build=_backlash,
         scale=times("gap"),
-        limits={"gap": (0.0, 3.0)},
+        limits={"gap": (0.0, 3.0), "load_viscous_share": (0.0, 1.0)},
         fixed=frozenset({"contact_rate", "contact_damping"}),
         rivals=("shaft-compliance", "presliding-hysteresis"),
         two_mass=True,
@@ -156,10 +158,13 @@ EFFECTS = (
     Effect(
         name="shaft-compliance",
         equation="mechanical",
-        units={"stiffness": "N m/rad", "damping": "N m s/rad", "load_inertia": "kg m^2"},
+        units={
+            "stiffness": "N m/rad", "damping": "N m s/rad", "load_inertia": "kg m^2", "load_viscous_share": "1",
+        },
         draw=_draw_shaft,
         build=_shaft,
         scale=_scale_shaft,
+        limits={"load_viscous_share": (0.0, 1.0)},
         rivals=("backlash", "speed-sensor-lag", "input-delay"),
         two_mass=True,
     ),

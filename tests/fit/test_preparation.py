@@ -1,0 +1,30 @@
+"""From recordings to the problem of a fit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rwn
+from made_up_motor import MOTOR, recorded
+from rwn.fit.preparation import prepare
+
+SHEET = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "resistance": 0.05})
+
+
+def test_recordings_with_different_signals_are_fitted_together() -> None:
+    both = recorded(1, lambda w, _: -0.004 * np.sign(w))
+    speed_alone = recorded(2, lambda w, _: -0.004 * np.sign(w))
+    signals = {s: v for s, v in speed_alone.signals.items() if s != "current"}
+    found = rwn.diagnose([replace(speed_alone, signals=signals), both], SHEET)
+    assert [e.name for e in found.effects] == ["coulomb-friction"]
+    assert found.effects[0].parameters["coulomb_torque"].value == pytest.approx(0.004, rel=0.03)
+
+
+def test_each_signal_has_a_noise_level_whichever_recording_has_it() -> None:
+    run = recorded(1, lambda *_: 0.0)
+    names = (("voltage", "speed"), ("voltage", "current"))
+    parts = [replace(run, name=str(k), signals={s: run.signals[s] for s in kept}) for k, kept in enumerate(names)]
+    assert set(prepare(parts, SHEET).noise) == {"speed", "current"}

@@ -1,0 +1,41 @@
+"""Rows of the proof."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+from made_up_motor import MOTOR, recorded
+from rwn.fit.preparation import prepare
+from rwn.prove.heldout import _gain, gain_interval, heldout_rows
+from rwn.simulate.run import judging_run
+
+MODEL = rwn.Model(kind="dc", parameters=MOTOR)
+
+
+@pytest.mark.parametrize(("before", "after", "gain"), [(2.0, 1.0, 0.5), (0.0, 0.0, 0.0), (0.0, 1.0, -np.inf)])
+def test_of_no_error_nothing_can_be_removed(before: float, after: float, gain: float) -> None:
+    assert _gain(before, after) == gain
+
+
+def test_a_model_that_is_exact_has_rows_of_zeros() -> None:
+    run = recorded(3, lambda *_: 0.0)
+    own = rwn.simulate(MODEL, run).signals
+    exact = rwn.Recording(
+        name="own", time=run.time, signals={"voltage": run.signals["voltage"], "speed": own["speed"]}
+    )
+    problem = prepare([exact], MODEL)
+    given = problem.as_given()
+    rows = heldout_rows(
+        problem, [judging_run(exact, MODEL)], given, given, given, units={"speed": "rad/s"}, seed=0
+    )
+    assert rows
+    assert all(row.corrected == 0.0 and row.gain == 0.0 for row in rows)
+
+
+def test_the_interval_of_a_gain_covers_it() -> None:
+    noise = np.random.default_rng(1).standard_normal((2, 5000))
+    low, high = gain_interval(2.0 * noise[0], noise[1], seed=0)
+    assert low < 0.5 < high
+    assert high - low < 0.1
