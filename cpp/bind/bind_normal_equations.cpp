@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "rwn/fit/innovations.hpp"
 #include "rwn/fit/normal_equations.hpp"
 #include "task.hpp"
 
@@ -27,18 +29,30 @@ struct Measured {
   }
 };
 
-Measured measured_from(const Array& current, const Array& speed, const Array& position,
-                       const std::array<double, 3>& weights, const std::string& speed_measurement,
-                       const std::array<double, 3>& persistence) {
-  if (std::any_of(persistence.begin(), persistence.end(), [](double c) { return !(c >= 0.0 && c < 1.0); })) {
-    throw std::invalid_argument("normal_equations: a persistence is a correlation from 0 to less than 1");
+void check(const std::vector<double>& reflection) {
+  if (std::any_of(reflection.begin(), reflection.end(), [](double c) { return !(std::abs(c) < 1.0); })) {
+    throw std::invalid_argument("a reflection coefficient is a correlation: below 1 in size");
   }
+}
+
+Array innovations_of(const Array& errors, const std::vector<double>& reflection, std::size_t restart) {
+  check(reflection);
+  Array fresh(errors.size());
+  std::copy_n(errors.data(), errors.size(), fresh.mutable_data());
+  innovations({fresh.mutable_data(), static_cast<std::size_t>(fresh.size())}, reflection, restart);
+  return fresh;
+}
+
+Measured measured_from(const Array& current, const Array& speed, const Array& position,
+                       const std::array<double, 3>& weights, const std::array<std::size_t, 2>& speed_difference,
+                       const std::array<std::vector<double>, 3>& reflection) {
+  for (const auto& of_signal : reflection) check(of_signal);
   Measured m{current, speed, position, {}};
   m.rest.current_weight = weights[0];
   m.rest.speed_weight = weights[1];
   m.rest.position_weight = weights[2];
-  m.rest.speed_measurement = speed_measurement_of(speed_measurement);
-  m.rest.persistence = persistence;
+  m.rest.speed_measurement = {speed_difference[0], speed_difference[1]};
+  m.rest.reflection = reflection;
   return m;
 }
 
@@ -66,10 +80,13 @@ py::tuple sums(const Task& task, const Measured& seen, const Array& parameters, 
 void bind_normal_equations(py::module_& m) {
   py::class_<Measured>(m, "Measurements", "Recorded signals (n) of one run; empty: not recorded, NaN: does not count.")
       .def(py::init(&measured_from), py::kw_only(), "current"_a = Array(0), "speed"_a = Array(0), "position"_a = Array(0),
-           "weights"_a = std::array<double, 3>{1.0, 1.0, 1.0}, "speed_measurement"_a = "instantaneous",
-           "persistence"_a = std::array<double, 3>{},
-           "weights: 1 / standard deviation of current, speed and position; persistence: correlation of the error of "
-           "each with the one before, which then counts as what is new in it.");
+           "weights"_a = std::array<double, 3>{1.0, 1.0, 1.0}, "speed_difference"_a = std::array<std::size_t, 2>{},
+           "reflection"_a = std::array<std::vector<double>, 3>{},
+           "weights: 1 / standard deviation of current, speed and position; speed_difference: samples before and after "
+           "between whose positions the speed was taken; reflection: partial autocorrelations of the noise of each, whose "
+           "errors then count as what is new in them.");
+  m.def("innovations", &innovations_of, "errors"_a, "reflection"_a, "restart"_a = 0,
+        "What is new in errors (n) whose noise has these partial autocorrelations; NaN is passed over.");
   m.def("normal_equations", &sums, "task"_a, "measurements"_a, "parameters"_a.noconvert(), "active"_a, "by"_a,
         "work"_a = std::optional<Work*>{}, "Free-run output error: status, chi2, count, J'r (p) and J'J (p, p).");
 }

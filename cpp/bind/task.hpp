@@ -12,7 +12,7 @@ namespace rwn::bind {
 /// The part of a SimulationTask that stays while its parameters are tried; keeps its arrays.
 struct Task {
   int drive = 0;
-  Array time, input, angle, restart_speed, restart_position;
+  Array time, input, input_time, angle, restart_speed, restart_position;
   double angle_per_position = 1.0, input_before = 0.0;
   bool angle_from_speed = false;
   int restart_every = 0, order = 0;
@@ -24,6 +24,7 @@ struct Task {
     return {.drive = drive,
             .time = view(time),
             .input = view(input),
+            .input_time = view(input_time),
             .parameters = view(parameters),
             .active = active,
             .by = by,

@@ -29,7 +29,7 @@ void accumulate(NormalSlice& s) {
   double error[block];
   int filled = 0;
   for (int k = 0; k < s.rows; ++k) {
-    const double e = s.weight * (s.measured[k] - s.simulated[k]);
+    const double e = s.weight * s.errors[k];
     if (std::isnan(e)) continue;
     s.chi2 += e * e;
     ++s.count;

@@ -33,15 +33,15 @@ class Task:
     """
     What is simulated: a drive, the input of one run, and what its effects follow.
     """
-    def __init__(self, drive: str, *, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_from_speed: bool = False, restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = []) -> None:
+    def __init__(self, drive: str, *, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], input_time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_from_speed: bool = False, restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = []) -> None:
         ...
 class Measurements:
     """
     Recorded signals (n) of one run; empty: not recorded, NaN: does not count.
     """
-    def __init__(self, *, current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"] = [1.0, 1.0, 1.0], speed_measurement: str = 'instantaneous', persistence: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"] = [0.0, 0.0, 0.0]) -> None:
+    def __init__(self, *, current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., weights: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"] = [1.0, 1.0, 1.0], speed_difference: typing.Annotated[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(2)"] = [0, 0], reflection: typing.Annotated[collections.abc.Sequence[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]], "FixedSize(3)"] = [[], [], []]) -> None:
         """
-        weights: 1 / standard deviation of current, speed and position; persistence: correlation of the error of each with the one before, which then counts as what is new in it.
+        weights: 1 / standard deviation of current, speed and position; speed_difference: samples before and after between whose positions the speed was taken; reflection: partial autocorrelations of the noise of each, whose errors then count as what is new in them.
         """
 class Wavelet:
     def __init__(self, name: str, omega0: typing.SupportsFloat | typing.SupportsIndex) -> None:
@@ -236,6 +236,10 @@ def heuristic(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]",
 def impulse_sums(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 2]"]) -> tuple[float, float]:
     """
     Sums over r of |C A^r e1| and |C A^r e2|.
+    """
+def innovations(errors: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], reflection: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], restart: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    What is new in errors (n) whose noise has these partial autocorrelations; NaN is passed over.
     """
 def isa() -> str:
     """

@@ -11,14 +11,14 @@ import pytest
 import rwn
 from rwn.decide import verdict
 from rwn.fit.fit import Fit
-from rwn.fit.noise import CLOCK, noise_levels
+from rwn.fit.noise import CLOCK, noise_of
 from rwn.fit.preparation import prepare
 from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
-from rwn.recording.speed_measurement import SpeedMeasurement
+from rwn.recording.speed_measurement import CENTRAL
 from rwn.simulate.run import Run
 
 DEMO = Path(rwn.__file__).parent / "demo"
@@ -102,7 +102,7 @@ def test_no_position_is_better_known_than_the_clock() -> None:
     time = np.linspace(0.0, 1.0, 500)
     far = Run(name="far", time=time, input=0.0 * time, position=1000.0 * np.sin(1.5 * time))
     error = {"position": 1e-6 * np.random.default_rng(0).standard_normal(500)}
-    assert noise_levels([far], [error])["position"] == pytest.approx(CLOCK * 1000.0 * np.sin(1.5))
+    assert noise_of([far], [error])["position"].level == pytest.approx(CLOCK * 1000.0 * np.sin(1.5))
 
 
 def test_only_the_speed_is_as_exact_as_encoder_counts() -> None:
@@ -111,11 +111,11 @@ def test_only_the_speed_is_as_exact_as_encoder_counts() -> None:
     current = np.round(rng.standard_normal(time.size) / 0.5) * 0.01  # a converter whose step is half of the noise
     run = Run(
         name="coarse", time=time, input=0.0 * time, current=current, speed=counts, position=counts,
-        speed_measured=SpeedMeasurement.CENTRAL,
+        speed_measured=CENTRAL,
     )  # fmt: skip
-    levels = noise_levels([run], [{"current": current, "speed": current, "position": current}])
-    assert levels["current"] == pytest.approx(0.02, rel=0.3)
-    assert levels["speed"] < 1e-3
+    levels = noise_of([run], [{"current": current, "speed": current, "position": current}])
+    assert levels["current"].level == pytest.approx(0.02, rel=0.3)
+    assert levels["speed"].level < 1e-3
 
 
 def _with_error(h: RankedFit, chi2: float) -> Fit:

@@ -125,7 +125,8 @@ def test_nothing_is_compared_where_an_early_channel_was_not_measured(model: rwn.
     assert ranking.fits[0].added == ("coulomb-friction",)
     assert ranking.left.at_the_floor
     (recording,) = undone([early], faults[0])
-    assert recording.known_from == {"current": 6}
+    assert list(recording.missing) == ["current"]
+    assert list(np.flatnonzero(recording.missing["current"])) == list(range(6))
     assert np.array_equal(recording.signals["current"][6:], run.signals["current"][6:])
 
     def errors(guess: float) -> list[float]:

@@ -9,10 +9,11 @@ import pytest
 from numpy.typing import NDArray
 
 import rwn
-from rwn.fit.coloured_noise import innovations, under_coloured_noise
+from rwn.fit.coloured_noise import under_coloured_noise
 from rwn.fit.fit import Fit, fit_nominal, refit
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.fit.residuals import statistics
 from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 from rwn.simulate.run import windowed
@@ -58,18 +59,26 @@ def by_hand(problem: Problem, this: Fit, share: float, every: int = 0) -> tuple[
     (run,), active, by = problem.runs, this.active, this.hypothesis.by
     out = problem.simulate(run, this.vector, active, by)
     errors, slopes = run.speed - out.signals["speed"], out.slopes["speed"]
-    rows, columns = [], []
+    rows, columns, last = [], [], -1
     for k in range(errors.size):
-        if k == 0 or (every and k % every == 0) or np.isnan(errors[k - 1]):
+        if every and k % every == 0:
+            last = -1
+        if np.isnan(errors[k]):
+            continue
+        if last < 0:
             alone = np.sqrt(1.0 - share**2)
             rows.append(alone * errors[k])
             columns.append(alone * slopes[k])
         else:
-            rows.append(errors[k] - share * errors[k - 1])
-            columns.append(slopes[k] - share * slopes[k - 1])
-    seen = np.isfinite(rows)
-    r, j = np.array(rows)[seen] / problem.noise["speed"], np.array(columns)[seen] / problem.noise["speed"]
+            rows.append(errors[k] - share * errors[last])
+            columns.append(slopes[k] - share * slopes[last])
+        last = k
+    r, j = (np.array(x) / problem.noise["speed"].level for x in (rows, columns))
     return float(r @ r), j.T @ r, j.T @ j
+
+
+def with_share(problem: Problem, share: float) -> Problem:
+    return replace(problem, noise={"speed": replace(problem.noise["speed"], reflection=(share,))})
 
 
 MOTOR = rwn.Model(
@@ -98,7 +107,7 @@ def motor_in_windows() -> tuple[Problem, Fit]:
 
 def expect_what_is_new(problem: Problem, this: Fit, every: int = 0) -> None:
     chi2, gradient, curvature = by_hand(problem, this, 0.8, every)
-    weighted = replace(problem, persistence={"speed": 0.8})
+    weighted = with_share(problem, 0.8)
     normal = weighted.normal(this.vector, this.active, this.hypothesis.by)
     assert normal.chi2 == pytest.approx(chi2, rel=1e-9)
     np.testing.assert_allclose(normal.gradient, gradient, rtol=1e-7, atol=1e-9 * np.abs(gradient).max())
@@ -110,24 +119,25 @@ def test_normal_equations_count_what_is_new_in_each_error() -> None:
     expect_what_is_new(problem, this)
 
 
-def test_windows_and_gaps_begin_anew() -> None:
+def test_windows_begin_anew_and_gaps_are_passed_over() -> None:
     expect_what_is_new(*motor_in_windows(), every=60)
 
 
-@pytest.mark.parametrize("share", [-0.1, 1.0, float("nan")])
-def test_a_persistence_is_a_correlation(share: float) -> None:
+@pytest.mark.parametrize("share", [-1.0, 1.0, float("nan")])
+def test_a_share_is_a_correlation(share: float) -> None:
     problem, this = plain_fit(made(1))
-    weighted = replace(problem, persistence={"speed": share})
-    with pytest.raises(ValueError, match="persistence is a correlation from 0 to less than 1"):
+    weighted = with_share(problem, share)
+    with pytest.raises(ValueError, match="a reflection coefficient is a correlation: below 1 in size"):
         weighted.normal(this.vector, [], this.hypothesis.by)
 
 
-def test_persistence_and_noise_are_those_of_the_errors() -> None:
+def test_share_and_level_are_those_of_the_errors() -> None:
     problem, this = plain_fit(made(2, samples=4000))
     weighted = under_coloured_noise(problem, this)
-    assert weighted.persistence["speed"] == pytest.approx(SHARE, abs=0.02)
-    assert weighted.noise["speed"] == pytest.approx(NOISE, rel=0.05)
-    left = innovations(weighted, this)
+    assert weighted.noise["speed"].reflection == pytest.approx((SHARE,), abs=0.02)
+    assert weighted.noise["speed"].level == pytest.approx(NOISE, rel=0.05)
+    assert weighted.noise["speed"].deviation == pytest.approx(NOISE / np.sqrt(1.0 - SHARE**2), rel=0.2)
+    left = statistics(weighted, this)
     assert left.variance == pytest.approx(1.0, abs=0.01)
     assert left.correlation_time < 1.3
 
@@ -135,7 +145,7 @@ def test_persistence_and_noise_are_those_of_the_errors() -> None:
 def test_independent_errors_have_none() -> None:
     problem, this = plain_fit(made(2, samples=4000, share=0.0))
     weighted = under_coloured_noise(problem, this)
-    assert weighted.persistence["speed"] < 0.05
+    assert weighted.noise["speed"].reflection[0] < 0.05
     again = refit(this, weighted)
     np.testing.assert_allclose(again.minimum.values, this.minimum.values, rtol=5e-3)
 
@@ -159,7 +169,7 @@ def test_what_is_named_is_fitted_so_and_what_is_lacking_is_not() -> None:
     ranking = ranked(made(3, rectified=True))
     named, nothing = ranking.fits[0], ranking.nothing_missing
     assert named.added == ("sensor-rectification",)
-    assert ranking.weighted.persistence["speed"] > 0.8
+    assert ranking.weighted.noise["speed"].reflection[0] > 0.8
     assert named.final is not named.fit
     assert nothing.final is nothing.fit
     assert ranking.counted.correlation_time < 0.2 * ranking.left.correlation_time
@@ -167,7 +177,7 @@ def test_what_is_named_is_fitted_so_and_what_is_lacking_is_not() -> None:
 
 def test_where_nothing_but_noise_is_left_nothing_changes() -> None:
     ranking = ranked(made(3, rectified=True, share=0.0))
-    assert not ranking.weighted.persistence
+    assert ranking.weighted is ranking.problem
     assert all(r.final is r.fit for r in ranking.fits)
     assert ranking.counted is ranking.left
 

@@ -24,7 +24,9 @@ from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import NO_PAIRS
 from rwn.name.screening import screen
 from rwn.name.weights import MISSPECIFIED, weigh
-from rwn.recording.speed_measurement import SpeedMeasurement
+from rwn.recording.noise import Noise
+from rwn.recording.speed_measurement import CENTRAL
+from rwn.simulate.run import Run
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -75,7 +77,7 @@ def test_the_ends_of_a_difference_are_not_compared(problem: Problem) -> None:
         for run in problem.runs:
             speed = run.speed.copy()
             speed[[0, -1]] += ends
-            runs.append(replace(run, speed=speed, speed_measured=SpeedMeasurement.CENTRAL))
+            runs.append(replace(run, speed=speed, speed_measured=CENTRAL))
         other, this = replace(problem, runs=tuple(runs)), problem.as_given()
         (first, *_) = other.residuals(this.vector, this.active)
         return [other.error(this.vector, this.active), float(np.sum(first["speed"] ** 2))]
@@ -85,7 +87,8 @@ def test_the_ends_of_a_difference_are_not_compared(problem: Problem) -> None:
 
 def test_a_drifting_position_is_no_sign_of_a_law() -> None:
     noise, drift = np.random.default_rng(2).standard_normal(4000), np.sin(np.linspace(0.0, 9.0, 4000))
-    problem: Any = SimpleNamespace(residuals=lambda *_: [{"speed": noise, "position": drift}], noise={})
+    run = Run(name="drifting", time=np.arange(4000.0), input=noise, speed=noise, position=drift)
+    problem: Any = SimpleNamespace(residuals=lambda *_: [{"speed": noise, "position": drift}], noise={}, runs=[run])
     this: Any = SimpleNamespace(vector=None, active=[])
     assert statistics(problem, this).coloured > 10.0
     assert statistics(problem, this, drift=False).coloured < MOST_COLOURED
@@ -224,7 +227,7 @@ def test_priors_give_way_where_nothing_but_noise_is_left() -> None:
     noisy = replace(run, signals={"voltage": voltage, "speed": speed + 0.05 * rng.standard_normal(time.size)})
     problem = prepare([noisy], sheet)
     for noise, gives_way in ((0.05, True), (0.01, False)):  # at the noise, and where something is missing
-        strong = replace(problem, noise={"speed": noise}, colour=1000.0)
+        strong = replace(problem, noise={"speed": Noise(level=noise)}, colour=1000.0)
         held = fit_nominal(strong)
         other, free = with_priors_weighed(strong, held)
         assert (other.colour < 1.1) == gives_way == (free is not held)

@@ -12,14 +12,23 @@ import rwn
 from made_up_motor import MOTOR, plant, shaking
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
-from rwn.recording.speed_measurement import DIFFERENCES, SpeedMeasurement, difference, integral, speed_measurement
+from rwn.recording.speed_measurement import (
+    BACKWARD,
+    CENTRAL,
+    DIFFERENCES,
+    FORWARD,
+    INSTANTANEOUS,
+    SpeedMeasurement,
+    difference,
+    integral,
+    speed_measurement,
+)
 
 Array = NDArray[np.float64]
 TIME = np.arange(4000) * 1e-3
 ANGLE = 200.0 * TIME - 30.0 * np.sin(8.0 * TIME)
 SPEED = np.gradient(ANGLE, 1e-3)
 NONE = np.empty(0)
-CENTRAL, BACKWARD, FORWARD = DIFFERENCES
 
 
 def counted(angle: Array, counts: int) -> Array:
@@ -32,7 +41,7 @@ def test_differences_of_counts_are_told_from_a_coarse_converter(counts: int) -> 
     assert speed_measurement(TIME, difference(CENTRAL, TIME, angle), NONE) is CENTRAL
     assert speed_measurement(TIME, difference(BACKWARD, TIME, angle), NONE) is BACKWARD
     coarse = 2.337 * np.round(SPEED / 2.337)
-    assert speed_measurement(TIME, coarse, NONE) is SpeedMeasurement.INSTANTANEOUS
+    assert speed_measurement(TIME, coarse, NONE) is INSTANTANEOUS
 
 
 def test_a_central_difference_is_known_through_a_gear() -> None:
@@ -44,7 +53,7 @@ def test_a_coarse_converter_whose_step_fits_an_encoder_is_no_difference_of_count
     """Of steps that no encoder of few counts makes, one in fifty comes near a whole number (trial 58 of seed 10035)."""
     step = np.pi / 415 / 1e-3
     shown = step * np.round(SPEED / step + noise * np.random.default_rng(1).standard_normal(TIME.size))
-    assert speed_measurement(TIME, shown, NONE) is SpeedMeasurement.INSTANTANEOUS
+    assert speed_measurement(TIME, shown, NONE) is INSTANTANEOUS
 
 
 @pytest.mark.parametrize("way", DIFFERENCES)
@@ -53,12 +62,12 @@ def test_a_difference_of_the_recorded_position_repeats_its_noise(way: SpeedMeasu
     speed = np.round(difference(way, TIME, position), 4)
     assert speed_measurement(TIME, speed, np.round(position, 7)) is way
     tachometer = SPEED + 0.1 * np.random.default_rng(3).standard_normal(TIME.size)
-    assert speed_measurement(TIME, tachometer, position) is SpeedMeasurement.INSTANTANEOUS
+    assert speed_measurement(TIME, tachometer, position) is INSTANTANEOUS
 
 
 def test_a_speed_that_holds_no_noise_is_taken_as_it_is() -> None:
-    assert speed_measurement(TIME, 200.0 - 240.0 * np.cos(8.0 * TIME), ANGLE) is SpeedMeasurement.INSTANTANEOUS
-    assert speed_measurement(TIME, 0.0 * SPEED, 0.0 * ANGLE) is SpeedMeasurement.INSTANTANEOUS
+    assert speed_measurement(TIME, 200.0 - 240.0 * np.cos(8.0 * TIME), ANGLE) is INSTANTANEOUS
+    assert speed_measurement(TIME, 0.0 * SPEED, 0.0 * ANGLE) is INSTANTANEOUS
 
 
 def test_what_differences_add_up_to_is_the_position() -> None:
@@ -73,7 +82,7 @@ def test_the_core_takes_the_same_difference(way: SpeedMeasurement) -> None:
     problem = replace(problem, runs=tuple(replace(r, speed_measured=way) for r in problem.whole))
     this = hypothesis(problem.prior, (), problem.scales)
     (left,) = problem.residuals(this.vector, this.active)
-    by_hand = sum(float(np.sum((left[s] / problem.noise[s]) ** 2)) for s in left)
+    by_hand = sum(float(np.sum((left[s] / problem.noise[s].level) ** 2)) for s in left)
     assert problem.error(this.vector, this.active) == pytest.approx(by_hand, rel=1e-9)
     (out,) = (problem.simulate(r, this.vector, this.active) for r in problem.runs)
     assert np.allclose(out.signals["speed"], difference(way, problem.whole[0].time, out.signals["position"]))

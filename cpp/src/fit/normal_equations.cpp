@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "rwn/fit/innovations.hpp"
 #include "rwn/numerics/aligned.hpp"
 #include "rwn/numerics/isa.hpp"
 #include "rwn/kernels/normal_equations.hpp"
@@ -32,32 +33,12 @@ void accumulate(NormalSlice& slice) {
   return baseline::accumulate(slice);
 }
 
-/// Makes a simulation the prediction of the next sample from the error of the last, with its `slopes` (n, p).
-///
-/// The first sample of a run, and of what follows a gap, has no error before it: its own variance is that of the whole.
-void predict(std::span<const double> measured, double persistence, std::size_t every, std::span<double> simulated,
-             std::span<double> slopes) {
-  const std::size_t n = measured.size(), p = n > 0 ? slopes.size() / n : 0;
-  const double alone = std::sqrt(1.0 - persistence * persistence);
-  for (std::size_t k = n; k-- > 0;) {
-    double* slope = slopes.data() + k * p;
-    const bool first = k == 0 || (every > 0 && k % every == 0) || std::isnan(measured[k - 1]);
-    if (first) {
-      simulated[k] = measured[k] - alone * (measured[k] - simulated[k]);
-      for (std::size_t j = 0; j < p; ++j) slope[j] *= alone;
-    } else {
-      simulated[k] += persistence * (measured[k - 1] - simulated[k - 1]);
-      for (std::size_t j = 0; j < p; ++j) slope[j] -= persistence * slope[j - p];
-    }
-  }
-}
-
 }  // namespace
 
 NormalEquations normal_equations(const SimulationTask& task, const Measurements& measured) {
   const std::size_t n = task.time.size();
   const std::size_t p = task.by.size();
-  const bool differs = !measured.speed.empty() && measured.speed_measurement != SpeedMeasurement::instantaneous;
+  const bool differs = !measured.speed.empty() && measured.speed_measurement.is_difference();
   const bool wants_position = !measured.position.empty() || differs;
   const auto room = [&](bool wanted, std::size_t width) { return std::vector<double>(wanted ? n * width : 0); };
   std::vector<double> current = room(!measured.current.empty(), 1), d_current = room(!measured.current.empty(), p);
@@ -77,10 +58,11 @@ NormalEquations normal_equations(const SimulationTask& task, const Measurements&
   AlignedVector block(NormalSlice::block * row), lower(p * row);
   const auto every = static_cast<std::size_t>(std::max(task.restart_every, 0));
   const auto add = [&](std::span<const double> recorded, std::vector<double>& simulated, std::vector<double>& slopes,
-                       double weight, double persistence) {
-    if (persistence > 0.0) predict(recorded, persistence, every, simulated, slopes);
-    NormalSlice slice{.measured = recorded.data(),
-                      .simulated = simulated.data(),
+                       double weight, const std::vector<double>& reflection) {
+    std::vector<double>& errors = simulated;
+    for (std::size_t k = 0; k < recorded.size(); ++k) errors[k] = recorded[k] - simulated[k];
+    innovations(errors, reflection, every, slopes);
+    NormalSlice slice{.errors = errors.data(),
                       .slopes = slopes.data(),
                       .rows = static_cast<int>(recorded.size()),
                       .columns = columns,
@@ -95,9 +77,9 @@ NormalEquations normal_equations(const SimulationTask& task, const Measurements&
     sum.chi2 += slice.chi2;
     sum.count += slice.count;
   };
-  add(measured.current, current, d_current, measured.current_weight, measured.persistence[0]);
-  add(measured.speed, speed, d_speed, measured.speed_weight, measured.persistence[1]);
-  add(measured.position, position, d_position, measured.position_weight, measured.persistence[2]);
+  add(measured.current, current, d_current, measured.current_weight, measured.reflection[0]);
+  add(measured.speed, speed, d_speed, measured.speed_weight, measured.reflection[1]);
+  add(measured.position, position, d_position, measured.position_weight, measured.reflection[2]);
   for (std::size_t i = 0; i < p; ++i) {
     for (std::size_t j = 0; j <= i; ++j) sum.curvature[i * p + j] = sum.curvature[j * p + i] = lower[i * row + j];
   }

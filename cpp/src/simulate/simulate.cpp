@@ -69,7 +69,8 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
   const std::size_t n = task.time.size();
   require(task.drive >= 0 && task.drive < drive_count, "simulate: no such kind of drive");
   require(n >= 2, "simulate: at least two samples are needed");
-  require(task.input.size() == n, "simulate: time and input differ in length");
+  const std::size_t instants = task.input_time.empty() ? n : task.input_time.size();
+  require(task.input.size() == instants, "simulate: the input and its instants differ in length");
   require(task.angle.empty() || task.angle.size() == n, "simulate: time and angle differ in length");
   require(task.restart_every == 0 ||
               (task.restart_every > 0 && task.restart_speed.size() == n && task.restart_position.size() == n),
@@ -155,6 +156,8 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
   long work = 0;
   SimulationSlice slice{task.time.data(),
                         task.input.data(),
+                        task.input_time.empty() ? task.time.data() : task.input_time.data(),
+                        static_cast<int>(task.input.size()),
                         static_cast<int>(task.time.size()),
                         task.parameters.data(),
                         task.active.data(),

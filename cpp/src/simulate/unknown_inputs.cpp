@@ -94,7 +94,7 @@ void along(const SimulationTask& task, const GivenMotion& motion, std::span<doub
 void unknown_inputs(const SimulationTask& task, const GivenMotion& motion, std::span<double> torque,
                     std::span<double> voltage) {
   const std::size_t n = task.time.size();
-  require(n > 0 && task.input.size() == n && motion.speed.size() == n && motion.position.size() == n &&
+  require(n > 0 && task.input.size() == n && task.input_time.empty() && motion.speed.size() == n && motion.position.size() == n &&
               motion.acceleration.size() == n && torque.size() == n,
           "unknown_inputs: the signals differ in length");
   require(motion.current.size() == motion.current_slope.size() && (motion.current.empty() || motion.current.size() == n),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -84,7 +85,8 @@ int place_of() {
   }(std::make_index_sequence<rwn::effect_count>{});
 }
 
-/// Derivatives by `c.by` against central differences.
+/// Derivatives by `c.by` against central differences: over the one of two steps that suits the parameter better, since
+/// a short one drowns in rounding where the parameter does little, and a long one bends where it does much.
 void expect_slopes(const Case& c) {
   const std::size_t p = c.by.size(), n = c.time.size();
   std::vector<double> speed(n), slopes(n * p);
@@ -92,18 +94,22 @@ void expect_slopes(const Case& c) {
   for (std::size_t j = 0; j < p; ++j) {
     const auto index = static_cast<std::size_t>(c.by[j]);
     const double value = c.parameters[index];
-    const double nudge = 1e-7 * (value != 0.0 ? std::abs(value) : 1.0);
-    Case up = c, down = c;
-    up.parameters[index] = value + nudge;
-    down.parameters[index] = value - nudge;
-    const std::vector<double> high = speed_of(up), low = speed_of(down);
-    double error = 0.0, size = 0.0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double difference = (high[k] - low[k]) / (2.0 * nudge);
-      error += std::pow(difference - slopes[k * p + j], 2);
-      size += difference * difference;
+    double off = std::numeric_limits<double>::infinity();
+    for (const double relative : {1e-7, 1e-6}) {
+      const double nudge = relative * (value != 0.0 ? std::abs(value) : 1.0);
+      Case up = c, down = c;
+      up.parameters[index] = value + nudge;
+      down.parameters[index] = value - nudge;
+      const std::vector<double> high = speed_of(up), low = speed_of(down);
+      double error = 0.0, size = 0.0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double difference = (high[k] - low[k]) / (2.0 * nudge);
+        error += std::pow(difference - slopes[k * p + j], 2);
+        size += difference * difference;
+      }
+      off = std::min(off, (std::sqrt(error) - 1e-12) / std::sqrt(size + 1e-300));
     }
-    EXPECT_LE(std::sqrt(error), 2e-4 * std::sqrt(size) + 1e-12) << "parameter " << index;
+    EXPECT_LE(off, 2e-4) << "parameter " << index;
   }
 }
 
@@ -272,7 +278,7 @@ TEST(NormalEquations, OfErrorsThatLastCountWhatIsNew) {
   }
   rwn::Measurements recorded;
   recorded.speed = measured;
-  recorded.persistence = {0.0, share, 0.0};
+  recorded.reflection = {{{}, {share}, {}}};
   const auto sum = rwn::normal_equations(c.task(), recorded);
   EXPECT_NEAR(sum.chi2, chi2, 1e-9 * chi2);
   EXPECT_NEAR(sum.gradient[1], gradient, 1e-9 * std::abs(gradient));

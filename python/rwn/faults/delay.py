@@ -25,6 +25,7 @@ from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.screening import FURTHER
 from rwn.parallel import side_by_side
+from rwn.recording.noise import Noise
 from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -45,7 +46,7 @@ class Suspicion:
     """The fault that removes most of what the refitted model leaves."""
 
     fault: Fault
-    noise: Mapping[str, float]
+    noise: Mapping[str, Noise]
     before: float  # squared error above the noise, in units of it, of the refitted model
     after: float  # the same with the fault undone
 
@@ -67,7 +68,7 @@ def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None
     best = None
     for fault in chain(gears(recordings, model), _shifts(recordings, problem, nominal)):
         undone = prepare(without(recordings, fault), model)
-        own = fault.levels(noise)
+        own = fault.noise_without(noise)
         after = _left(undone, _refitted(undone, own), own)
         if after < (best.after if best else (1.0 - SUSPECT) * before):
             best = Suspicion(fault=fault, noise=noise, before=before, after=after)
@@ -108,7 +109,7 @@ def sharpened(
     doubt: Suspicion, recordings: Sequence[Recording], model: Model, beneath: Ranking
 ) -> tuple[Fault, float]:
     """The fault with the delay at which what was found beneath it fits best, and what that leaves."""
-    noise, base = doubt.fault.levels(doubt.noise), beneath.closest
+    noise, base = doubt.fault.noise_without(doubt.noise), beneath.closest
 
     def undone(fault: Fault) -> Problem:
         return replace(prepare(without(recordings, fault), model), noise=noise)
@@ -131,11 +132,11 @@ def sharpened(
     return (best, sharper) if sharper < left else (doubt.fault, left)
 
 
-def _refitted(problem: Problem, noise: Mapping[str, float]) -> Fit:
+def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:
     return fit_nominal(replace(problem, noise=dict(noise)))
 
 
-def _left(problem: Problem, this: Fit, noise: Mapping[str, float]) -> float:
+def _left(problem: Problem, this: Fit, noise: Mapping[str, Noise]) -> float:
     """Mean squared error above the noise, in units of it."""
     return variance(replace(problem, noise=dict(noise)), this) - 1.0
 

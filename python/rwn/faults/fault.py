@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 
 from rwn.fit.intervals import Estimate
 from rwn.name.found_effect import FoundEffect
+from rwn.recording.noise import Noise
 from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 RECORDING = "recording"  # the equation of a fault in the recordings
 UNIT = "wrong-unit"
@@ -46,14 +48,17 @@ class Fault:
         signals = {name: np.array(values[:n]) for name, values in recording.signals.items()}
         moved = [name for name in self.signals if name in signals]
         for name in moved:
-            signals[name] = _moved(np.array(recording.signals[name]), self.delay)[:n] / self.factor
-        early = dict.fromkeys(moved, -self.delay) if self.delay < 0 else {}
-        known = {**recording.known_from, **early}
-        return replace(recording, time=recording.time[:n], signals=signals, known_from=known)
+            signals[name] = _moved_values(np.array(recording.signals[name]), self.delay)[:n] / self.factor
+        missing = {s: lost[:n] for s, lost in recording.missing.items()}
+        for name in moved:
+            lost = _moved(recording.missing.get(name, np.zeros(len(recording), dtype=bool)), self.delay)[:n]
+            if lost.any():
+                missing[name] = lost
+        return replace(recording, time=recording.time[:n], signals=signals, missing=missing)
 
-    def levels(self, noise: Mapping[str, float]) -> dict[str, float]:
-        """Noise levels of the signals once it is undone."""
-        return {s: level / (abs(self.factor) if s in self.signals else 1.0) for s, level in noise.items()}
+    def noise_without(self, noise: Mapping[str, Noise]) -> dict[str, Noise]:
+        """The noise of the signals once it is undone."""
+        return {s: n.scaled(1.0 / self.factor) if s in self.signals else n for s, n in noise.items()}
 
     def found(self) -> FoundEffect:
         """How a diagnosis reports it."""
@@ -75,10 +80,17 @@ def without(recordings: Sequence[Recording], fault: Fault) -> list[Recording]:
     return [fault.undo(r) for r in recordings]
 
 
-def _moved(values: Array, delay: int) -> Array:
+def _moved_values(values: Array, delay: int) -> Array:
     if delay < 0:
         return np.concatenate([_before(values, -delay), values[:delay]])
     return values[delay:]
+
+
+def _moved(lost: Flags, delay: int) -> Flags:
+    """Where there is nothing before the first sample, nothing was measured."""
+    if delay < 0:
+        return np.concatenate([np.full(-delay, True), lost[:delay]])
+    return lost[delay:]
 
 
 def _before(values: Array, samples: int) -> Array:

@@ -32,7 +32,8 @@ def gear_ratio(fault: Fault, recordings: Sequence[Recording], model: Model, bene
     def cost(change: float) -> float:
         problem = prepare(without(recordings, tried(change)), model)
         known = beneath.problem
-        noise = replace(fault, factor=float(np.exp(change))).levels(known.noise)  # on top of what is undone already
+        more = replace(fault, factor=float(np.exp(change)))  # on top of what is undone already
+        noise = more.noise_without(known.noise)
         return refit(beneath.closest, replace(problem, noise=noise, colour=known.colour)).cost
 
     end = minimize_scalar(cost, bounds=(-REACH, REACH), method="bounded", options={"xatol": EXACT})

@@ -1,8 +1,8 @@
 """Fits of a transfer function under coloured noise: what it leaves are disturbances that last, not independent samples.
 
-An error counts as what is new in it beyond the share, its `persistence`, of the one before (generalised least squares;
-Cochrane, Orcutt 1949). Plain least squares bends the coefficients after every slow disturbance of the fitted samples.
-The persistence is that of a plain fit: estimated anew from fit to fit it runs to 1, where the level counts for nothing.
+An error counts as what is new in it beyond a share of the one before (generalised least squares; Cochrane, Orcutt
+1949). Plain least squares bends the coefficients after every slow disturbance of the fitted samples. The share is that
+of a plain fit: estimated anew from fit to fit it runs to 1, where the level counts for nothing.
 """
 
 from __future__ import annotations
@@ -14,9 +14,10 @@ import numpy as np
 
 from rwn.fit.fit import Fit, refit_all
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import Statistics, join, statistics_of
+from rwn.fit.residuals import Statistics, statistics
+from rwn.recording.noise import Noise
 
-MOST = 0.99  # persistence that is believed
+MOST = 0.99  # share of the error before that is believed
 
 
 def final_fits(
@@ -30,27 +31,18 @@ def final_fits(
         return problem, fits, left
     weighted = under_coloured_noise(problem, min(fits, key=lambda f: f.cost))
     finals = refit_all(fits, weighted)
-    return weighted, finals, innovations(weighted, min(finals, key=lambda f: f.cost))
+    return weighted, finals, statistics(weighted, min(finals, key=lambda f: f.cost))
 
 
 def under_coloured_noise(problem: Problem, this: Fit) -> Problem:
     """`problem` weighted by what is new in each error that a plain fit leaves."""
-    persistence, noise = dict(problem.persistence), dict(problem.noise)
+    noise = dict(problem.noise)
     residuals = problem.residuals(this.vector, this.active)
     for signal in dict.fromkeys(s for left in residuals for s in left):
         parts = [left[signal] for left in residuals if signal in left]
         pairs = np.concatenate([np.stack([x[:-1], x[1:]]) for x in parts], axis=1)
         before, after = pairs[:, np.isfinite(pairs).all(axis=0)]
         share = float(np.clip(before @ after / max(float(before @ before), 1e-300), 0.0, MOST))
-        persistence[signal] = share
-        noise[signal] = max(float(np.sqrt(np.mean((after - share * before) ** 2))), 1e-12)
-    return replace(problem, persistence=persistence, noise=noise, colour=1.0)
-
-
-def innovations(problem: Problem, this: Fit) -> Statistics:
-    """Statistics of what is new in each error of a fit: the errors themselves where no persistence is known."""
-    news = [
-        {s: r[1:] - problem.persistence.get(s, 0.0) * r[:-1] for s, r in residual.items()}
-        for residual in problem.residuals(this.vector, this.active)
-    ]
-    return statistics_of(join(problem, news))
+        level = max(float(np.sqrt(np.mean((after - share * before) ** 2))), 1e-12)
+        noise[signal] = Noise(level=level, reflection=(share,))
+    return replace(problem, noise=noise, colour=1.0)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
 from rwn.fit.intervals import Estimate, deviations, estimates
-from rwn.fit.noise import noise_levels
+from rwn.fit.noise import noise_of
 from rwn.fit.preparation import prepare
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
@@ -36,7 +36,7 @@ def identify(recordings: Sequence[Recording], model: Model) -> Identification:
     """
     problem = prepare(recordings, model)
     this = fit_nominal(problem)
-    problem = replace(problem, noise=noise_levels(problem.runs, problem.residuals(this.vector, this.active)))
+    problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))
     this = fit_nominal(problem)
     left = statistics(problem, this)
     status = this.minimum.status

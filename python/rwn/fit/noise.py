@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import join
+from rwn.recording.noise import Noise
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -19,8 +20,8 @@ CLOCK = 1e-5  # relative accuracy of a sample clock (a good crystal), and so of 
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
 
 
-def noise_levels(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> dict[str, float]:
-    """Standard deviation of the measurement noise per signal.
+def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> dict[str, Noise]:
+    """The measurement noise of each signal.
 
     Encoder counts, and a speed that is their difference: of their quantisation. Else what is left of second
     differences, robustly: a model error is smooth against the sample time, so it falls out, and a few sharp instants
@@ -36,20 +37,20 @@ def noise_levels(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) 
     if "position" in levels:
         travel = max(float(np.ptp(r.position)) for r in runs if r.position.size)
         levels["position"] = max(levels["position"], CLOCK * travel)
-    return levels
+    return {s: Noise(level=level) for s, level in levels.items()}
 
 
 def with_noise_of(problem: Problem, this: Fit) -> Problem:
     """`problem` weighted by the noise that a fit leaves."""
     residuals = problem.residuals(this.vector, this.active)
-    levels = noise_levels(problem.runs, residuals)
-    errors = join(replace(problem, noise=levels), residuals)
+    noise = noise_of(problem.runs, residuals)
+    errors = join(replace(problem, noise=noise), residuals)
     variances = {s: float(np.nanmean(r**2)) for s, r in errors.items()}
     others = [v for s, v in variances.items() if s != "position"]
     if "position" in variances and others:
         excess = variances["position"] / (DRIFT * max(*others, 1.0))
-        levels["position"] *= np.sqrt(max(excess, 1.0))
-    return replace(problem, noise=levels)
+        noise["position"] = noise["position"].scaled(np.sqrt(max(excess, 1.0)))
+    return replace(problem, noise=noise)
 
 
 def _noise(residual: Array) -> float:

@@ -29,6 +29,6 @@ def part(problem: Problem, base: Fit, samples: int) -> Problem:
 def _beginnings(problem: Problem, base: Fit, samples: int) -> Iterator[Run]:
     residuals = problem.residuals(base.vector, base.active)
     for run, residual in zip(problem.runs, residuals, strict=True):
-        energy = np.cumsum(sum((r / problem.noise[s]) ** 2 for s, r in residual.items()))
+        energy = np.cumsum(sum((r / problem.noise[s].deviation) ** 2 for s, r in residual.items()))
         first = int(np.searchsorted(energy, HELD * energy[-1]))
         yield run.until(max(first, samples // len(problem.runs)))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rwn import _core
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.noise import noise_levels
+from rwn.fit.noise import noise_of
 from rwn.fit.prior import Prior
 from rwn.fit.problem import Problem
 from rwn.fit.scales import scales
@@ -51,7 +51,7 @@ def prepare(recordings: Sequence[Recording], model: Model, *, work: _core.Work |
 
 
 def _problem(runs: tuple[Run, ...], model: Model, prior: Prior, work: _core.Work | None) -> Problem:
-    noise = noise_levels(runs, [{s: r.signal(s) for s in r.recorded} for r in runs])
+    noise = noise_of(runs, [{s: r.signal(s) for s in r.recorded} for r in runs])
     simulator = Simulator.of(model, work=work)
     if model.drive.coefficients:
         return TransferFunctionProblem(

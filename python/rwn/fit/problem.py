@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from rwn.fit.levenberg_marquardt import Normal
 from rwn.fit.prior import Prior
 from rwn.model.drives.drive import Drive
 from rwn.parallel import side_by_side
+from rwn.recording.noise import Noise
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import Output, Simulator
 
@@ -35,12 +36,9 @@ class Problem:
     simulator: Simulator
     runs: tuple[Run, ...]  # what is fitted: free runs, or windows of them
     whole: tuple[Run, ...]  # the free run over each recording, as recorded
-    noise: Mapping[str, float]  # standard deviation per recorded signal
+    noise: Mapping[str, Noise]  # of each recorded signal
     prior: Prior
     scales: Mapping[str, float]  # quantities that parameters are measured against
-    persistence: Mapping[str, float] = field(
-        default_factory=dict
-    )  # correlation of a signal's error with the one before; `noise` is then that of what is new in each
     colour: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
     @property
@@ -74,13 +72,13 @@ class Problem:
         return self.simulator.simulate(run, self.started(run, vector, active), active, by)
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
-        """Measured minus simulated per run and signal, unweighted; 0 where they are not compared."""
+        """Recorded minus simulated per run and signal, unweighted; 0 where they are not compared."""
 
         def one(run: Run) -> dict[str, Array]:
             out = self.simulate(run, vector, active).signals
             left = {s: run.signal(s) - out[s] for s in run.recorded}
             for signal in left:
-                left[signal][run.outside(signal)] = 0.0
+                left[signal][run.not_compared(signal)] = 0.0
             return left
 
         return side_by_side(one, self.runs)
@@ -107,9 +105,7 @@ class Problem:
 
     def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations of one run whose start is part of `vector`."""
-        found = self.simulator.normal_equations(
-            run, vector, active, by, noise=self.noise, persistence=self.persistence
-        )
+        found = self.simulator.normal_equations(run, vector, active, by, noise=self.noise)
         return CountedNormal(
             chi2=found.chi2, gradient=found.gradient, curvature=found.curvature, count=found.count,
             finite=found.status == "ok",

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
+from rwn.recording.noise import WHITE as WHITE_NOISE
+from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
@@ -124,9 +126,15 @@ def _count(joined: Mapping[str, Array]) -> int:
 
 
 def join(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> dict[str, Array]:
-    """Weighted residuals of each signal, recordings end to end."""
-    signals = {s for r in residuals for s in r}
-    return {
-        s: np.concatenate([r[s] for r in residuals if s in r]) / problem.noise.get(s, 1.0)
-        for s in sorted(signals)
-    }
+    """What is new in the residuals of each signal, in units of its noise, recordings end to end.
+
+    NaN where nothing is compared.
+    """
+    pairs = list(zip(problem.runs, residuals, strict=True))
+    signals = sorted({s for r in residuals for s in r})
+    return {s: np.concatenate([_innovations(problem, run, s, r[s]) for run, r in pairs if s in r]) for s in signals}
+
+
+def _innovations(problem: Problem, run: Run, signal: str, residual: Array) -> Array:
+    compared = np.where(np.isfinite(run.compared[signal]), residual, np.nan)
+    return problem.noise.get(signal, WHITE_NOISE).innovations(compared, restart=run.restart_every)

@@ -17,6 +17,7 @@ from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.levenberg_marquardt import Minimum, Unknown, minimise
 from rwn.fit.problem import CountedNormal, Problem
+from rwn.fit.residuals import join
 from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
@@ -132,6 +133,6 @@ def _with(values: Array, k: int, value: float) -> Array:
 def _weighted(problem: Problem, this: Hypothesis, values: Array) -> Array:
     """Weighted errors of all recordings and signals, end to end; nothing where nothing was recorded."""
     with _overflowing():  # of every thread its own
-        errors = problem.residuals(this.with_values(values), this.active)
-        weighted: Array = np.nan_to_num(np.concatenate([r[s] / problem.noise[s] for r in errors for s in r]))
+        errors = join(problem, problem.residuals(this.with_values(values), this.active))
+        weighted: Array = np.nan_to_num(np.concatenate(list(errors.values())))
     return weighted

@@ -46,9 +46,8 @@ class TransferFunctionProblem(Problem):
         if run.judged_from:
             run, starts, prior = self._first_samples(run, vector)
         return nearest_state(
-            self.simulator, run, vector, active, noise=self.noise, persistence=self.persistence, starts=starts,
-            prior=prior,
-        )  # fmt: skip
+            self.simulator, run, vector, active, noise=self.noise, starts=starts, prior=prior
+        )
 
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations of one run, its initial state eliminated (Schur complement at its optimum)."""

@@ -216,7 +216,7 @@ def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Proble
     """The same fits under the noise levels that the best one leaves, where they differ."""
     best = min([nominal, *fits], key=lambda f: f.cost)
     other, free = with_priors_weighed(with_noise_of(problem, best), best)
-    change = max(abs(np.log(v / problem.noise[s])) for s, v in other.noise.items())
+    change = max(abs(np.log(n.level / problem.noise[s].level)) for s, n in other.noise.items())
     change = max(change, abs(np.log(other.colour / problem.colour)) / 30.0)
     if change < 0.03:
         return problem, nominal, fits

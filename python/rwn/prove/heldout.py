@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.hypothesis import Hypothesis
-from rwn.fit.noise import noise_levels
+from rwn.fit.noise import noise_of
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import correlation_time
 from rwn.simulate.inverse_dynamics import force_error
@@ -61,7 +61,7 @@ def heldout_rows(
         begin = max(first, run.judged_from)
         late = np.arange(run.time.size) >= begin
         slow = _slow(run) & late
-        floor = noise_levels([run], [errors[-1]])
+        floor = {s: n.deviation for s, n in noise_of([run], [errors[-1]]).items()}
         for signal in run.recorded:
             for region, chosen in (("all", late), ("low speed", slow)):
                 if chosen.sum() < FEWEST:

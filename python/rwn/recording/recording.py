@@ -18,14 +18,16 @@ from rwn.recording.formats import FORMATS, MAX_BYTES, Table
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Recording:
     """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in the SI units of `rwn.signals`.
 
-    `linear`: a linear axis (m, m/s, N) instead of a shaft. `known_from`: first sample of a signal that was measured,
-    where those before it are a guess that nothing is compared with. Arrays are made float64, contiguous and read-only.
+    `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
+    stands there is a guess that nothing is compared with. Arrays are made float64, contiguous and read-only.
+
     Raises InputError when lengths differ, an array is not a real vector or a signal's name is unknown.
     """
 
@@ -35,7 +37,7 @@ class Recording:
     source: str = ""
     linear: bool = False
     warnings: tuple[str, ...] = ()
-    known_from: Mapping[str, int] = field(default_factory=dict)
+    missing: Mapping[str, Flags] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         time = _vector(self.name, "time", self.time)

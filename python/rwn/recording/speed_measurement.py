@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,31 +18,24 @@ VANISHING = 0.05  # central differences have 0.005
 RISING = 1.4  # differences over one sample have 2
 
 
-class SpeedMeasurement(StrEnum):
-    """Of differences: between the positions of which samples."""
+@dataclass(frozen=True)
+class SpeedMeasurement:
+    """Samples before and after the own one between whose positions a speed was taken; none: an instantaneous speed."""
 
-    INSTANTANEOUS = "instantaneous"
-    CENTRAL = "central_difference"
-    BACKWARD = "backward_difference"
-    FORWARD = "forward_difference"
-
-    @property
-    def reach(self) -> tuple[int, int]:
-        """Samples before and after the own one."""
-        return REACH[self]
+    before: int = 0
+    after: int = 0
 
     @property
     def is_difference(self) -> bool:
-        return self is not SpeedMeasurement.INSTANTANEOUS
+        """Whether the speed is a difference of positions."""
+        return self.before + self.after > 0
 
 
-REACH = {
-    SpeedMeasurement.INSTANTANEOUS: (0, 0),
-    SpeedMeasurement.CENTRAL: (1, 1),
-    SpeedMeasurement.BACKWARD: (1, 0),
-    SpeedMeasurement.FORWARD: (0, 1),
-}
-DIFFERENCES = (SpeedMeasurement.CENTRAL, SpeedMeasurement.BACKWARD, SpeedMeasurement.FORWARD)
+INSTANTANEOUS = SpeedMeasurement()
+CENTRAL = SpeedMeasurement(1, 1)
+BACKWARD = SpeedMeasurement(1, 0)
+FORWARD = SpeedMeasurement(0, 1)
+DIFFERENCES = (CENTRAL, BACKWARD, FORWARD)
 
 
 def speed_measurement(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
@@ -53,7 +46,7 @@ def speed_measurement(time: Array, speed: Array, position: Array) -> SpeedMeasur
     backward one is what a drive can compute as it runs.
     """
     if speed.size < SHORTEST:
-        return SpeedMeasurement.INSTANTANEOUS
+        return INSTANTANEOUS
     if position.size:
         errors = {way: _repeats(time, speed, position, way) for way in DIFFERENCES}
         best = min(errors, key=lambda way: errors[way])
@@ -65,9 +58,8 @@ def speed_measurement(time: Array, speed: Array, position: Array) -> SpeedMeasur
 def difference(measurement: SpeedMeasurement, time: Array, position: Array) -> Array:
     """The speed as measured: of `position` (n,) or (n, p) over `time` (n,), over the nearest sample at the ends."""
     n = time.size
-    before, after = measurement.reach
-    first = np.maximum(np.arange(n) - before, 0)
-    last = np.minimum(np.arange(n) + after, n - 1)
+    first = np.maximum(np.arange(n) - measurement.before, 0)
+    last = np.minimum(np.arange(n) + measurement.after, n - 1)
     at_an_end = first == last
     last[at_an_end] = np.minimum(first[at_an_end] + 1, n - 1)
     first[at_an_end] = last[at_an_end] - 1
@@ -82,8 +74,8 @@ def integral(measurement: SpeedMeasurement, time: Array, speed: Array) -> Array:
     if not speed.size:
         return speed
     of_step = {
-        SpeedMeasurement.BACKWARD: speed[1:],
-        SpeedMeasurement.FORWARD: speed[:-1],
+        BACKWARD: speed[1:],
+        FORWARD: speed[:-1],
     }.get(measurement, 0.5 * (speed[1:] + speed[:-1]))
     return np.concatenate([[0.0], np.cumsum(of_step * np.diff(time))])
 
@@ -104,14 +96,14 @@ def _of_counts(time: Array, speed: Array) -> SpeedMeasurement:
     """
     step = quantum(speed)
     if step == 0.0:
-        return SpeedMeasurement.INSTANTANEOUS
+        return INSTANTANEOUS
     quarter = _power(speed, 0.2, 0.3)
     if _power(speed, 0.48, 0.5) < VANISHING * quarter:
-        return SpeedMeasurement.CENTRAL
+        return CENTRAL
     counts = 2.0 * np.pi / (step * float(np.median(np.diff(time))))
     if _whole(counts) and _power(speed, 0.4, 0.5) > RISING * quarter:
-        return SpeedMeasurement.BACKWARD
-    return SpeedMeasurement.INSTANTANEOUS
+        return BACKWARD
+    return INSTANTANEOUS
 
 
 def _whole(counts: float) -> bool:

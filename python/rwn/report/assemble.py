@@ -139,11 +139,12 @@ def _warnings(
             f"something smaller is left over: the residual of the corrected model is coloured "
             f"({ranking.left.effective:.0f} independent samples of {ranking.left.count})"
         )
-    for signal, share in ranking.weighted.persistence.items():
-        texts.append(
-            f"what is left of the {signal} lasts (its correlation from sample to sample is {share:.2f}): the corrected "
-            "model was fitted to what is new in it"
-        )
+    for signal, noise in ranking.weighted.noise.items():
+        if noise.reflection:
+            texts.append(
+                f"what is left of the {signal} lasts (its correlation from sample to sample is "
+                f"{noise.reflection[0]:.2f}): the corrected model was fitted to what is new in it"
+            )
     if ranking.cut_short:
         texts.append(
             "more effects at once were not tried, since the search had cost what it may: recordings of fewer samples, "

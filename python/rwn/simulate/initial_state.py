@@ -9,22 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.model.vocabulary import state_indices
+from rwn.recording.noise import Noise
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import Simulator
 
 Array = NDArray[np.float64]
 
 ITERATIONS = 12
-_NONE: Mapping[str, float] = MappingProxyType({})
+_NONE: Mapping[str, Noise] = MappingProxyType({})
 
 
 def nearest_state(
-    simulator: Simulator, run: Run, vector: Array, active: Sequence[int], *, noise: Mapping[str, float] = _NONE,
-    persistence: Mapping[str, float] = _NONE, starts: Sequence[Array] | None = None, prior: Array | None = None,
+    simulator: Simulator, run: Run, vector: Array, active: Sequence[int], *, noise: Mapping[str, Noise] = _NONE,
+    starts: Sequence[Array] | None = None, prior: Array | None = None,
 ) -> Array:  # fmt: skip
     """`vector` with the initial state that fits the run best, from the best of several `starts` (order,).
 
-    `prior`: (order, order) weight of the state against the squared error; `noise`, `persistence`: see Simulator.
+    `prior`: (order, order) weight of the state against the squared error; `noise`: see Simulator.
     """
     index = state_indices(simulator.order)
     weight = np.zeros((simulator.order, simulator.order)) if prior is None else prior
@@ -35,7 +36,7 @@ def nearest_state(
         for _ in range(ITERATIONS):
             trial = vector.copy()
             trial[index] = at
-            normal = simulator.normal_equations(run, trial, active, index, noise=noise, persistence=persistence)
+            normal = simulator.normal_equations(run, trial, active, index, noise=noise)
             cost = normal.chi2 + float(at @ weight @ at)
             if normal.status != "ok" or not np.isfinite(cost) or cost >= best - 1e-6 * abs(best):
                 break

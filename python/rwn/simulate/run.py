@@ -13,9 +13,10 @@ from rwn.model.model import Model
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
-from rwn.recording.speed_measurement import SpeedMeasurement, integral, speed_measurement
+from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral, speed_measurement
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 SIGNALS = ("current", "speed", "position")
 WINDOW = 50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
 _NONE: Array = np.empty(0)
@@ -35,8 +36,8 @@ class Run:
     current: Array = field(default_factory=lambda: _NONE)
     speed: Array = field(default_factory=lambda: _NONE)
     position: Array = field(default_factory=lambda: _NONE)
-    speed_measured: SpeedMeasurement = SpeedMeasurement.INSTANTANEOUS
-    known_from: Mapping[str, int] = field(default_factory=dict)  # first measured sample, of signals that begin late
+    speed_measured: SpeedMeasurement = INSTANTANEOUS
+    missing: Mapping[str, Flags] = field(default_factory=dict)  # samples of a signal that were not measured
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     input_before: float = 0.0
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
@@ -52,8 +53,8 @@ class Run:
         return {"current": self.current, "speed": self.speed, "position": self.position}[name]
 
     def measured(self, name: str) -> Array:
-        """A recorded signal from its first measured sample on."""
-        return self.signal(name)[self.known_from.get(name, 0) :]
+        """The measured samples of a recorded signal."""
+        return self.signal(name)[~self.missing[name]] if name in self.missing else self.signal(name)
 
     @cached_property
     def compared(self) -> Mapping[str, Array]:
@@ -61,20 +62,22 @@ class Run:
         signals = {}
         for name in SIGNALS:
             signal = self.signal(name)
-            if signal.size and (outside := self.outside(name)):
-                signal = signal.copy()
-                signal[outside] = np.nan
+            if signal.size:
+                signal = np.where(self.not_compared(name), np.nan, signal)
             signals[name] = signal
         return signals
 
-    def outside(self, name: str) -> list[int]:
-        """Indices of samples that were not measured, or where a difference would reach outside the recording.
+    def not_compared(self, name: str) -> Flags:
+        """Samples that were not measured, or where a difference would reach outside the recording.
 
         For the ends of a difference there are as many formulas as makers.
         """
-        before, after = self.speed_measured.reach if name == "speed" else (0, 0)
-        first = self.known_from.get(name, 0) + before
-        return [*range(first), *([-1] if after else [])]
+        n = self.time.size
+        without = np.array(self.missing.get(name, np.zeros(n, dtype=bool)))
+        if name == "speed":
+            without[: self.speed_measured.before] = True
+            without[n - self.speed_measured.after :] = True
+        return without
 
     @property
     def followed(self) -> Array:
@@ -94,7 +97,8 @@ class Run:
     def until(self, end: int) -> Run:
         """Its first `end` samples."""
         arrays = ("time", "input", "current", "speed", "position", "angle", "restart_speed", "restart_position")
-        return replace(self, **{name: getattr(self, name)[:end] for name in arrays})
+        cut = {name: getattr(self, name)[:end] for name in arrays}
+        return replace(self, **cut, missing={s: lost[:end] for s, lost in self.missing.items()})
 
     def following_nothing(self) -> Run:
         """The same, simulated from the input alone: angle-dependent effects follow the simulated position."""
@@ -131,10 +135,11 @@ def run_of(recording: Recording, model: Model) -> Run:
     time = recording.time - recording.time[0]
     speed, position = signals.get("speed", _NONE), signals.get("position", _NONE)
     rest = model.recording.initial == "rest"
-    known = max(recording.known_from.values(), default=0)
-    way = SpeedMeasurement.INSTANTANEOUS
+    way = INSTANTANEOUS
     if not drive.coefficients:
-        way = speed_measurement(time[known:], speed[known:], position[known:])
+        lost = [recording.missing[s] for s in ("speed", "position") if s in recording.missing]
+        known = ~np.any(lost, axis=0) if lost else np.full(time.size, True)
+        way = speed_measurement(time[known], *(x[known] if x.size else x for x in (speed, position)))
     start_speed = 0.0 if rest else _start_speed(time, speed, position)
     return Run(
         name=recording.name,
@@ -144,7 +149,7 @@ def run_of(recording: Recording, model: Model) -> Run:
         speed=speed,
         position=position,
         speed_measured=way,
-        known_from=recording.known_from,
+        missing=recording.missing,
         start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
         input_before=0.0 if rest else float(given[0]),
         angle=position if position.size else integral(way, time, speed),

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rwn import _core
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
+from rwn.recording.noise import WHITE, Noise
 from rwn.recording.speed_measurement import difference
 from rwn.simulate.run import SIGNALS, Run
 
@@ -91,18 +92,18 @@ class Simulator:
         return Output(status=status, signals=signals, slopes=slopes)
 
     def normal_equations(
-        self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int], *, noise: Mapping[str, float],
-        persistence: Mapping[str, float],
+        self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int], *, noise: Mapping[str, Noise],
     ) -> NormalEquations:  # fmt: skip
-        """Squared error of a run in units of `noise` (per signal) with its normal equations.
+        """Squared error of a run under the `noise` of each signal with its normal equations.
 
-        `persistence`: correlation of a signal's error with the one before; an error then counts as what is new in it.
+        An error counts as what is new in it.
         """
+        of_signal = [noise.get(s, WHITE) for s in SIGNALS]
         seen = run.compared
         measurements = _core.Measurements(
             current=seen["current"], speed=seen["speed"], position=seen["position"],
-            weights=tuple(1.0 / noise.get(s, 1.0) for s in SIGNALS), speed_measurement=run.speed_measured,
-            persistence=tuple(persistence.get(s, 0.0) for s in SIGNALS),
+            weights=tuple(1.0 / n.level for n in of_signal), reflection=tuple(list(n.reflection) for n in of_signal),
+            speed_difference=(run.speed_measured.before, run.speed_measured.after),
         )  # fmt: skip
         status, chi2, count, gradient, curvature = _core.normal_equations(
             self.task(run), measurements, vector, list(active), list(by), self.work

@@ -14,10 +14,11 @@ namespace rwn {
 struct Measurements {
   std::span<const double> current, speed, position;                        // (n)
   double current_weight = 1.0, speed_weight = 1.0, position_weight = 1.0;  // 1 / standard deviation
-  SpeedMeasurement speed_measurement = SpeedMeasurement::instantaneous;
-  /// Correlation of an error of current, speed and position with the one a sample before: errors count as what they are
-  /// beyond that share of it (Cochrane, Orcutt 1949), and the weights belong to that part.
-  std::array<double, 3> persistence{};
+  SpeedMeasurement speed_measurement{};
+  /// Reflection coefficients (partial autocorrelations, each below 1 in size) of the noise of current, speed and
+  /// position, as an autoregression of that order: errors count as what is new in each beyond what those before
+  /// predict (Cochrane, Orcutt 1949; Durbin 1960), and the weights belong to that part. Empty: white.
+  std::array<std::vector<double>, 3> reflection{};
 };
 
 struct NormalEquations {

@@ -7,9 +7,8 @@ namespace rwn {
 struct NormalSlice {
   static constexpr int block = 4;  // rows that are added at a time
 
-  const double* measured;   // (rows); NaN does not count
-  const double* simulated;  // (rows)
-  const double* slopes;     // (rows, columns)
+  const double* errors;  // (rows); NaN does not count
+  const double* slopes;  // (rows, columns) of what was simulated
   int rows;
   int columns;
   double weight;

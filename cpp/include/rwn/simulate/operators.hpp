@@ -6,6 +6,7 @@
 
 #include "rwn/simulate/equations.hpp"
 #include "rwn/numerics/flow.hpp"
+#include "rwn/numerics/room.hpp"
 #include "rwn/simulate/step_counts.hpp"
 
 namespace rwn {
@@ -101,10 +102,11 @@ class Operators {
   }
 
   const Step<S>& over(double h, const Regime& regime) {
-    for (const Step<S>& o : steps_) {
+    for (std::size_t k = 0; k < made_; ++k) {
+      const Step<S>& o = steps_[k];
       if (std::abs(o.h - h) <= 1e-9 * h && o.regime == regime) return o;
     }
-    Step<S>& slot = next_of(steps_, next_step_);
+    Step<S>& slot = steps_[made_ < most_steps ? made_++ : std::exchange(next_step_, (next_step_ + 1) % most_steps)];
     make(slot, h, regime);
     return slot;
   }
@@ -174,9 +176,10 @@ class Operators {
 
   const Equations<S, Drive, masses>& equations_;
   std::array<System, 6> systems_{};
-  std::array<Step<S>, 8> steps_{};
+  static constexpr std::size_t most_steps = 64;  // that a sampling off its clock takes, on a grid of so many parts
+  Room<Step<S>, most_steps> steps_;              // the first `made_`, the oldest replaced
   Step<Value> passing_{};
-  std::size_t next_system_ = 0, next_step_ = 0;
+  std::size_t next_system_ = 0, next_step_ = 0, made_ = 0;
 };
 
 }  // namespace rwn

@@ -40,7 +40,8 @@ int joint_count(std::span<const int> active);
 struct SimulationTask {
   int drive = 0;                       // place in the table of drives
   std::span<const double> time;        // (n) [s], increasing
-  std::span<const double> input;       // (n) voltage [V] or torque [N m], held from its row to the next
+  std::span<const double> input;       // (m) voltage [V] or torque [N m], held from its instant to the next
+  std::span<const double> input_time;  // (m) these instants [s], increasing; empty: the rows' own, m = n
   std::span<const double> parameters;  // (parameter_count()) SI
   std::span<const int> active;         // effects switched on, by index in the table; own effects count on behind it
   std::span<const int> by;             // (p) parameters to differentiate by

@@ -17,6 +17,8 @@ inline constexpr int width_of_two_masses = 8;
 struct SimulationSlice {
   const double* time;
   const double* input;
+  const double* input_time;  // instants from which the inputs are held
+  int inputs;
   int samples;
   const double* parameters;
   const int* active;
@@ -202,12 +204,12 @@ class Simulation {
     }
   }
 
-  double command_before(int index) const { return index < 0 ? slice_.input_before : slice_.input[index]; }
+  double command(int index) const { return index < 0 ? slice_.input_before : slice_.input[index]; }
 
   void advance(Plant& integrator, State& s, int k) {
     const double begin = slice_.time[k];
     const double end = slice_.time[k + 1];
-    if (!delayed_ && break_count_ == 0) {
+    if (!delayed_ && break_count_ == 0 && slice_.input_time == slice_.time) {
       integrator.advance(s, S(end - begin), acting(slice_.input[k], s, k), begin - slice_.time[0]);
       return;
     }
@@ -217,27 +219,25 @@ class Simulation {
   /// Splits the interval at instants that depend on parameters: late commands and the breaks of effects.
   void advance_pieces(Plant& integrator, State& s, int k, double begin, double end) {
     S at(begin);
-    int row = k;
-    if (delayed_) {
-      while (row >= 0 && slice_.time[row] + value_of(delay_) > begin) --row;
-    }
+    while (row_ + 1 < slice_.inputs && slice_.input_time[row_ + 1] + value_of(delay_) <= begin) ++row_;
+    int row = row_;
     while (value_of(at) < end) {
       S next(end);
-      bool command = false;
-      if (delayed_ && row + 1 <= k && slice_.time[row + 1] + value_of(delay_) < end) {
-        next = slice_.time[row + 1] + delay_;
-        command = true;
+      bool changes = false;
+      if (row + 1 < slice_.inputs && slice_.input_time[row + 1] + value_of(delay_) < end) {
+        next = slice_.input_time[row + 1] + delay_;
+        changes = true;
       }
       for (int b = 0; b < break_count_; ++b) {
         const S instant = breaks_[static_cast<std::size_t>(b)] + slice_.time[0];
         if (value_of(instant) > value_of(at) && value_of(instant) < value_of(next)) {
           next = instant;
-          command = false;
+          changes = false;
         }
       }
-      integrator.advance(s, next - at, acting(command_before(delayed_ ? row : k), s, k), value_of(at) - slice_.time[0]);
+      integrator.advance(s, next - at, acting(command(row), s, k), value_of(at) - slice_.time[0]);
       at = next;
-      if (command) ++row;
+      if (changes) ++row;
     }
   }
 
@@ -271,7 +271,7 @@ class Simulation {
       const auto& e = effects_[static_cast<std::size_t>(a)];
       if (e.call.sense != nullptr) e.call.sense(e.p, y, s.memory.data() + e.memory);
       if (e.own != nullptr && is_sensor(e.own->term()))
-        e.own->sense(e.p, motor_, motion(s, S(command_before(k - 1)), k), y);
+        e.own->sense(e.p, motor_, motion(s, S(command(slice_.input_time == slice_.time ? k - 1 : row_)), k), y);
     }
   }
 
@@ -309,6 +309,7 @@ class Simulation {
   S start_{0.0}, offset_{0.0};  // position where that integral starts; angle minus position, 0 without one
   std::array<S, 8> breaks_{};
   int break_count_ = 0, memories_ = 0;
+  int row_ = -1;  // the last input that had acted when the last interval began
   bool delayed_ = false, actuates_ = false, senses_ = false, has_own_ = false;
 };
 

@@ -1,31 +1,19 @@
-// How a recorded speed was obtained: by a tachometer, or as a difference of the position over one sample or two.
+// How a recorded speed was obtained: by a tachometer, or as a difference of the position over some samples.
 #pragma once
 
 #include <cstddef>
 #include <span>
-#include <string_view>
 
 namespace rwn {
 
-enum class SpeedMeasurement { instantaneous, central_difference, backward_difference, forward_difference };
-
-/// Samples before and after the own one between whose positions the difference is taken.
-struct Reach {
+/// Samples before and after the own one between whose positions a difference is taken; none: an instantaneous speed.
+/// A difference over more samples than one is the moving average of as many differences over one.
+struct SpeedMeasurement {
   std::size_t before = 0, after = 0;
+
+  bool is_difference() const { return before + after > 0; }
+  friend bool operator==(const SpeedMeasurement&, const SpeedMeasurement&) = default;
 };
-
-constexpr Reach reach(SpeedMeasurement measurement) {
-  switch (measurement) {
-    case SpeedMeasurement::central_difference: return {1, 1};
-    case SpeedMeasurement::backward_difference: return {1, 0};
-    case SpeedMeasurement::forward_difference: return {0, 1};
-    case SpeedMeasurement::instantaneous: break;
-  }
-  return {0, 0};
-}
-
-/// By its name as written above; throws std::invalid_argument where there is none of that name.
-SpeedMeasurement speed_measurement_of(std::string_view name);
 
 /// Replaces `speed` by the difference of `position` over `time`; rows are `width` wide.
 ///

@@ -1,0 +1,44 @@
+"""The noise of a measured signal: white, or an autoregression where a filter or a difference has coloured it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn import _core
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Noise:
+    """Noise of one signal: the deviation of what is new in each sample, and how a sample goes with those before.
+
+    `reflection`: partial autocorrelations; none where it is white.
+    """
+
+    level: float
+    reflection: tuple[float, ...] = ()
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation of the noise itself."""
+        return float(self.level / np.sqrt(np.prod([1.0 - r**2 for r in self.reflection])))
+
+    def scaled(self, factor: float) -> Noise:
+        """That of the signal times `factor`."""
+        return replace(self, level=abs(factor) * self.level)
+
+    def innovations(self, errors: Array, *, restart: int = 0) -> Array:
+        """What is new in each of `errors` (n,), in units of its standard deviation; NaN is passed over.
+
+        Every `restart` samples the errors begin anew.
+        """
+        fresh = _core.innovations(np.ascontiguousarray(errors), list(self.reflection), restart)
+        result: Array = fresh / self.level
+        return result
+
+
+WHITE = Noise(level=1.0)
