@@ -10,6 +10,7 @@
 #include "rwn/model/effects/cogging_torque.hpp"
 #include "rwn/model/effects/constant_load.hpp"
 #include "rwn/model/effects/coulomb_friction.hpp"
+#include "rwn/model/effects/current_sensor_lag.hpp"
 #include "rwn/model/effects/inertia_variation.hpp"
 #include "rwn/model/effects/input_delay.hpp"
 #include "rwn/model/effects/load_dependent_friction.hpp"
@@ -38,7 +39,7 @@ using Effects =
                LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque, Unbalance,
                ConstantLoad, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation, BrushVoltageDrop,
                ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation, InputDelay,
-               SpeedSensorLag, SensorRectification, SensorBias, SensorQuantization>;
+               SpeedSensorLag, CurrentSensorLag, SensorRectification, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 
