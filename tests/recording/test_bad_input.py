@@ -54,6 +54,10 @@ def _changed(column: int, value: Callable[[int], float]) -> str:
     return _csv(rows=rows)
 
 
+def _from_rest_without_input() -> str:
+    return _csv(rows=[[k / 1000, 0.0, 0.1 * np.sin(k / 20), 30 * np.sin(k / 20)] for k in range(200)])
+
+
 def _without_lines(first: int, last: int) -> str:
     lines = _csv().splitlines()
     return "\n".join(lines[:first] + lines[last:]) + "\n"
@@ -121,7 +125,7 @@ RECORDINGS: dict[str, tuple[str, tuple[str, ...]]] = {
     "a gap": (_without_lines(60, 100), ("line 61", "a gap of 0.041 s", "cut the recording in two")),
     "constant speed": (_changed(3, lambda _: 3.0), ("'speed' is constant (3)", "sensor")),
     "constant current": (_changed(2, lambda _: 0.0), ("'current' is constant (0)", "leave the column out")),
-    "no input at all": (_changed(1, lambda _: 0.0), ("'voltage' is zero throughout", "estimate")),
+    "no input at all": (_from_rest_without_input(), ("'voltage' is zero throughout", "estimate")),
     "binary": ("\0\1\2\3" * 100, ("not a text file", "CSV")),
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -92,3 +94,23 @@ def test_a_late_sensor_follows_a_speed_that_bends_within_a_sample() -> None:
     fine = seen(lag, 16)
     done = np.std(fine - seen(1e-3 * lag, 16))
     assert np.std(seen(lag, 1) - fine) < 0.01 * done
+
+
+@pytest.mark.parametrize("name", ["cogging-torque", "position-dependent-friction", "unbalance"])
+def test_no_measured_signal_drives_a_free_run(name: str) -> None:
+    """Whatever is measured beyond the first samples, the simulation is the same."""
+    effect, rng = table()[name], np.random.default_rng(9)
+    motor = {k: v for k, v in MOTOR.items() if k not in {p.replaces for p in effect.parameters}}
+    model = Model(kind="dc", parameters=motor, effects={name: _values(effect)})
+    voltage = np.repeat(rng.uniform(-10.0, 10.0, 12), 40)
+    time = STEP * np.arange(voltage.size)
+    input_alone = rwn.Recording(name="run.csv", time=time, signals={"voltage": voltage})
+    seen = dict(rwn.simulate(model, input_alone).signals)
+    measured = {k: x + 1e-3 * np.std(x) * rng.standard_normal(x.size) for k, x in seen.items()}
+    frozen = {k: np.where(np.arange(x.size) < 20, x, x[20]) for k, x in measured.items()}
+    free, held = (
+        rwn.simulate(model, replace(input_alone, signals={"voltage": voltage, **signals})).signals
+        for signals in (measured, frozen)
+    )
+    for k in free:
+        np.testing.assert_array_equal(free[k], held[k])

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.hypothesis import Hypothesis
+from rwn.recording.noise import rough_noise
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -37,7 +38,7 @@ def missing(runs: Sequence[Run]) -> list[str]:
     speeds = [r.motion()[0] for r in runs]
     peak = max((float(np.percentile(np.abs(w), 99.5)) for w in speeds if w.size), default=0.0)
     together = np.concatenate(speeds) if speeds else np.zeros(1)
-    noise = max((_roughness(r.speed) for r in runs if r.speed.size), default=0.0)
+    noise = max((rough_noise(r.speed) for r in runs if r.speed.size), default=0.0)
     if peak <= 3.0 * noise:
         return ["no motion"]
     lacks = []
@@ -48,7 +49,3 @@ def missing(runs: Sequence[Run]) -> list[str]:
     if all(np.ptp(r.input) < 1e-9 + 1e-3 * float(np.max(np.abs(r.input))) for r in runs):
         lacks.append("an input that does not change")
     return lacks
-
-
-def _roughness(signal: Array) -> float:
-    return float(1.4826 * np.median(np.abs(np.diff(signal, 2))) / np.sqrt(6.0))

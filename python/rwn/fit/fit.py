@@ -90,7 +90,7 @@ class Fit:
     def motor(self) -> dict[str, float]:
         """Nominal parameters as fitted."""
         pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
-        return {u.name: float(v) for u, v in pairs if "." not in u.name}
+        return {u.name: float(v) for u, v in pairs if "." not in u.name and not u.nuisance}
 
     @property
     def farthest_move(self) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.levenberg_marquardt import Unknown
-from rwn.fit.prior import Prior
+from rwn.fit.prior import Nuisance, Prior, RunUnknown
 from rwn.model.vocabulary import Effect, Parameter, motor_index, motor_parameters, parameter_vector, table
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ class Hypothesis:
 
     effects: tuple[str, ...]  # of the nominal model, then the added ones
     added: tuple[str, ...]
-    vector: Array  # starting values of all parameters
+    vector: Array  # starting values of all parameters, and of what is unknown of single runs
     unknowns: tuple[Unknown, ...]
     table: Mapping[str, Effect] = field(default_factory=table)
 
@@ -63,12 +63,14 @@ def hypothesis(
 ) -> Hypothesis:
     """The nominal model with effects `added`, from their first guesses or `starts` (SI), the motor from `motor`."""
     starts = starts or {}
-    active = tuple(dict.fromkeys((*prior.effects, *added)))
+    measured = {n.effect: n for n in prior.nuisance}
+    active = tuple(dict.fromkeys((*prior.effects, *measured, *added)))
     known_effects = prior.table
     replaced = {p.replaces for name in active for p in known_effects[name].parameters} - {None}
     motor_now = {**prior.motor, **prior.free, **(motor or {})}
     unknowns = [_motor_unknown(name, prior) for name in prior.uncertainty if name not in replaced]
-    unknowns += [_free_unknown(name, prior.reach.get(name, 1e9)) for name in prior.free]
+    unknowns += [_free_unknown(name) for name in prior.free]
+    unknowns += [_unknown_of_a_run(own) for own in prior.of_runs]
     values: dict[str, dict[str, float]] = {}
     for name in active:
         effect = known_effects[name]
@@ -76,15 +78,18 @@ def hypothesis(
         values[name] = {
             p.name: _first(effect, p, motor_now, scales, starts.get(name, {}), known) for p in effect.parameters
         }
-        if known is None:
+        if name in measured:
+            values[name] |= {p: starts.get(name, {}).get(p, v) for p, v in measured[name].values.items()}
+            unknowns += [_of_measurement(effect, p, measured[name]) for p in effect.parameters if not p.fixed]
+        elif known is None:
             unknowns += [_effect_unknown(effect, p, prior, scales) for p in effect.parameters if not p.fixed]
-    vector = parameter_vector(motor_now, values, known_effects)
+    vector = np.append(parameter_vector(motor_now, values, known_effects), np.zeros(len(prior.of_runs)))
     return Hypothesis(effects=active, added=added, vector=vector, unknowns=tuple(unknowns), table=known_effects)
 
 
 def _motor_unknown(name: str, prior: Prior) -> Unknown:
     value = prior.motor[name]
-    if name not in motor_parameters():  # a coefficient of a transfer function, of either sign
+    if name not in motor_parameters():  # a coefficient of a transfer function
         return replace(_free_unknown(name), prior=value, prior_std=prior.uncertainty[name])
     parameter = motor_parameters()[name]
     positive = name not in ("viscous_friction", "coulomb_friction", "pendulum_torque") and value > 0.0
@@ -111,11 +116,24 @@ def _same_constant(prior: Prior) -> bool:
     return bool(ratio < 3.0 * np.hypot(prior.uncertainty[pair[0]], prior.uncertainty[pair[1]]))
 
 
-def _free_unknown(name: str, reach: float = 1e9) -> Unknown:
-    if name not in motor_parameters():  # a coefficient of a transfer function
-        return Unknown(name=name, unit="", index=motor_index(name), lower=-np.inf, upper=np.inf)
-    parameter = motor_parameters()[name]
-    return Unknown(name=name, unit=parameter.unit, index=motor_index(name), lower=-reach, upper=reach, nuisance=True)
+def _free_unknown(name: str) -> Unknown:
+    """A coefficient of a transfer function, of either sign."""
+    return Unknown(name=name, unit="", index=motor_index(name), lower=-np.inf, upper=np.inf)
+
+
+def _of_measurement(effect: Effect, p: Parameter, nuisance: Nuisance) -> Unknown:
+    value = nuisance.values[p.name]
+    return Unknown(
+        name=f"{effect.name}.{p.name}", unit=p.unit, index=effect.at(p.name), lower=1e-3 * value, upper=1e3 * value,
+        logarithmic=True, prior=value, prior_std=nuisance.spread[p.name], nuisance=True,
+    )  # fmt: skip
+
+
+def _unknown_of_a_run(own: RunUnknown) -> Unknown:
+    return Unknown(
+        name=own.name, unit=own.unit, index=own.place, lower=-np.inf, upper=np.inf, prior=0.0, prior_std=own.spread,
+        nuisance=True,
+    )  # fmt: skip
 
 
 def _effect_unknown(effect: Effect, p: Parameter, prior: Prior, scales: Mapping[str, float]) -> Unknown:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import join
-from rwn.recording.noise import Noise
+from rwn.recording.noise import Noise, rough_noise
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -43,7 +43,7 @@ def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> d
 def with_noise_of(problem: Problem, this: Fit) -> Problem:
     """`problem` weighted by the noise that a fit leaves."""
     residuals = problem.residuals(this.vector, this.active)
-    noise = noise_of(problem.runs, residuals)
+    noise = _coloured(problem, noise_of(problem.runs, residuals), residuals)
     errors = join(replace(problem, noise=noise), residuals)
     variances = {s: float(np.nanmean(r**2)) for s, r in errors.items()}
     others = [v for s, v in variances.items() if s != "position"]
@@ -53,8 +53,24 @@ def with_noise_of(problem: Problem, this: Fit) -> Problem:
     return replace(problem, noise=noise)
 
 
+def _coloured(
+    problem: Problem, noise: dict[str, Noise], residuals: Sequence[Mapping[str, Array]]
+) -> dict[str, Noise]:
+    """The same levels of what is new in a sample, where the problem knows how the noise of a signal is coloured."""
+    for signal, before in problem.noise.items():
+        if before.reflection and signal in noise:
+            unit = Noise(level=1.0, reflection=before.reflection)
+            fresh = [
+                unit.innovations(np.where(run.not_compared(signal), np.nan, left[signal]), restart=run.restart_every)
+                for run, left in zip(problem.runs, residuals, strict=True)
+                if signal in left
+            ]
+            level = float(np.median([_noise(x) for x in fresh]))
+            noise[signal] = replace(before, level=max(level, 1e-12))
+    return noise
+
+
 def _noise(residual: Array) -> float:
-    change = np.diff(residual[np.isfinite(residual)], 2)
-    spread = 1.4826 * float(np.median(np.abs(change - np.median(change)))) / np.sqrt(6.0)
+    spread = rough_noise(residual)
     rms = float(np.sqrt(np.nanmean(residual**2)))
     return min(spread, rms) if spread > 0.0 else rms

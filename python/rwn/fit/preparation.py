@@ -12,12 +12,12 @@ from rwn import _core
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.noise import noise_of
-from rwn.fit.prior import Prior
+from rwn.fit.prior import Prior, RunUnknown
 from rwn.fit.problem import Problem
 from rwn.fit.scales import scales
 from rwn.fit.transfer_function import TransferFunctionProblem, first_guesses
 from rwn.model.model import Model
-from rwn.recording.quantisation import quantum
+from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.recording.recording import Recording
 from rwn.simulate.run import Run, run_of, windowed
 from rwn.simulate.simulator import Simulator
@@ -25,7 +25,6 @@ from rwn.simulate.simulator import Simulator
 Array = NDArray[np.float64]
 
 GUESSED = 25  # iterations from each first guess of a transfer function
-COUNTS = 1.5  # of an encoder, by which a position may be off that was zeroed anywhere within one
 
 
 def prepare(recordings: Sequence[Recording], model: Model, *, work: _core.Work | None = None) -> Problem:
@@ -33,21 +32,38 @@ def prepare(recordings: Sequence[Recording], model: Model, *, work: _core.Work |
 
     `work`: meter of what simulations cost, of a diagnosis that prepares several times.
     """
-    runs = tuple(run_of(r, model) for r in recordings)
-    problem = _problem(runs, model, Prior.of(model), work)
+    runs, prior = tuple(run_of(r, model) for r in recordings), Prior.of(model)
+    if not model.drive.coefficients:  # a transfer function's initial state is eliminated from every fit
+        runs, starts = _unknown_starts(runs)
+        prior = replace(prior, of_runs=starts)
+    problem = _problem(runs, model, prior, work)
     if model.drive.coefficients and not model.parameters:
         problem = replace(problem, prior=_guessed(problem, first_guesses(runs, model.order)))
-    count = max((quantum(r.measured("position")) for r in runs), default=0.0)
-    if count > 0.0 and model.recording.initial == "rest":
-        # a counter that was zeroed anywhere within a count: else the free run is off by up to one count for ever
-        free, reach = {"initial_position": 0.0}, {"initial_position": COUNTS * count}
-        problem = replace(problem, prior=replace(problem.prior, free=free, reach=reach))
     vector = hypothesis(problem.prior, (), {}).vector
     outputs = [_with_motion(r, problem.simulate(r, vector, []).signals) for r in runs]
     problem = replace(problem, scales=scales(model.drive, vector, runs, outputs))
-    if model.drive.force and model.recording.initial == "estimate":
+    if model.drive.force and any(r.in_motion for r in runs):
         problem = replace(problem, runs=tuple(windowed(r) if r.position.size else r for r in runs))
     return problem
+
+
+def _unknown_starts(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[RunUnknown, ...]]:
+    """The runs with a place in the vector for what is not known of each one's start, and these unknowns."""
+    unknowns: list[RunUnknown] = []
+    placed = []
+    for run in runs:
+        own = []
+        for name, spread in run.start_spread.items():
+            place = _core.parameter_count() + len(unknowns)
+            unit = motor_parameters()[name].unit
+            unknowns.append(
+                RunUnknown(
+                    name=f"{name} of {run.name}", unit=unit, place=place, parameter=motor_index(name), spread=spread
+                )
+            )
+            own.append((place, motor_index(name)))
+        placed.append(replace(run, own=tuple(own)))
+    return tuple(placed), tuple(unknowns)
 
 
 def _problem(runs: tuple[Run, ...], model: Model, prior: Prior, work: _core.Work | None) -> Problem:
@@ -56,7 +72,7 @@ def _problem(runs: tuple[Run, ...], model: Model, prior: Prior, work: _core.Work
     if model.drive.coefficients:
         return TransferFunctionProblem(
             drive=model.drive, simulator=simulator, runs=runs, whole=runs, noise=noise, prior=prior, scales={},
-            at_rest=model.recording.initial == "rest",
+            at_rest=not any(r.in_motion for r in runs),
         )  # fmt: skip
     return Problem(
         drive=model.drive, simulator=simulator, runs=runs, whole=runs, noise=noise, prior=prior, scales={}

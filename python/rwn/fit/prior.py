@@ -10,6 +10,26 @@ from rwn.model.vocabulary import Effect, table
 
 
 @dataclass(frozen=True, kw_only=True)
+class RunUnknown:
+    """What is unknown of one run alone: a deviation from 0 that adds to one parameter of the vector there."""
+
+    name: str
+    unit: str
+    place: int  # in the vector of a fit, behind all parameters
+    parameter: int  # index of what it adds to
+    spread: float  # standard deviation of its prior
+
+
+@dataclass(frozen=True, kw_only=True)
+class Nuisance:
+    """An effect of the measurement that every hypothesis fits; `spread`: deviation of the logarithm of each value."""
+
+    effect: str
+    values: Mapping[str, float]
+    spread: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Prior:
     """Values of the nominal model and declared relative standard deviations (absent: exact)."""
 
@@ -17,7 +37,8 @@ class Prior:
     uncertainty: Mapping[str, float]
     effects: Mapping[str, Mapping[str, float]]  # already part of the nominal model
     free: Mapping[str, float]  # unknown without a prior (coefficients), with their first guess
-    reach: Mapping[str, float] = field(default_factory=dict)  # how far from 0 what is free may go
+    of_runs: tuple[RunUnknown, ...] = ()
+    nuisance: tuple[Nuisance, ...] = ()
     starts: tuple[Mapping[str, float], ...] = ()  # other first guesses of what is free, worth a try
     table: Mapping[str, Effect] = field(default_factory=table)  # every effect that the model knows
 

@@ -100,8 +100,22 @@ class Problem:
         return CountedNormal(chi2=chi2, gradient=gradient, curvature=curvature, count=count)
 
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
-        """Normal equations of one run."""
-        return self.normal_at(run, self.started(run, vector, active), active, by)
+        """Normal equations of one run, of what is unknown of it alone at its place in `by`."""
+        core = _core.parameter_count()
+        adds_to = dict(run.own)
+        here = [adds_to.get(k, k) for k in by]  # what is unknown of other runs changes nothing here
+        wanted = sorted({k for k in here if k < core})
+        found = self.normal_at(run, self.started(run, vector, active), active, wanted)
+        if wanted == list(by) or not found.finite:
+            return found
+        column = {k: j for j, k in enumerate(wanted)}
+        chosen = np.zeros((len(wanted), len(by)))
+        for j, k in enumerate(here):
+            if k in column:
+                chosen[column[k], j] = 1.0
+        return replace(
+            found, gradient=chosen.T @ found.gradient, curvature=chosen.T @ found.curvature @ chosen
+        )
 
     def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations of one run whose start is part of `vector`."""

@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 MOST_COLOURED = 1.4  # coloured energy of a residual that may still be measurement noise
 RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2,
+LEVEL = 0.01  # of the test whether what is left has structure
 LOUD = 1.3  # where the residual has at least so much variance in units of the noise
 
 
@@ -81,6 +82,25 @@ def ringing_share(x: Array, length: int = 32) -> float:
     return float(np.max(density) / np.mean(density))
 
 
+def structured(joined: Mapping[str, Array]) -> tuple[str, ...]:
+    """The signals whose errors are not white: Bartlett's test of the cumulative periodogram at LEVEL, over all of them.
+
+    White noise is found to have structure in one case of 1 / LEVEL, whatever the number of samples.
+    """
+    limit = np.sqrt(-0.5 * np.log(0.5 * LEVEL / max(len(joined), 1)))  # Kolmogorov, Smirnov
+    return tuple(s for s, errors in joined.items() if _distance_from_white(errors) > limit)
+
+
+def _distance_from_white(x: Array) -> float:
+    """sqrt(m) times the largest distance of the cumulative periodogram of m frequencies from a straight line."""
+    x = np.where(np.isfinite(x), x, 0.0)
+    power = _power(np.fft.rfft(x))[1 : (x.size + 1) // 2]
+    if power.size < 8 or not power.any():
+        return 0.0
+    shares = np.cumsum(power) / power.sum()
+    return float(np.sqrt(power.size) * np.max(np.abs(shares - np.arange(1, power.size + 1) / power.size)))
+
+
 def _power(spectrum: NDArray[np.complex128]) -> Array:
     power: Array = spectrum.real**2 + spectrum.imag**2
     return power
@@ -97,8 +117,15 @@ def statistics(problem: Problem, this: Fit, *, drift: bool = True) -> Statistics
     return statistics_of(joined)
 
 
+def variances(problem: Problem, this: Fit) -> dict[str, float]:
+    """Mean squared weighted error of a fit by signal, over all recordings; 1: the noise alone, inf: it ran away."""
+    joined = join(problem, problem.residuals(this.vector, this.active))
+    found = {s: float(np.nanmean(r**2)) if np.isfinite(r).any() else 0.0 for s, r in joined.items()}
+    return {s: v if np.isfinite(v) else np.inf for s, v in found.items()}
+
+
 def variance(problem: Problem, this: Fit) -> float:
-    """Mean squared weighted error of a fit, over all recordings and signals; 1: the noise alone."""
+    """The same over all signals together."""
     joined = join(problem, problem.residuals(this.vector, this.active))
     return sum(_energies(joined).values()) / max(_count(joined), 1)
 

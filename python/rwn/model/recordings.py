@@ -10,6 +10,7 @@ import numpy as np
 
 from rwn.errors import InputError
 from rwn.model.model import Model
+from rwn.model.start import start_of
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import SIGNALS
 
@@ -60,7 +61,7 @@ def _check_movement(recording: Recording, model: Model, where: str) -> tuple[str
     values = recording.signals[drive.input]
     if np.ptp(values) > 0.0:
         return ()
-    if values[0] == 0.0 and model.recording.initial == "rest":
+    if values[0] == 0.0 and not start_of(recording.time, recording.signals, model).in_motion:
         raise InputError(
             f"'{drive.input}' is zero throughout, from rest",
             where=where,

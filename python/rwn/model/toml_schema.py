@@ -24,7 +24,7 @@ class ColumnEntry(msgspec.Struct, forbid_unknown_fields=True):
 class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     columns: dict[str, ColumnEntry] = {}
     sample_time: Number | None = None
-    initial: Initial = "rest"
+    initial: Initial = "auto"
     initial_samples: int = 20
 
 

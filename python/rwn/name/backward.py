@@ -64,6 +64,11 @@ def plainer(names: Sequence[str]) -> set[str]:
     return {PLAIN if _replaces(n) and _replaces(n) == _replaces(PLAIN) else n for n in names}
 
 
+def elaborations() -> list[str]:
+    """The laws that say more of friction than that it is dry."""
+    return [n for n in table() if n != PLAIN and _replaces(n) and _replaces(n) == _replaces(PLAIN)]
+
+
 def _plain_values(this: Fit) -> dict[str, float]:
     """Plain friction of the level that the elaborate law of an explanation has."""
     (plain,) = (p for p in table()[PLAIN].parameters if p.replaces)

@@ -11,14 +11,16 @@ from rwn.fit.angle import along_the_simulated_angle
 from rwn.fit.budget import affords_more, one_stage
 from rwn.fit.coarse_speed import as_shown, steps_shown, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
-from rwn.fit.fit import Fit, fit_nominal, foremost, refit, refit_all
+from rwn.fit.fit import Fit, fit, fit_nominal, foremost, refit, refit_all
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.noise import with_noise_of
 from rwn.fit.part import look
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, join, statistics, statistics_of
 from rwn.fit.secant import all_down_secants
-from rwn.name.backward import distinct, replaced, with_simpler
+from rwn.fit.sensor_filter import LAGS, SensorFilter, filtered, sensor_filters
+from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Pairs, Ranking, SameNoise
 from rwn.name.screening import screen
@@ -34,6 +36,7 @@ LOST = 0.2  # where the error of some signal is more than this share of its own 
 PATIENCE = 4  # in short windows, where the misfit is large and the first steps of a fit are short
 WHOLE = 0.99  # share of the time from which a window is none
 OFFSET = "constant-load"
+ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 BRIEF = 10  # samples that a load acts for at least
 
 
@@ -75,6 +78,9 @@ def rank(
         complete = left.at_the_floor or _at_its_floor(problem, best)
     if paired:
         problem, nominal, fits = _under_own_noise(problem, nominal, fits)
+    filters = _filters(problem, min([nominal, *fits], key=lambda f: f.cost))
+    if filters:  # they are part of how it was measured, beside whatever is missing
+        return rank(filtered(as_prepared, filters), progress=progress, names=names, at_once=at_once)
     fits = with_simpler(problem, nominal, fits) if names is None else fits
     at_a_limit = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, problem))]
@@ -125,6 +131,22 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
     if affords_more(problem.work) and _far_off(problem, min([nominal, *fits], key=lambda f: f.cost)):
         fits = distinct([*fits, *_by_windows(problem, nominal, wanted)])
     return _under_own_noise(problem, nominal, fits)
+
+
+def _filters(problem: Problem, best: Fit) -> tuple[SensorFilter, ...]:
+    """Filters of the sensors that the noise shows which the best explanation leaves, where none is fitted yet."""
+    if problem.drive.coefficients or problem.prior.nuisance:
+        return ()
+    found = sensor_filters(problem, problem.residuals(best.vector, best.active))
+    lags = tuple(lag for s, lag in LAGS.items() if s in problem.noise and lag in problem.prior.table)
+    if found or set(lags) <= set(best.added) or statistics(problem, best).at_the_floor:
+        return found
+    # a filter that is not fitted hides its own noise
+    added = tuple(dict.fromkeys((*best.added, *lags)))
+    starts = {n: best.values_of(n) for n in best.added}
+    this = hypothesis(problem.prior, added, problem.scales, starts, best.motor)
+    slow = fit(problem, this, share=one_stage(problem.work))
+    return sensor_filters(problem, problem.residuals(slow.vector, slow.active))
 
 
 def _made_of(this: Fit, wanted: Sequence[str]) -> bool:
@@ -208,8 +230,12 @@ def _varied(fits: Sequence[Fit]) -> list[Fit]:
 
 
 def _prior(problem: Problem) -> dict[str, float]:
-    """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis."""
-    return {OFFSET: np.log(len(problem.prior.table)) + 1.0 if problem.drive.force else -5.0}
+    """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis.
+
+    Plain friction is likelier than any one of the laws that elaborate it.
+    """
+    offset = np.log(len(problem.prior.table)) + 1.0 if problem.drive.force else -5.0
+    return {OFFSET: offset} | dict.fromkeys(elaborations(), -np.log(ELABORATE))
 
 
 def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Problem, Fit, list[Fit]]:

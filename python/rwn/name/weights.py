@@ -11,6 +11,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 
 MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it is worth
+EXACT = 1000.0  # the same of one that is noise alone: a simulation is exact to about 0.1 % of the squared error
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +40,7 @@ def weigh(
     `finals`: what the fits became under coloured noise, to be weighed in their place.
     """
     finals = fits if finals is None else finals
-    effective = left.effective if left.at_the_floor else min(left.effective, MISSPECIFIED)
+    effective = min(left.effective, EXACT if left.at_the_floor else MISSPECIFIED)
     scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
     least = min(f.cost for f in finals)
     base = min(f.unknowns_seen for f in finals)

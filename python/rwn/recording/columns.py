@@ -14,7 +14,7 @@ from rwn.recording import units
 from rwn.recording.formats import Table
 from rwn.recording.signals import COLUMNS, Signal, meant
 
-Initial = Literal["rest", "estimate"]
+Initial = Literal["auto", "rest", "estimate"]
 Array = NDArray[np.float64]
 
 
@@ -35,14 +35,15 @@ class Column:
 class Layout:
     """The column map (signal -> Column) and what else the files do not say.
 
-    `sample_time` [s]: of files without a time column. `initial`: whether recordings start at rest (position
-    0, no current) or from a state that has to be estimated; `initial_samples`: from how many samples, on recordings
-    that are not fitted (they are not judged by them).
+    `sample_time` [s]: of files without a time column. `initial`: whether recordings start at rest (no speed,
+    no current), from a state that has to be estimated, or as each one's first samples show ("auto"). `initial_samples`:
+    from how many samples that is read, and the state of a transfer function estimated on recordings that are not fitted
+    (which they do not judge).
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
     sample_time: float | None = None
-    initial: Initial = "rest"
+    initial: Initial = "auto"
     initial_samples: int = 20
 
 

@@ -42,3 +42,14 @@ class Noise:
 
 
 WHITE = Noise(level=1.0)
+
+
+def rough_noise(signal: Array) -> float:
+    """Standard deviation of white noise on a smooth signal (n,), from its second differences.
+
+    By their median, so that a few sharp instants do not count; NaN is passed over.
+    """
+    change = np.diff(signal[np.isfinite(signal)], 2)
+    if not change.size:
+        return 0.0
+    return 1.4826 * float(np.median(np.abs(change - np.median(change)))) / float(np.sqrt(6.0))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.model.model import Model
+from rwn.model.start import start_of
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
@@ -27,7 +28,7 @@ class Run:
     """One recording as the core takes it; signals that were not recorded are empty.
 
     Arrays are (n,), C-contiguous float64, SI. `start` holds the initial current, speed and position where they are
-    known; an unknown that fits them has its own place in the parameter vector.
+    known; what is unknown of one run alone has a place behind all parameters in the vector of a fit (`own`).
     """
 
     name: str
@@ -39,6 +40,9 @@ class Run:
     speed_measured: SpeedMeasurement = INSTANTANEOUS
     missing: Mapping[str, Flags] = field(default_factory=dict)  # samples of a signal that were not measured
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    start_spread: Mapping[str, float] = field(default_factory=dict)  # deviation of what is not known of it exactly
+    in_motion: bool = False  # it does not start at rest
+    own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
     input_before: float = 0.0
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
     angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
@@ -134,13 +138,12 @@ def run_of(recording: Recording, model: Model) -> Run:
     given = signals[drive.input]
     time = recording.time - recording.time[0]
     speed, position = signals.get("speed", _NONE), signals.get("position", _NONE)
-    rest = model.recording.initial == "rest"
+    start = start_of(time, signals, model)
     way = INSTANTANEOUS
     if not drive.coefficients:
         lost = [recording.missing[s] for s in ("speed", "position") if s in recording.missing]
         known = ~np.any(lost, axis=0) if lost else np.full(time.size, True)
         way = speed_measurement(time[known], *(x[known] if x.size else x for x in (speed, position)))
-    start_speed = 0.0 if rest else _start_speed(time, speed, position)
     return Run(
         name=recording.name,
         time=np.ascontiguousarray(time),
@@ -150,8 +153,10 @@ def run_of(recording: Recording, model: Model) -> Run:
         position=position,
         speed_measured=way,
         missing=recording.missing,
-        start=(0.0, start_speed, float(position[0]) if position.size else 0.0),
-        input_before=0.0 if rest else float(given[0]),
+        start=start.state,
+        start_spread=start.spread,
+        in_motion=start.in_motion,
+        input_before=float(given[0]) if start.in_motion else 0.0,
         angle=position if position.size else integral(way, time, speed),
         angle_from_speed=position.size == 0,
     )
@@ -159,8 +164,9 @@ def run_of(recording: Recording, model: Model) -> Run:
 
 def judging_run(recording: Recording, model: Model) -> Run:
     """As `run_of`, for a recording that is not fitted: a state to be estimated comes from its first samples alone."""
-    estimated = model.drive.coefficients and model.recording.initial == "estimate"
-    return replace(run_of(recording, model), judged_from=model.recording.initial_samples if estimated else 0)
+    run = run_of(recording, model)
+    estimated = model.drive.coefficients and run.in_motion
+    return replace(run, judged_from=model.recording.initial_samples if estimated else 0)
 
 
 def windowed(run: Run, length: int = WINDOW) -> Run:
@@ -172,11 +178,5 @@ def windowed(run: Run, length: int = WINDOW) -> Run:
         restart_speed=np.ascontiguousarray(speed),
         restart_position=np.ascontiguousarray(position),
         start=(0.0, float(speed[0]), float(position[0])),
+        start_spread={},
     )
-
-
-def _start_speed(time: Array, speed: Array, position: Array) -> float:
-    if speed.size:
-        return float(np.mean(speed[:5]))
-    k = min(20, time.size - 1)
-    return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if position.size else 0.0

@@ -30,21 +30,21 @@ class Simulation:
 
 
 def simulate(model: Model, recording: Recording) -> Simulation:
-    """Simulates `model` from the input signal of `recording` alone.
+    """Simulates `model` in free run: from the input signal of `recording` and the state at its first sample alone.
 
-    The state at the first sample is rest or what the recording shows, as the model's `[recording]` table says. Raises
-    InputError where the model has no values to simulate with.
+    That state is rest or what the first samples show, as the model's `[recording]` table says; no measured signal is
+    used beyond these. Raises InputError where the model has no values to simulate with.
     """
     if not model.parameters:
         raise InputError(
             "the model has no values", where=model.source or "model", expected="numerator and denominator",
             fix="write them under [motor], or find them with rwn identify",
         )  # fmt: skip
-    run, simulator, vector = run_of(recording, model), Simulator.of(model), model.vector
+    run, simulator, vector = run_of(recording, model).following_nothing(), Simulator.of(model), model.vector
     active = [model.effect_table[name].index for name in model.effects]
     if not model.drive.coefficients:
         vector = simulator.started(run, vector)
-    elif model.recording.initial == "estimate":
+    elif run.in_motion:
         vector = nearest_state(simulator, run, vector, active)
     output = simulator.simulate(run, vector, active)
     wanted = [name for name in SIGNALS if name in model.drive.outputs]

@@ -63,8 +63,11 @@ class Simulator:
 
     @staticmethod
     def started(run: Run, vector: Array) -> Array:
-        """The parameter vector with the known start of a run added to what is fitted of it."""
-        own = vector.copy()
+        """The parameter vector of one run: what is fitted of all, with its start and what is unknown of it alone."""
+        own = _of_core(vector).copy()
+        for place, parameter in run.own:
+            if place < vector.size:  # else it was fitted to recordings of which nothing was unknown
+                own[parameter] += vector[place]
         for name, value in zip(_START, run.start, strict=True):
             own[motor_index(name)] += value
         return own
@@ -83,7 +86,7 @@ class Simulator:
 
         `vector` holds the start of the run (`started`); speed is as it was measured.
         """
-        status, *arrays = _core.simulate(self.task(run), vector, list(active), list(by), self.work)
+        status, *arrays = _core.simulate(self.task(run), _of_core(vector), list(active), list(by), self.work)
         signals = dict(zip(SIGNALS, arrays[:3], strict=True))
         slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
         if run.speed_measured.is_difference:
@@ -106,6 +109,11 @@ class Simulator:
             speed_difference=(run.speed_measured.before, run.speed_measured.after),
         )  # fmt: skip
         status, chi2, count, gradient, curvature = _core.normal_equations(
-            self.task(run), measurements, vector, list(active), list(by), self.work
+            self.task(run), measurements, _of_core(vector), list(active), list(by), self.work
         )
         return NormalEquations(status=status, chi2=chi2, count=count, gradient=gradient, curvature=curvature)
+
+
+def _of_core(vector: Array) -> Array:
+    """The parameters that the core knows, of the vector of a fit."""
+    return vector[: _core.parameter_count()]

@@ -84,5 +84,6 @@ def along_motion(
     )  # fmt: skip
     motion = {"speed": speed, "position": position, "acceleration": acceleration, "current": current}
     arrays = {name: np.ascontiguousarray(x) for name, x in (motion | {"current_slope": slope}).items()}
-    torque, voltage = _core.unknown_inputs(task, vector, list(active), **arrays)
+    parameters = vector[: _core.parameter_count()]  # no start of a run counts here
+    torque, voltage = _core.unknown_inputs(task, parameters, list(active), **arrays)
     return torque, voltage

@@ -1,0 +1,94 @@
+"""Where a run starts: at rest, or in a motion that its first samples show and that is not known exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.model.model import Model
+from rwn.recording.noise import rough_noise
+from rwn.recording.quantisation import quantum
+
+Array = NDArray[np.float64]
+
+FIRST = 5  # samples that the start is read off
+CERTAIN = 5.0  # deviations of a first sample from rest that chance does not explain: 1 in 10^6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """Current [A], speed [rad/s] and position [rad] at the first sample, and how far each may be off.
+
+    `spread`: standard deviation of what is not known exactly, by the parameter of the start; absent: exact.
+    """
+
+    in_motion: bool = False
+    state: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    spread: Mapping[str, float] = field(default_factory=dict)
+
+
+def start_of(time: Array, signals: Mapping[str, Array], model: Model) -> Start:
+    """The start of a recording (n,) each, SI, by what the model's [recording] table says of it or its first samples.
+
+    A position that was recorded starts within its noise or its steps of the first sample.
+    """
+    position = signals.get("position", np.empty(0))
+    first = model.recording.initial_samples
+    resolution = {n: _resolution(signals[n], first) for n in signals if n != model.drive.input}
+    spread = {}
+    place = 0.0
+    if position.size:
+        place = float(position[0])
+        if resolution["position"] > 0.0:
+            spread["initial_position"] = resolution["position"]
+    current, speed = _first_current(signals), _first_speed(time, signals)
+    moving = abs(speed) > CERTAIN * _speed_deviation(time, resolution)
+    flowing = abs(current) > CERTAIN * resolution.get("current", 0.0)
+    initial = model.recording.initial
+    if initial == "rest" or (initial == "auto" and not (moving or flowing)):
+        return Start(state=(0.0, 0.0, place), spread=spread)
+    spread["initial_speed"] = max(abs(speed), resolution.get("speed", 0.0), 1e-9)
+    if model.drive.winding:
+        if "current" not in signals:
+            current = _steady_current(signals, speed, model)
+        spread["initial_current"] = max(abs(current), resolution.get("current", 0.0), 1e-9)
+    return Start(in_motion=True, state=(current if model.drive.winding else 0.0, speed, place), spread=spread)
+
+
+def _resolution(signal: Array, first: int) -> float:
+    """Standard deviation of one of the first samples: of their noise, or a step of the signal's values."""
+    return max(rough_noise(signal[:first]), quantum(signal))
+
+
+def _first_current(signals: Mapping[str, Array]) -> float:
+    return float(signals["current"][0]) if "current" in signals else 0.0
+
+
+def _first_speed(time: Array, signals: Mapping[str, Array]) -> float:
+    """The first sample; of a position alone, the slope of a parabola through its first samples."""
+    if "speed" in signals:
+        return float(signals["speed"][0])
+    position = signals.get("position", np.empty(0))
+    k = min(4 * FIRST, position.size - 1)
+    return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if k > 1 else 0.0
+
+
+def _speed_deviation(time: Array, resolution: Mapping[str, float]) -> float:
+    """Standard deviation of the first speed where it stands still."""
+    if "speed" in resolution:
+        return resolution["speed"]
+    if "position" not in resolution:
+        return np.inf
+    k = min(4 * FIRST, time.size - 1)
+    design = np.vander(time[:k] - time[0], min(2, k - 1) + 1)
+    unit = float(np.sqrt(np.linalg.inv(design.T @ design)[-2, -2]))
+    return unit * resolution["position"]
+
+
+def _steady_current(signals: Mapping[str, Array], speed: float, model: Model) -> float:
+    """The current at which the winding is at rest with the speed."""
+    motor = model.motor
+    return (float(signals[model.drive.input][0]) - motor["back_emf_constant"] * speed) / motor["resistance"]

@@ -1,0 +1,56 @@
+"""Whether a recording starts at rest."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from rwn.model.model import Model
+from rwn.model.start import start_of
+
+Array = NDArray[np.float64]
+
+MODEL = Model(
+    kind="dc",
+    parameters={"resistance": 2.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
+                "inertia": 2e-5, "viscous_friction": 2e-5},
+)  # fmt: skip
+TIME = 1e-3 * np.arange(500)
+
+
+def _signals(speed: Array) -> dict[str, Array]:
+    noise = np.random.default_rng(3).standard_normal(TIME.size)
+    return {"voltage": np.full(TIME.size, 5.0), "speed": speed + 0.05 * noise}
+
+
+def test_noise_about_zero_is_rest_however_fast_the_start() -> None:
+    start = start_of(TIME, _signals(80.0 * (1.0 - np.exp(-TIME / 0.01))), MODEL)
+    assert not start.in_motion
+    assert start.state == (0.0, 0.0, 0.0)
+
+
+def test_a_first_sample_off_zero_is_motion_with_the_current_that_goes_with_it() -> None:
+    start = start_of(TIME, _signals(np.full(TIME.size, 60.0)), MODEL)
+    assert start.in_motion
+    assert start.state[1] == pytest.approx(60.0, abs=0.3)
+    assert start.state[0] == pytest.approx((5.0 - 0.05 * 60.0) / 2.0, abs=0.02)
+    assert set(start.spread) == {"initial_speed", "initial_current"}
+
+
+def test_the_model_file_may_say_it() -> None:
+    resting = replace(MODEL, recording=replace(MODEL.recording, initial="rest"))
+    assert not start_of(TIME, _signals(np.full(TIME.size, 60.0)), resting).in_motion
+    moving = replace(MODEL, recording=replace(MODEL.recording, initial="estimate"))
+    assert start_of(TIME, _signals(np.zeros(TIME.size)), moving).in_motion
+
+
+def test_a_position_starts_within_its_steps_of_the_first_sample() -> None:
+    count = 2.0 * np.pi / 2000.0
+    position = np.round(40.0 * TIME**2 / count) * count + 0.7
+    start = start_of(TIME, {"voltage": np.ones(TIME.size), "position": position}, MODEL)
+    assert not start.in_motion
+    assert start.state[2] == pytest.approx(0.7)
+    assert start.spread["initial_position"] == pytest.approx(count, rel=0.01)
