@@ -1,10 +1,11 @@
-"""The main job: undo faults of the recordings, refit, locate, name, prove, decide, correct, report."""
+"""The main job: inspect recordings, undo their faults, refit, locate, name, prove, decide, correct, report."""
 
 from __future__ import annotations
 
 import os
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 from rwn.correct.correction import correct
 from rwn.decide.decision import decide
@@ -13,9 +14,10 @@ from rwn.faults.resolve import resolved
 from rwn.model.model import Model
 from rwn.name.forward import Progress
 from rwn.parallel import crew
+from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
 from rwn.report.assemble import assemble
-from rwn.report.diagnosis import Diagnosis
+from rwn.report.diagnosis import Diagnosis, as_found
 from rwn.simulate.run import judging_run
 
 
@@ -46,6 +48,8 @@ def diagnose(
     """
     began = time.perf_counter()
     say = progress or _silent
+    recordings, findings = inspected(recordings)
+    heldout, unseen_findings = inspected(heldout)
     with crew(jobs or os.cpu_count() or 1):
         faults, ranking = resolved(recordings, model, say=say)
         say("proving it on data that were not fitted", 0.85)
@@ -56,7 +60,8 @@ def diagnose(
         say("correcting the model", 0.9)
         correction = correct(decision, unseen, model, seed=seed)
         say("drawing", 0.95)
-        return assemble(correction, faults, model, seed=seed, elapsed=time.perf_counter() - began)
+        found = assemble(correction, faults, model, seed=seed, elapsed=time.perf_counter() - began)
+        return replace(found, findings=as_found((*findings, *unseen_findings)))
 
 
 def _silent(what: str, done: float) -> None:

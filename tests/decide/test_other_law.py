@@ -6,8 +6,7 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
-from rwn.decide import verdict
-from rwn.decide.other_law import other_law
+from rwn.decide.other_law import curve_beside
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import rank
@@ -31,19 +30,14 @@ def test_a_cubic_drag_is_not_sure_to_be_a_quadratic_one(power: int, seen: str) -
     ranking = drag(power)
     chosen = ranking.fits[0]
     assert chosen.added == ("quadratic-drag",)
-    place = other_law(ranking, chosen, NOMINAL)
-    assert (place.words if place else "") == seen
+    curve = curve_beside(ranking.problem, chosen.fit, NOMINAL)
+    assert curve is not None
+    assert (curve.place.words if curve.is_a_law else "") == seen
 
 
-def test_a_name_that_leaves_another_law_is_not_given_as_sure() -> None:
-    ranking = drag(2)
-    assert verdict.whole(ranking, ranking.fits[0]) == 1.0
-    assert verdict.whole(ranking, ranking.fits[0], another=True) == verdict.ANOTHER < 0.5
-
-
-def test_the_report_says_that_a_name_may_only_be_the_nearest() -> None:
+def test_a_name_beside_which_a_curve_is_seen_is_not_certain() -> None:
     runs = [recorded(seed, lambda w, _: -0.03 * (w / 90.0) ** 3) for seed in range(3)]
     said = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
-    assert [(e.name, e.probability <= verdict.ANOTHER) for e in said.effects] == [("quadratic-drag", True)]
-    assert any("a torque over speed explains most of what is left" in text for text in said.warnings)
-    assert any("viscous_friction went to zero" in text for text in said.warnings)
+    drag = next(e for e in said.account if e.name == "quadratic-drag")
+    assert drag.evidence.law > 0.0
+    assert drag.probability < 0.95

@@ -21,12 +21,14 @@ def test_no_spike_is_lost(length: int) -> None:
     assert (x[0], x[-1]) == (0.0, length - 1.0)
 
 
-def test_a_spike_of_a_recording_reaches_the_diagnosis() -> None:
+def test_a_burst_of_a_recording_is_drawn_and_a_spike_is_said() -> None:
     run = recorded(1, lambda w, _: -0.004 * np.sign(w), 6000)
     speed = run.signals["speed"].copy()
     place = 4003
-    speed[place] += 500.0
+    speed[place : place + 3] += 500.0
+    speed[1001] -= 500.0
     spiked = rwn.Recording(name="spiked", time=run.time, signals={**run.signals, "speed": speed})
     found = rwn.diagnose([spiked], rwn.Model(kind="dc", parameters=MOTOR))
     drawn = next(p for p in found.curves if p.slot == "response").traces[0]
-    assert np.max(drawn.y) == pytest.approx(speed[place])
+    assert np.max(drawn.y) == pytest.approx(np.max(speed))
+    assert [(f.kind, f.count) for f in found.findings] == [("spikes", 1)]

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 import made_up
+from rwn.decide.account import Remainder
 from rwn.fit.intervals import Estimate
 from rwn.report import text as words
 
@@ -44,10 +45,12 @@ def test_a_set_names_every_member() -> None:
     assert "cannot tell" in sentence
 
 
-def test_a_name_that_leaves_more_than_noise_is_only_the_nearest() -> None:
+def test_what_a_name_leaves_is_said_beside_it() -> None:
     found = made_up.found()
-    assert words.verdict_sentence(found).startswith("The model lacks ")
-    assert words.verdict_sentence(replace(found, whole=0.4)).startswith("The nearest name to what the model lacks is ")
+    assert "no name here" not in words.verdict_sentence(found)
+    left = replace(found, remainder=Remainder(share=0.12, error=3.0, signals=("speed",)))
+    assert words.verdict_sentence(left).startswith("The model lacks ")
+    assert "What they leave of the speed, 12 % of the mismatch, is not noise" in words.verdict_sentence(left)
 
 
 def test_a_loss_is_not_called_a_gain() -> None:

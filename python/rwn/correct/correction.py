@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 from rwn.correct.network import NetworkCorrection, proved_network
 from rwn.decide.decision import Decision
-from rwn.decide.refuse import removed_certainly
-from rwn.decide.verdict import is_certain
 from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
+from rwn.prove.heldout import heldout_error, helps
+from rwn.prove.proof import proved
 from rwn.simulate.run import Run
 
 NO_NETWORK = (
@@ -31,17 +31,14 @@ class Correction:
 
 
 def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: int) -> Correction:
-    """The model with what is named; where nothing is, with a network or the leading name if one is proved to help."""
+    """The model with what is stated; where nothing is, with a network or the leading names, what is best proved."""
     if decision.verdict == "unexplained":
         found = _without_a_name(decision, heldout, model, seed=seed)
         if found:
             return found
     warnings: tuple[str, ...] = ()
     if decision.other:
-        warnings = (
-            f"{decision.other.words} explains most of what is left: the name may only be the nearest of those that rwn "
-            "knows",
-        )
+        warnings = (f"{decision.other.words} explains most of what is left: it has no name here",)
     elif decision.verdict == "unexplained" and not model.drive.coefficients:
         warnings = (NO_NETWORK,)
     return Correction(decision=decision, model=fitted_model(decision.chosen.final, model), warnings=warnings)
@@ -50,21 +47,25 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
 def _without_a_name(
     decision: Decision, heldout: Sequence[Run], model: Model, *, seed: int
 ) -> Correction | None:
-    """A wavelet network that helps on recordings that were not fitted; without one, the name that leads."""
+    """A wavelet network or the leading names, whichever is better on recordings that were not fitted, if any helps."""
+    found: list[tuple[float, Correction]] = []
     proof = proved_network(decision.ranking, model, heldout, seed=seed)
     if proof:
         network, rows = proof
         by_network = replace(decision, ranking=network.ranking, chosen=network.chosen, rows=rows)
-        return Correction(
+        made = Correction(
             decision=by_network, model=fitted_model(network.chosen.final, network.model), network=network,
             stands_in=f"a wavelet network, {network.place.words}",
         )  # fmt: skip
-    leading = decision.leading
-    if leading and leading.chosen.added and is_certain(leading.rows):
-        names, part = " + ".join(leading.chosen.added), f"{removed_certainly(leading.rows):.0%}"
-        words = f"{names}, proved to remove {part} of the held-out squared error and not the whole"
-        return Correction(
-            decision=replace(leading, verdict=decision.verdict), model=fitted_model(leading.chosen.final, model),
-            stands_in=words,
-        )  # fmt: skip
-    return None
+        found.append((heldout_error(rows), made))
+    leading = decision.account.leading
+    if leading.added:
+        rows = proved(decision.ranking, leading, heldout, seed=seed)
+        if helps(rows):
+            names = " + ".join(leading.added)
+            made = Correction(
+                decision=replace(decision, chosen=leading, rows=rows), model=fitted_model(leading.final, model),
+                stands_in=f"{names}, which helps on what was not fitted and need not be what acts",
+            )  # fmt: skip
+            found.append((heldout_error(rows), made))
+    return min(found, key=lambda pair: pair[0])[1] if found else None

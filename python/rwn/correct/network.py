@@ -13,7 +13,6 @@ from functools import partial
 
 import numpy as np
 
-from rwn.decide.refuse import heldout_error
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.network import has_room, knowing, with_network
@@ -24,7 +23,7 @@ from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
-from rwn.prove.heldout import HeldoutRow
+from rwn.prove.heldout import HeldoutRow, helps
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
 
@@ -86,14 +85,7 @@ def proved_network(
         return (other.ranking, other.chosen.fit) if other else None
 
     rows = proved(made.ranking, made.chosen, heldout, seed=seed, again=again)
-    return (made, rows) if _helps(rows) else None
-
-
-def _helps(rows: Sequence[HeldoutRow]) -> bool:
-    """Whether some signal is certainly better on what was not fitted, and none certainly worse."""
-    gains = [r.gain_interval for r in rows if r.region == "all" and r.gain_interval is not None]
-    better, worse = any(low > 0.0 for low, _ in gains), any(high < 0.0 for _, high in gains)
-    return better and not worse and heldout_error(rows) < 1.0
+    return (made, rows) if helps(rows) else None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,51 +1,70 @@
-"""What a diagnosis comes to: the chosen explanation with its proof and verdict."""
+"""What a diagnosis comes to: the account of what acts, the explanation that it states, its proof and the verdict."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rwn.decide.other_law import other_law
-from rwn.decide.refuse import without_what_hurts
-from rwn.decide.verdict import Verdict, choose, is_certain, refused, verdict_of, verdict_without_a_name
+from rwn.decide.account import Account, Remainder, account, remainder
+from rwn.decide.other_law import curve_beside
+from rwn.decide.verdict import Verdict, verdict_of
+from rwn.fit.fit import Fit, fit
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.network_formula import Place
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.prove.heldout import HeldoutRow
-from rwn.prove.proof import proved
+from rwn.prove.proof import hurts, proved
 from rwn.simulate.run import Run
 
 
 @dataclass(frozen=True, kw_only=True)
 class Decision:
-    """An explanation with its verdict and proof."""
+    """The stated explanation with its verdict and proof."""
 
     ranking: Ranking
-    chosen: RankedFit  # what is named, or the nominal model
+    account: Account
+    chosen: RankedFit  # the effects that are stated together, or the nominal model
+    remainder: Remainder  # what it leaves
     verdict: Verdict
     rows: tuple[HeldoutRow, ...]
-    leading: Decision | None = None  # the explanation that led, where it is not named
-    other: Place | None = None  # where another law is seen in what the name leaves
+    other: Place | None = None  # where another law is seen in what the stated effects leave
 
 
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
-    """The explanation that is named, or none; proved on `heldout`, or by cross-validation."""
+    """What is stated, proved on `heldout` or by cross-validation.
 
-    def prove(r: RankedFit) -> tuple[HeldoutRow, ...]:
-        return proved(ranking, r, heldout, seed=seed)
+    Effects that certainly make recordings worse that were kept back are not stated.
+    """
+    found = account(ranking, heldout, model)
+    chosen = _together(ranking, found)
+    rows = proved(ranking, chosen, heldout, seed=seed)
+    if chosen.added and heldout and hurts(rows):
+        found, chosen = found.withdrawn(), ranking.nothing_missing
+        rows = proved(ranking, chosen, heldout, seed=seed)
+    left = remainder(ranking, chosen.final)
+    verdict = verdict_of(ranking, found, left)
+    curve = curve_beside(ranking.problem, chosen.fit, model) if chosen.added and left.signals else None
+    other = curve.place if curve is not None and curve.is_a_law else None
+    return Decision(
+        ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other
+    )
 
-    chosen = choose(ranking)
-    if heldout:
-        chosen = without_what_hurts(ranking.fits, chosen, prove)
-    rows = prove(chosen)
-    verdict = verdict_of(ranking, chosen, certain=is_certain(rows))
-    leading = end = Decision(ranking=ranking, chosen=chosen, verdict=verdict, rows=rows)
-    if chosen.added and (verdict != "missing-physics" or refused(ranking, chosen, rows)):
-        # a name that is not given is not shown or proved; it may still stand in for what has no name
-        nothing = ranking.nothing_missing
-        without = verdict if verdict == "unexplained" else verdict_without_a_name(ranking)
-        end = Decision(ranking=ranking, chosen=nothing, verdict=without, rows=prove(nothing))
-    if end.verdict == "missing-physics":
-        return replace(end, other=other_law(ranking, chosen, model))
-    return replace(end, leading=leading)
+
+def _together(ranking: Ranking, found: Account) -> RankedFit:
+    """The explanation by the stated effects alone."""
+    names = {e.name for e in found.stated}
+    known = next((r for r in ranking.fits if set(r.added) == names), None)
+    if known is not None:
+        return known
+    leading = found.leading
+    plain = _without_the_rest(ranking, leading.fit, names)
+    return replace(leading, fit=plain, final=plain)
+
+
+def _without_the_rest(ranking: Ranking, this: Fit, names: set[str]) -> Fit:
+    problem = ranking.problem
+    kept = tuple(n for n in this.added if n in names)
+    starts = {n: this.values_of(n) for n in kept}
+    return fit(problem, hypothesis(problem.prior, kept, problem.scales, starts, this.motor))

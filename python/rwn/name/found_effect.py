@@ -29,14 +29,16 @@ class FoundEffect:
     meaning: str = ""  # one sentence for people: "dry friction that does not depend on speed"
 
 
-def found_effects(ranking: Ranking, chosen: RankedFit) -> tuple[FoundEffect, ...]:
-    """The named effects with parameters, intervals and probability, the one that explains most first."""
+def found_effects(
+    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float]
+) -> tuple[FoundEffect, ...]:
+    """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts)."""
     final = chosen.final
     numbers, known = estimates(final, ranking.counted), final.hypothesis.table
     if ranking.problem.simulator.angle_per_position != 1.0:
         numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
     rows = []
-    for name in chosen.added:
+    for name, probability in probabilities.items():
         effect = known[name]
         parameters = {
             p.name: numbers[f"{name}.{p.name}"] for p in effect.parameters if f"{name}.{p.name}" in numbers
@@ -48,14 +50,13 @@ def found_effects(ranking: Ranking, chosen: RankedFit) -> tuple[FoundEffect, ...
             FoundEffect(
                 name=name,
                 equation=effect.mismatch,
-                probability=sum(r.probability for r in ranking.fits if name in r.added),
+                probability=probability,
                 parameters=parameters,
                 formula=effect.equation,
                 meaning=effect.meaning,
             )
         )
-    alone = {r.added[0]: r.fit.cost for r in ranking.fits if len(r.added) == 1}
-    return tuple(sorted(rows, key=lambda row: alone.get(row.name, np.inf)))
+    return tuple(rows)
 
 
 def coarse_speed(ranking: Ranking) -> FoundEffect | None:

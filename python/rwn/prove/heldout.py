@@ -142,6 +142,27 @@ def _rms(x: Array) -> float:
     return float(np.sqrt(np.nanmean(x**2))) if np.nanmax(np.abs(x)) < RAN_AWAY else float("inf")
 
 
+def heldout_error(rows: Sequence[HeldoutRow]) -> float:
+    """Squared error of the corrected against the refitted model, mean of signals; inf where it ran away.
+
+    Where an axis shows its position alone, which drifts for small reasons, the driving force counts as a signal too.
+    """
+    drifts = not any(r.signal == "speed" for r in rows)
+    shares = [
+        (r.corrected / r.refitted) ** 2
+        for r in rows
+        if r.region == "all" and r.corrected is not None and r.refitted > 0.0 and (drifts or r.unit != "%")
+    ]
+    return float(np.mean(shares)) if shares and np.isfinite(shares).all() else np.inf
+
+
+def helps(rows: Sequence[HeldoutRow]) -> bool:
+    """Whether some signal is certainly better on what was not fitted, and none certainly worse."""
+    gains = [r.gain_interval for r in rows if r.region == "all" and r.gain_interval is not None]
+    better, worse = any(low > 0.0 for low, _ in gains), any(high < 0.0 for _, high in gains)
+    return better and not worse and heldout_error(rows) < 1.0
+
+
 def gain_interval(before: Array, after: Array, *, seed: int, draws: int = DRAWS) -> tuple[float, float]:
     """95 % interval of 1 - rms(after)/rms(before) by circular block bootstrap.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -12,8 +11,9 @@ from rwn._core import __version__
 from rwn.correct.correction import Correction
 from rwn.decide import excitation
 from rwn.decide.next_experiment import separated_by
-from rwn.decide.verdict import Verdict, is_certain, rests_on_what_was_declared, whole
+from rwn.decide.verdict import Verdict
 from rwn.faults.fault import Fault
+from rwn.fit.prior_weight import BELIEVABLE
 from rwn.locate.dependence import laws
 from rwn.locate.regions import regions
 from rwn.model.model import Model
@@ -26,19 +26,6 @@ from rwn.report import figures
 from rwn.report.diagnosis import Alternative, Beneath, Diagnosis, Location
 from rwn.report.nominal_fit import nominal_fit
 from rwn.simulate.unknown_inputs import unknown_inputs
-
-NOT_TOLD_APART = 0.05  # of the chosen one's probability, from which another explanation is in its set
-
-
-def ambiguous(ranking: Ranking, chosen: RankedFit) -> tuple[RankedFit, ...]:
-    """The explanations that these recordings do not tell from the chosen one, itself first."""
-    same = [
-        r
-        for r in ranking.fits
-        if r.added and len(r.added) == len(chosen.added) and r.probability > NOT_TOLD_APART * chosen.probability
-    ]
-    others = [r for r in same if r is not chosen]
-    return (chosen, *others)[:4]
 
 
 def assemble(
@@ -56,14 +43,12 @@ def assemble(
         for r in problem.runs
     ]
     named = verdict == "missing-physics"
-    same = ambiguous(ranking, chosen) if named else ()
-    physics = found_effects(ranking, chosen) if chosen.added and named else ()
-    share = whole(ranking, chosen, certain=is_certain(rows), another=decision.other is not None)
-    physics = tuple(replace(e, probability=share * e.probability) for e in physics)
+    stated = decision.account.stated
+    physics = found_effects(ranking, chosen, {e.name: e.probability for e in stated}) if named else ()
     steps = coarse_speed(ranking)
     if steps and verdict in ("adequate", "missing-physics"):
         physics, verdict = (*physics, steps), "missing-physics"
-    names = tuple(dict.fromkeys([e.name for e in physics[:1]] + [_lead(r, chosen) for r in same[1:]]))
+    names = (stated[0].name, *stated[0].rivals) if stated else tuple(e.name for e in physics[:1])
     effects = (*(fault.found() for fault in faults), *physics)
     beneath = Beneath(verdict=verdict, set=names) if faults else None
     if faults:
@@ -93,22 +78,17 @@ def assemble(
         nominal_fit=nominal_fit(ranking, chosen, model),
         heldout=rows,
         curves=(*figures.plots(ranking, chosen, unknown, depends, linear=model.linear), *drawn),
-        warnings=(*_warnings(ranking, chosen, verdict, rows), *correction.warnings),
+        warnings=(*_warnings(ranking, chosen, rows), *correction.warnings),
         next_experiment=_next_experiment(ranking, verdict, names),
         adequate_probability=ranking.nothing_missing.probability,
-        whole=share if named else 1.0,
+        account=decision.account.effects,
+        remainder=decision.remainder,
         seed=seed,
         version=__version__,
         elapsed=elapsed,
         stand_in=correction.stands_in,
         corrected=correction.model,
     )
-
-
-def _lead(ranked: RankedFit, chosen: RankedFit) -> str:
-    """The name by which an explanation differs from the chosen one."""
-    own = [n for n in ranked.added if n not in chosen.added]
-    return own[0] if own else ranked.added[0]
 
 
 def _next_experiment(ranking: Ranking, verdict: Verdict, names: Sequence[str]) -> str:
@@ -126,18 +106,11 @@ def _does_not_run(ranking: Ranking) -> list[str]:
     return [f"the model as given does not run ({status}): {_core.simulation_advice(status)}" for status in failed]
 
 
-def _warnings(
-    ranking: Ranking, chosen: RankedFit, verdict: Verdict, rows: Sequence[HeldoutRow]
-) -> tuple[str, ...]:
+def _warnings(ranking: Ranking, chosen: RankedFit, rows: Sequence[HeldoutRow]) -> tuple[str, ...]:
     texts = _does_not_run(ranking)
     if chosen.added and rows and all(LEFT_OUT in r.recording for r in rows):
         texts.append(
             "no held-out recording was given: the proof is by cross-validation, each part simulated by fits without it"
-        )
-    if verdict == "missing-physics" and not ranking.left.at_the_floor:
-        texts.append(
-            f"something smaller is left over: the residual of the corrected model is coloured "
-            f"({ranking.left.effective:.0f} independent samples of {ranking.left.count})"
         )
     for signal, noise in ranking.weighted.noise.items():
         if noise.reflection:
@@ -150,11 +123,6 @@ def _warnings(
             "more effects at once were not tried, since the search had cost what it may: recordings of fewer samples, "
             "without the parts that say little, leave room for them"
         )
-    if rests_on_what_was_declared(ranking, chosen):
-        texts.append(
-            "without it the nominal model fits as well, "
-            f"{ranking.nothing_missing.fit.farthest_move:.0f} declared uncertainties off: the name rests on these"
-        )
     for f in ranking.at_a_limit[:1]:
         texts.append(
             f"{' + '.join(f.added)} fits better, but {', '.join(f.limits_met)} ran into a limit: there the law bends "
@@ -163,7 +131,7 @@ def _warnings(
     for u, value in zip(chosen.final.hypothesis.unknowns, chosen.final.minimum.values, strict=True):
         if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and "." not in u.name:
             off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
-            if off > 3.0:
-                moved = f"had to move by {off:.1f} times its declared uncertainty" if value > 0.0 else "went to zero"
-                texts.append(f"{u.name} {moved}")
+            if off > BELIEVABLE:
+                by = f"by {off:.1f} times what was declared" if value > 0.0 else "down to zero"
+                texts.append(f"data sheet and recordings contradict each other in {u.name}: it moved {by}")
     return tuple(texts)

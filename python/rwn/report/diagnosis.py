@@ -10,10 +10,12 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.decide.account import Acting, Remainder
 from rwn.decide.verdict import Verdict
 from rwn.locate.regions import Region
 from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
+from rwn.recording.inspection import Finding
 from rwn.report.nominal_fit import NominalFit
 
 Slot = Literal[
@@ -91,6 +93,18 @@ class Source:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Found:
+    """What the check of the recordings found; see rwn.recording.inspection."""
+
+    kind: str
+    recording: str
+    signals: tuple[str, ...]
+    count: int
+    words: str
+    done: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class Beneath:
     """What is said of the drive once the mistakes in its recordings are undone."""
 
@@ -108,6 +122,7 @@ class Diagnosis:
     set: tuple[str, ...] = ()  # names that these recordings cannot tell apart, the first is the first name
     beneath: Beneath | None = None  # where the verdict is recording-mistake
     alternatives: tuple[Alternative, ...] = ()
+    findings: tuple[Found, ...] = ()  # what the check of the recordings found
     location: Location = field(default_factory=Location)
     nominal_fit: NominalFit = field(default_factory=NominalFit)
     heldout: tuple[HeldoutRow, ...] = ()
@@ -115,7 +130,8 @@ class Diagnosis:
     warnings: tuple[str, ...] = ()
     next_experiment: str = ""
     adequate_probability: float | None = None  # that nothing is missing
-    whole: float = 1.0  # probability that what is named is all that is missing, by what it leaves; see NEAREST
+    account: tuple[Acting, ...] = ()  # the effects of the leading explanation, stated or not
+    remainder: Remainder = field(default_factory=Remainder)  # what the stated effects leave
     sources: tuple[Source, ...] = ()
     command: str = ""
     seed: int = 0
@@ -135,6 +151,14 @@ class Diagnosis:
     def from_json(cls, text: bytes | str) -> Diagnosis:
         """The inverse of `to_json`; raises `msgspec.ValidationError` with the path of what is wrong."""
         return msgspec.convert(msgspec.json.decode(text), cls, dec_hook=_decode_array)
+
+
+def as_found(findings: Sequence[Finding]) -> tuple[Found, ...]:
+    """The findings of a check as plain data."""
+    return tuple(
+        Found(kind=f.kind, recording=f.recording, signals=f.signals, count=f.count, words=f.words, done=f.done)
+        for f in findings
+    )
 
 
 def _without(diagnosis: Diagnosis, names: Sequence[str]) -> dict[str, Any]:

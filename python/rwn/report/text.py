@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rwn.decide.verdict import NEAREST
 from rwn.faults.fault import RECORDING
 from rwn.fit.intervals import Estimate
 from rwn.fit.prior_weight import BELIEVABLE
@@ -15,6 +14,7 @@ from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.report.diagnosis import Diagnosis
 
+SLIGHT = 0.005  # share of the mismatch that is not worth a sentence
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
     "V",
@@ -146,13 +146,20 @@ def verdict_sentence(found: Diagnosis) -> str:
 
 
 def _missing(found: Diagnosis) -> str:
-    lacks = "The model lacks" if found.whole > NEAREST else "The nearest name to what the model lacks is"
+    parts = [f"{_with_parameters(e)} (probability {likelihood(e.probability)})" for e in found.effects]
     if len(found.set) > 1:
         names = listing([plain_name(name) for name in found.set], "or")
-        return f"{lacks} {names}; these recordings cannot tell which.{_gain(found)}"
-    parts = [_with_parameters(effect) for effect in found.effects]
-    probability = min((effect.probability for effect in found.effects), default=0.0)
-    return f"{lacks} {listing(parts)} (probability {likelihood(probability)}).{_gain(found)}"
+        parts = [f"{names} (these recordings cannot tell which)", *parts[1:]]
+    return f"The model lacks {listing(parts)}.{_gain(found)}{_left(found)}"
+
+
+def _left(found: Diagnosis) -> str:
+    """What the stated effects leave, where it has structure."""
+    left = found.remainder
+    if not left.signals or left.share < SLIGHT:
+        return ""
+    where = listing(left.signals)
+    return f" What they leave of the {where}, {percent(left.share)} of the mismatch, is not noise and has no name here."
 
 
 def _with_parameters(effect: FoundEffect) -> str:

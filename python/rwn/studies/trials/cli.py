@@ -92,6 +92,25 @@ def score(
         reliability_plot(graded, plot)
 
 
+@app.command()
+def calibrate(
+    folders: Annotated[list[Path], typer.Argument(help="Development sets whose trials were run.", exists=True)],
+    results: Annotated[Path | None, typer.Option(help="As for score.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Write calibration.json here (default: print alone).")] = None,
+) -> None:
+    """Fit the probability that an effect acts to the evidence and answers of development trials."""
+    from rwn.studies.trials.calibrate import calibrated, commit, names_of, words, write
+
+    try:
+        what = f"{', '.join(f.name for f in folders)} at {commit()}"
+        found = calibrated(names_of(folders, results=results), what=what)
+        if out is not None:
+            write(found.calibration, out)
+    except (ValueError, OSError) as error:
+        _stop(error)
+    typer.echo(words(found))
+
+
 def _progress(done: int, count: int, name: str) -> None:
     typer.echo(f"{done}/{count} {name}", err=True)
 

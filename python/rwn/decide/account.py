@@ -1,0 +1,111 @@
+"""The account of a mismatch: which effects act, each with its probability and share, and what remains.
+
+Whether an effect acts and whether that is all are two questions: what remains takes no name away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rwn.decide.calibration import calibration
+from rwn.decide.evidence import Evidence, evidence
+from rwn.fit.fit import Fit
+from rwn.fit.problem import Problem
+from rwn.fit.residuals import join, structured, variance
+from rwn.model.model import Model
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
+from rwn.simulate.run import Run
+
+ACTS = 0.5  # probability from which an effect is stated: it is more likely there than not
+RIVAL = 0.05  # evidence against that of the leading explanation, from which a name is among those not told apart
+LARGEST_SET = 3  # names that are still an answer
+
+
+@dataclass(frozen=True, kw_only=True)
+class Acting:
+    """An effect of the leading explanation."""
+
+    name: str
+    probability: float  # that it acts
+    share: float  # of the removable squared error, that goes with it and not without it
+    evidence: Evidence
+    rivals: tuple[str, ...] = ()  # that may act in its place
+
+    @property
+    def together(self) -> float:
+        """Probability that it or one of its rivals acts."""
+        return min(self.probability * (1 + len(self.rivals)), max(self.probability, 0.99))
+
+    @property
+    def stated(self) -> bool:
+        """Whether it or a rival acts more likely than not."""
+        return self.together > ACTS
+
+
+@dataclass(frozen=True, kw_only=True)
+class Remainder:
+    """What an explanation leaves."""
+
+    share: float = 0.0  # of the removable squared error
+    error: float = 1.0  # mean squared error, in units of the noise
+    signals: tuple[str, ...] = ()  # in which it has structure: white noise has it in one of 100 such tests
+
+
+@dataclass(frozen=True, kw_only=True)
+class Account:
+    """Every effect of the leading explanation, the one that removes most first."""
+
+    effects: tuple[Acting, ...]
+    leading: RankedFit
+
+    @property
+    def stated(self) -> tuple[Acting, ...]:
+        """The effects that are stated."""
+        return tuple(e for e in self.effects if e.stated)
+
+    def withdrawn(self) -> Account:
+        """The account once recordings that were kept back have refused what it states."""
+        return replace(self, effects=tuple(replace(e, probability=0.0) if e.stated else e for e in self.effects))
+
+
+def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
+    """What acts, of the best explanation that has effects at all; empty where none was found."""
+    leading = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
+    found = evidence(ranking, leading, heldout, model)
+    rows = [
+        Acting(
+            name=name, probability=calibration().probability(e), share=float(np.clip(e.share, 0.0, 1.0)), evidence=e,
+            rivals=_rivals(ranking, leading, name),
+        )
+        for name, e in found.items()
+    ]  # fmt: skip
+    return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading)
+
+
+def _rivals(ranking: Ranking, leading: RankedFit, name: str) -> tuple[str, ...]:
+    """The names that explain nearly as much in the place of this one."""
+    others = set(leading.added) - {name}
+    return tuple(
+        next(iter(set(r.added) - others))
+        for r in ranking.fits
+        if len(r.added) == len(leading.added)
+        and others < set(r.added)
+        and name not in r.added
+        and r.score > leading.score + np.log(RIVAL)
+    )[: LARGEST_SET - 1]
+
+
+def remainder(ranking: Ranking, this: Fit) -> Remainder:
+    """What a fit leaves of the recordings that it was fitted to."""
+    problem = ranking.weighted
+    left, nothing = variance(problem, this), variance(problem, ranking.nothing_missing.final)
+    share = (left - 1.0) / (nothing - 1.0) if left > 1.0 and nothing > left else float(left > 1.0)
+    return Remainder(share=share, error=left, signals=_structured(problem, this))
+
+
+def _structured(problem: Problem, this: Fit) -> tuple[str, ...]:
+    return structured(join(problem, problem.residuals(this.vector, this.active)))

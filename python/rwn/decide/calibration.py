@@ -1,0 +1,69 @@
+"""From the evidence for an effect to the probability that it acts: a logistic regression fitted on development trials.
+
+`rwn trials calibrate` fits it and writes calibration.json beside this file, with what it was fitted on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib.resources import files
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.decide.evidence import Evidence
+
+Array = NDArray[np.float64]
+
+FEATURES = ("share", "unseen", "part", "drift", "certainty", "odds", "moved", "law", "left")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Calibration:
+    """P(acts) = 1 / (1 + exp(-(intercept + weights (f - mean) / deviation))); an unknown feature counts as its mean."""
+
+    intercept: float
+    weights: tuple[float, ...]
+    means: tuple[float, ...]
+    deviations: tuple[float, ...]
+    fitted_on: str = ""  # the sets with their seeds, how many names of how many trials, and the commit
+
+    def probability(self, found: Evidence) -> float:
+        """That the effect acts."""
+        z = (features(found) - np.array(self.means)) / np.array(self.deviations)
+        return float(1.0 / (1.0 + np.exp(-(self.intercept + float(np.array(self.weights) @ np.nan_to_num(z))))))
+
+
+def features(found: Evidence) -> Array:
+    """The evidence on the scales on which it is added up, (9,); NaN: unknown."""
+    known = asdict(found)
+    return np.array([_SCALES[name](known[name]) if known[name] is not None else np.nan for name in FEATURES])
+
+
+def _log_odds(share: float) -> float:
+    """Of a share, as known to half a per cent."""
+    share = float(np.clip(share, 0.005, 0.995))
+    return float(np.log(share / (1.0 - share)))
+
+
+_SCALES: dict[str, Callable[[float], float]] = {
+    "share": _log_odds,
+    "unseen": _log_odds,
+    "part": _log_odds,
+    "drift": lambda x: float(np.log10(np.clip(x, 1e-3, 2.0))),
+    "certainty": lambda x: float(np.log10(np.clip(x, 0.1, 1e4))),
+    "odds": lambda x: float(np.arcsinh(np.clip(x, -100.0, 1e4))),
+    "moved": lambda x: float(np.log1p(np.clip(x, 0.0, 1e3))),
+    "law": lambda x: float(np.log10(np.clip(x, 1e-4, 10.0))),
+    "left": lambda x: float(np.log10(np.clip(x, 1.0, 1e6))),
+}
+
+
+@cache
+def calibration() -> Calibration:
+    """The one that comes with rwn."""
+    text = files("rwn.decide").joinpath("calibration.json").read_bytes()
+    return msgspec.json.decode(text, type=Calibration)

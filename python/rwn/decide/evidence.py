@@ -1,0 +1,168 @@
+"""What tells an effect that acts from a mimic: what it removes, also unseen, and whether its strength stays the same.
+
+A mimic absorbs what has another cause: it removes little beside the other effects, or on the samples that it was fitted
+to alone, and its strength drifts from one part of the recordings to another (../shared/reviews/decision-study.md has
+measured these features).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.decide.other_law import curve_beside
+from rwn.fit.budget import one_stage
+from rwn.fit.fit import Fit, fit, refit
+from rwn.fit.hypothesis import hypothesis
+from rwn.fit.intervals import deviations
+from rwn.fit.problem import Problem
+from rwn.fit.residuals import statistics, variance, variances
+from rwn.model.model import Model
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
+from rwn.parallel import side_by_side
+from rwn.simulate.run import Run
+
+Array = NDArray[np.float64]
+
+ITERATIONS = 8  # of a fit that begins near its end
+PARTS = 16  # of the work of a stage, for each of these fits
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """Features of one effect of an explanation; None where the recordings do not tell."""
+
+    share: float  # of what the nominal model leaves above the noise, that goes without the effect; mean of signals
+    unseen: float  # the same on the halves that were not fitted, and on recordings kept back
+    part: float  # of what the other effects leave above the noise, that goes with it; mean of signals
+    drift: float | None  # relative difference of its strength from half to half
+    certainty: float  # strength in units of its standard deviation
+    odds: float  # logarithm of the evidence for its explanation against the best without it
+    moved: float  # farthest move of a declared parameter, in declared deviations
+    law: float  # what a curve over one state explains beside all effects, in units of what goes with this one
+    left: float  # squared error that its explanation leaves, in units of the noise
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Half:
+    """One half of what was recorded, and the explanation fitted to it alone."""
+
+    problem: Problem
+    fit: Fit
+
+
+def evidence(
+    ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model
+) -> dict[str, Evidence]:
+    """Features of every effect of the leading explanation."""
+    problem, this = ranking.weighted, leading.final
+    after, nothing = variances(problem, this), variances(problem, ranking.nothing_missing.final)
+    chance = float(np.sqrt(2.0 / max(statistics(problem, this).effective, 2.0)))  # deviation of a mean square
+    curve = None if ranking.left.at_the_floor else curve_beside(ranking.problem, leading.fit, model)
+    whole = variance(problem, this)
+    halves = _halves(problem)
+    seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(this, half)), halves)
+    judges = [replace(problem, runs=tuple(r.following_nothing() for r in heldout))] if heldout else []
+
+    def one(name: str) -> Evidence:
+        without = _without(ranking, leading, name)
+        before = variances(problem, without)
+        parts = [_refit(without, half) for half in halves]
+        pairs = [(other, part, mine.fit) for other, part, mine in zip(halves[::-1], parts, seen, strict=True)]
+        pairs += [(judge, without, this) for judge in judges]
+        unseen = [_share(variances(on, a), variances(on, b), nothing, chance) for on, a, b in pairs]
+        strength, spread = _strength(this, problem, name)
+        alone = max(variance(problem, without) - whole, chance)
+        return Evidence(
+            share=_share(before, after, nothing, chance),
+            unseen=float(np.mean(unseen)),
+            part=_share(before, after, before, chance),
+            drift=_drift(seen, name),
+            certainty=abs(strength) / max(spread, 1e-12 * abs(strength), 1e-300),
+            odds=_odds(ranking, leading, name),
+            moved=this.farthest_move,
+            law=max(curve.gained, 0.0) / alone if curve else 0.0,
+            left=float(np.mean([max(v, 1.0) for v in after.values()])),
+        )
+
+    return {name: one(name) for name in leading.added}
+
+
+def _share(
+    before: Mapping[str, float], after: Mapping[str, float], whole: Mapping[str, float], chance: float
+) -> float:
+    """Squared error that goes from `before` to `after`, of what `whole` has above the noise; mean of signals.
+
+    Signals in which nothing is off say nothing, unless that is all of them. A position that drifts in free run is one
+    signal among others, however far it drifts.
+    """
+    off = [s for s in whole if whole[s] > 1.0 + 2.0 * chance and s in before] or [s for s in whole if s in before]
+    shares = [
+        (before[s] - after[s]) / max(whole[s] - 1.0, before[s] - 1.0, chance) if np.isfinite(after[s]) else -1.0
+        for s in off
+    ]
+    return float(np.mean([np.clip(x, -1.0, 1.0) if np.isfinite(x) else 1.0 for x in shares]))
+
+
+def _odds(ranking: Ranking, leading: RankedFit, name: str) -> float:
+    return leading.score - max(r.score for r in ranking.fits if name not in r.added)
+
+
+def _without(ranking: Ranking, leading: RankedFit, name: str) -> Fit:
+    """The explanation without one of its effects: as it was fitted, or fitted from where it ended."""
+    others = tuple(n for n in leading.added if n != name)
+    known = next((r.final for r in ranking.fits if set(r.added) == set(others)), None)
+    if known is not None:
+        return known
+    problem, this = ranking.weighted, leading.final
+    starts = {n: this.values_of(n) for n in others}
+    begun = hypothesis(problem.prior, others, problem.scales, starts, this.motor)
+    return fit(problem, begun, max_iterations=ITERATIONS, share=one_stage(problem.work) / PARTS)
+
+
+def _refit(this: Fit, half: Problem) -> Fit:
+    return refit(this, half, iterations=ITERATIONS, share=one_stage(half.work) / PARTS)
+
+
+def _drift(halves: Sequence[_Half], name: str) -> float | None:
+    """Difference of the strength between halves, relative to their mean; None where one does not see the effect."""
+    found = [_strength(half.fit, half.problem, name) for half in halves]
+    if any(spread > 0.5 * abs(strength) for strength, spread in found):
+        return None
+    (a, _), (b, _) = found
+    return float(2.0 * abs(a - b) / max(abs(a) + abs(b), 1e-300))
+
+
+def _strength(this: Fit, problem: Problem, name: str) -> tuple[float, float]:
+    """Strength of an effect with its standard deviation: the best known of its parameters that say how strong it is."""
+    effect = this.hypothesis.table[name]
+    wanted = [p.name for p in effect.parameters if p.strength] or [effect.parameters[0].name]
+    spreads = deviations(this, statistics(problem, this))
+    found = [
+        (float(value), float(spread))
+        for u, value, spread in zip(this.hypothesis.unknowns, this.minimum.values, spreads, strict=True)
+        if u.name in {f"{name}.{p}" for p in wanted}
+    ]
+    return max(found, key=lambda pair: abs(pair[0]) / max(pair[1], 1e-300), default=(0.0, np.inf))
+
+
+def _halves(problem: Problem) -> list[Problem]:
+    """Every second recording and the others; of a lone one its earlier and its later half."""
+    runs = problem.runs
+    if len(runs) > 1:
+        return [replace(problem, runs=runs[k::2]) for k in range(2)]
+    (run,) = runs
+    middle = run.time.size // 2
+    return [replace(problem, runs=(_compared(run, part),)) for part in (slice(0, middle), slice(middle, None))]
+
+
+def _compared(run: Run, part: slice) -> Run:
+    """The whole run, compared in one part alone: the motion there goes on from what was before."""
+    outside = np.full(run.time.size, True)
+    outside[part] = False
+    missing = {s: outside | run.missing.get(s, np.zeros(outside.size, dtype=bool)) for s in run.recorded}
+    return replace(run, missing=missing)

@@ -1,0 +1,144 @@
+"""Fits the probability that an effect acts to trials whose answers are known (rwn.decide.calibration)."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.decide.calibration import FEATURES, Calibration, features
+from rwn.report.diagnosis import Diagnosis
+from rwn.studies.trials.grade import load_answers
+from rwn.studies.trials.run import out_of, trial_folders
+
+Array = NDArray[np.float64]
+
+RIDGE = 1.0  # inverse variance of the weights' prior, per standard deviation of a feature
+FOLDS = 10  # of the cross-validation; all names of a trial are in one
+
+
+@dataclass(frozen=True, kw_only=True)
+class Names:
+    """The effects of the leading explanations: features (n, 9), whether each acts (n,), and its trial (n,)."""
+
+    features: Array
+    acts: Array
+    trial: NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Calibrated:
+    """A calibration, and the Brier score of names whose trials it was not fitted to."""
+
+    calibration: Calibration
+    names: int
+    trials: int
+    acting: int
+    brier: float
+    reliability: tuple[tuple[float, float, int, float], ...]  # from, to, names, share of them that act
+
+
+def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
+    """Every effect of the leading explanations of all trials that have a diagnosis."""
+    rows, acts, trials = [], [], []
+    count = 0
+    for folder in folders:
+        _, answers = load_answers(folder)
+        for trial in trial_folders(folder):
+            found = out_of(trial, results / folder.name if results and len(folders) > 1 else results) / "diagnosis.json"
+            if trial.name not in answers or not found.exists():
+                continue
+            answer = answers[trial.name]
+            true = {e["name"] for e in answer["effects"]} | set(answer.get("equivalent", ()))
+            for e in Diagnosis.from_json(found.read_bytes()).account:
+                rows.append(features(e.evidence))
+                acts.append(float(answer["verdict"] == "missing-physics" and e.name in true))
+                trials.append(count)
+            count += 1
+    return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
+
+
+def calibrated(names: Names, *, what: str) -> Calibrated:
+    """The calibration by all names; its reliability by those of trials that were left out.
+
+    Raises ValueError where there are too few names to learn from.
+    """
+    if names.acts.size < 50 or not 5 <= names.acts.sum() <= names.acts.size - 5:
+        raise ValueError(f"{names.acts.size} names, {names.acts.sum():.0f} of which act, are too few to calibrate on")
+    order = np.random.default_rng(0).permutation(names.trial.max() + 1)
+    fold = order[names.trial] % FOLDS
+    unseen = np.empty(names.acts.size)
+    for k in range(FOLDS):
+        part = _fitted(names.features[fold != k], names.acts[fold != k], what)
+        unseen[fold == k] = [_probability(part, f) for f in names.features[fold == k]]
+    edges = np.array([0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 + 1e-9])
+    bins = [(a, b, (unseen >= a) & (unseen < b)) for a, b in pairwise(edges)]
+    return Calibrated(
+        calibration=_fitted(names.features, names.acts, what),
+        names=names.acts.size,
+        trials=int(np.unique(names.trial).size),
+        acting=int(names.acts.sum()),
+        brier=float(np.mean((unseen - names.acts) ** 2)),
+        reliability=tuple(
+            (float(a), float(min(b, 1.0)), int(here.sum()), float(names.acts[here].mean()) if here.any() else np.nan)
+            for a, b, here in bins
+        ),
+    )
+
+
+def write(found: Calibration, path: Path) -> None:
+    """calibration.json."""
+    path.write_bytes(msgspec.json.format(msgspec.json.encode(asdict(found)), indent=1) + b"\n")
+
+
+def commit() -> str:
+    """The commit of the working tree, empty outside of one."""
+    done = subprocess.run(["git", "describe", "--always", "--dirty"], capture_output=True, text=True, check=False)
+    return done.stdout.strip()
+
+
+def _fitted(x: Array, y: Array, what: str) -> Calibration:
+    """Logistic regression with a ridge, Newton's method."""
+    means, spreads = np.nanmean(x, axis=0), np.maximum(np.nanstd(x, axis=0), 1e-9)
+    z = np.nan_to_num((x - means) / spreads)
+    design = np.column_stack([np.ones(len(z)), z])
+    penalty = RIDGE * np.diag([0.0, *np.ones(z.shape[1])])
+    weights = np.zeros(design.shape[1])
+    for _ in range(100):
+        p = 1.0 / (1.0 + np.exp(-np.clip(design @ weights, -40.0, 40.0)))
+        slope = design.T @ (y - p) - penalty @ weights
+        curvature = (design * (p * (1.0 - p))[:, None]).T @ design + penalty + 1e-9 * np.eye(len(weights))
+        step = np.linalg.solve(curvature, slope)
+        weights = weights + step * min(1.0, 2.0 / max(float(np.max(np.abs(step))), 1e-300))
+        if np.max(np.abs(step)) < 1e-10:
+            break
+    return Calibration(
+        intercept=float(weights[0]), weights=tuple(map(float, weights[1:])), means=tuple(map(float, means)),
+        deviations=tuple(map(float, spreads)), fitted_on=what,
+    )  # fmt: skip
+
+
+def _probability(found: Calibration, x: Array) -> float:
+    z = np.nan_to_num((x - np.array(found.means)) / np.array(found.deviations))
+    return float(1.0 / (1.0 + np.exp(-(found.intercept + np.array(found.weights) @ z))))
+
+
+def words(found: Calibrated) -> str:
+    """What was fitted and how good it is, for people."""
+    lines = [
+        f"{found.names} names of {found.trials} trials, {found.acting} of which act; Brier score of trials left out: "
+        f"{found.brier:.3f}",
+        *(
+            f"  stated {a:.2f} to {b:.2f}: {n} names, {share:.0%} act" if n else f"  stated {a:.2f} to {b:.2f}: none"
+            for a, b, n, share in found.reliability
+        ),
+        "weight per standard deviation of a feature: "
+        + ", ".join(f"{n} {w:+.2f}" for n, w in zip(FEATURES, found.calibration.weights, strict=True)),
+    ]
+    return "\n".join(lines)

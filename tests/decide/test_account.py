@@ -1,0 +1,98 @@
+"""The account of what acts, and the verdict that follows from it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.decide.account import Account, Acting, Remainder, account, remainder
+from rwn.decide.calibration import FEATURES, calibration, features
+from rwn.decide.evidence import Evidence
+from rwn.decide.verdict import verdict_of
+from rwn.fit.preparation import prepare
+from rwn.name.forward import rank
+from rwn.name.ranking import Ranking
+
+DEMO = Path(rwn.__file__).parent / "demo"
+MODEL = rwn.read_model(DEMO / "model.toml")
+CERTAIN = Evidence(
+    share=0.999, unseen=0.99, part=0.999, drift=0.003, certainty=200.0, odds=5000.0, moved=0.5, law=1e-4, left=1.0
+)
+MIMIC = Evidence(share=0.03, unseen=0.01, part=0.2, drift=1.0, certainty=3.0, odds=0.5, moved=3.0, law=1.0, left=30.0)
+
+
+@pytest.fixture(scope="module")
+def ranking() -> Ranking:
+    """Of the demo, which lacks Coulomb friction."""
+    recording = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
+    names = ["coulomb-friction", "asymmetric-friction", "quadratic-drag"]
+    return rank(prepare([recording], MODEL), progress=lambda *_: None, names=names)
+
+
+def test_what_acts_is_stated_and_its_elaboration_is_not(ranking: Ranking) -> None:
+    found = account(ranking, [], MODEL)
+    assert [e.name for e in found.stated] == ["coulomb-friction"]
+    (acting,) = found.stated
+    assert acting.probability > 0.9
+    assert acting.share > 0.9
+    assert acting.evidence.drift is not None
+    assert acting.evidence.drift < 0.1
+
+
+def test_what_was_kept_back_may_withdraw_a_name(ranking: Ranking) -> None:
+    found = account(ranking, [], MODEL)
+    assert found.withdrawn().stated == ()
+    assert len(found.withdrawn().effects) == len(found.effects)
+
+
+def test_the_remainder_is_that_of_the_nominal_model_or_noise(ranking: Ranking) -> None:
+    nothing = remainder(ranking, ranking.nothing_missing.final)
+    assert nothing.share == pytest.approx(1.0)
+    assert nothing.signals
+    named = remainder(ranking, account(ranking, [], MODEL).leading.final)
+    assert named.share < 0.01
+
+
+def test_the_verdict_follows_from_what_is_stated_and_what_is_left(ranking: Ranking) -> None:
+    leading = account(ranking, [], MODEL).leading
+
+    def of(probability: float, left: Remainder) -> str:
+        acting = Acting(name="coulomb-friction", probability=probability, share=0.5, evidence=CERTAIN)
+        return verdict_of(ranking, Account(effects=(acting,), leading=leading), left)
+
+    noise, structure = Remainder(), Remainder(share=1.0, error=4.0, signals=("speed",))
+    assert of(0.9, structure) == "missing-physics", "what remains takes no name away"
+    assert of(0.2, structure) == "unexplained"
+    assert of(0.2, noise) == "adequate"
+    assert of(0.2, replace(structure, error=1.001)) == "adequate", "structure of no size"
+
+
+def test_names_not_told_apart_are_stated_together() -> None:
+    alone = Acting(name="a", probability=0.4, share=0.5, evidence=CERTAIN)
+    assert not alone.stated
+    assert replace(alone, rivals=("b",)).stated
+    assert replace(alone, rivals=("b", "c")).together <= 0.99
+
+
+def test_the_calibration_tells_what_acts_from_a_mimic() -> None:
+    assert calibration().probability(CERTAIN) > 0.95
+    assert calibration().probability(MIMIC) < 0.1
+    assert calibration().fitted_on
+
+
+def test_what_is_unknown_counts_as_usual() -> None:
+    usual = calibration().means[FEATURES.index("drift")]
+    known = replace(CERTAIN, drift=float(10.0**usual))
+    assert calibration().probability(replace(CERTAIN, drift=None)) == pytest.approx(calibration().probability(known))
+
+
+def test_no_evidence_is_out_of_scale() -> None:
+    wild = Evidence(
+        share=-np.inf, unseen=np.inf, part=0.0, drift=0.0, certainty=np.inf, odds=-np.inf, moved=np.inf, law=np.inf,
+        left=np.inf,
+    )  # fmt: skip
+    assert np.isfinite(features(wild)).all()

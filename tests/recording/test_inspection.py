@@ -1,0 +1,71 @@
+"""What the check of a recording finds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from rwn.recording.inspection import inspected
+from rwn.recording.recording import Recording
+
+Array = NDArray[np.float64]
+
+N = 4000
+
+
+def _recording(signals: Mapping[str, Array]) -> Recording:
+    time = 1e-3 * np.arange(N)
+    voltage = 6.0 * np.sign(np.sin(3.0 * time))
+    return Recording(name="run", time=time, signals={"voltage": voltage, **signals})
+
+
+@pytest.fixture
+def speed() -> Array:
+    noise = np.random.default_rng(1).standard_normal(N)
+    return 100.0 * np.sin(2.0 * np.arange(N) * 1e-3) + 0.1 * noise
+
+
+def test_a_clean_signal_is_left_as_it_is(speed: Array) -> None:
+    found = inspected([_recording({"speed": speed})])
+    assert found.findings == ()
+    assert np.array_equal(found.recordings[0].signals["speed"], speed)
+
+
+def test_spikes_are_found_left_out_and_said(speed: Array) -> None:
+    at = [50, 700, 701, 1500, 3000]
+    speed[at] = [250.0, 0.0, -250.0, 0.0, 250.0]
+    found = inspected([_recording({"speed": speed})])
+    lost = found.recordings[0].missing["speed"]
+    assert set(np.flatnonzero(lost)) >= {50, 1500, 3000}
+    assert lost.sum() <= len(at)
+    assert found.findings[0].kind == "spikes"
+    assert "speed" in found.findings[0].words
+    assert np.abs(np.asarray(found.recordings[0].signals["speed"])[[50, 1500, 3000]]).max() < 101.0
+
+
+def test_a_signal_that_jumps_often_has_no_spikes(speed: Array) -> None:
+    speed[::20] += 30.0
+    assert inspected([_recording({"speed": speed})]).findings == ()
+
+
+def test_held_samples_are_found(speed: Array) -> None:
+    held = np.repeat(speed[::4], 4)
+    found = inspected([_recording({"speed": held})])
+    assert [f.kind for f in found.findings] == ["held"]
+    assert found.recordings[0].missing["speed"].mean() == pytest.approx(0.75, abs=0.01)
+
+
+def test_a_clipped_signal_is_found(speed: Array) -> None:
+    found = inspected([_recording({"speed": np.clip(speed, -60.0, 60.0)})])
+    assert [f.kind for f in found.findings] == ["clipping"]
+    lost = found.recordings[0].missing["speed"]
+    assert np.abs(speed[lost]).min() > 59.0
+
+
+def test_counts_at_standstill_are_neither_held_nor_clipped() -> None:
+    rng = np.random.default_rng(2)
+    counts = np.round(20.0 * np.maximum(np.sin(3e-3 * np.arange(N)), 0.0) + 0.3 * rng.standard_normal(N))
+    assert inspected([_recording({"speed": 0.5 * counts})]).findings == ()
