@@ -59,6 +59,7 @@ PYBIND11_MODULE(_plant, m, pybind11::mod_gil_not_used()) {
                        double fineness) { return Plant(parameters_from(values), sample_time, voltage_scale, substeps, fineness); }),
            "parameters"_a, "sample_time"_a, "voltage_scale"_a, "substeps"_a, "fineness"_a)
       .def("step", &Plant::step, "voltage"_a)
+      .def("wait", &Plant::wait)
       .def("sample", [](const Plant& plant) { return row_of(plant.sample()); })
       .def_property_readonly("substeps", &Plant::substeps);
 }

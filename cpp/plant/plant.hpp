@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plant/plant_parameters.hpp"
+#include "plant/wander.hpp"
 
 namespace rwn {
 
@@ -30,10 +31,12 @@ class Plant {
   PlantSample sample() const;
   /// Commands `voltage` from now on and advances by one sample time.
   void step(double voltage);
+  /// One sample time with the power stage off and the rotor held: time goes on, nothing moves.
+  void wait();
   int substeps() const { return substeps_; }
 
  private:
-  enum Index : std::size_t { current, speed, position, load_speed, load_position, bristle, heat, lagged, size };
+  enum Index : std::size_t { current, speed, position, load_speed, load_position, bristle, heat, lagged, absorber_speed, absorber_position, size };
   using State = std::array<double, size>;
   enum class Contact { backward = -1, sticks = 0, forward = 1, frictionless = 2 };
 
@@ -44,8 +47,10 @@ class Plant {
   double fastest_rate(double voltage_scale) const;
   double applied(double command) const;
   Electrics electrics(const State& x, double t) const;
-  double friction_level(const State& x, double torque, double direction) const;
+  double friction_level(const State& x, double t, double torque, double direction) const;
   double shaft_torque(const State& x) const;
+  double absorber_torque(const State& x) const;
+  double rotor_inertia() const { return p_.inertia - p_.load_inertia - p_.absorber_inertia; }
   double loads(const State& x, double t) const;
   State derivative(const State& x, double t) const;
   State runge_kutta(const State& x, double t, double h) const;
@@ -58,6 +63,7 @@ class Plant {
   PlantParameters p_;
   double sample_time_;
   int substeps_;
+  Wander wander_;
   bool two_mass_, lugre_, dry_;
   std::size_t whole_delay_;
   double fraction_delay_;
