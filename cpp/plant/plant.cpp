@@ -189,7 +189,7 @@ void Plant::wait() {
   ++row_;
 }
 
-void Plant::step(double voltage) {
+void Plant::step(double voltage, std::span<PlantSample> seen) {
   const auto ring = static_cast<long long>(commands_.size());
   commands_[static_cast<std::size_t>(row_ % ring)] = voltage;
   const auto command = [&](long long row) { return row < 0 ? 0.0 : commands_[static_cast<std::size_t>(row % ring)]; };
@@ -199,13 +199,19 @@ void Plant::step(double voltage) {
   const double switches = begin + fraction_delay_;
   wander_.extend(end);
 
-  std::array<double, 5> edges{begin, switches, p_.load_start, p_.load_end, end};
-  for (double& edge : edges) edge = std::clamp(edge, begin, end);
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t k = 0; k + 1 < edges.size(); ++k) {
-    const double middle = 0.5 * (edges[k] + edges[k + 1]);
+  limit_ = std::max(p_.voltage_limit - p_.supply_resistance * std::abs(x_[current]), 0.0);
+
+  edges_.assign({begin, switches, p_.load_start, p_.load_end, end});
+  const double apart = seen.empty() ? sample_time_ : sample_time_ / double(seen.size());
+  for (std::size_t k = 1; k < seen.size(); ++k) edges_.push_back(begin + double(k) * apart);
+  for (double& edge : edges_) edge = std::clamp(edge, begin, end);
+  std::sort(edges_.begin(), edges_.end());
+  std::size_t next = 0;
+  for (std::size_t k = 0; k + 1 < edges_.size(); ++k) {
+    while (next < seen.size() && begin + double(next) * apart <= edges_[k]) seen[next++] = sample();
+    const double middle = 0.5 * (edges_[k] + edges_[k + 1]);
     loaded_ = p_.load_torque != 0.0 && middle > p_.load_start && middle < p_.load_end;
-    segment(edges[k], edges[k + 1], command(middle < switches ? newest - 1 : newest));
+    segment(edges_[k], edges_[k + 1], command(middle < switches ? newest - 1 : newest));
   }
   ++row_;
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "plant/plant_parameters.hpp"
@@ -30,7 +31,9 @@ class Plant {
   /// What is measured now, before a new voltage acts.
   PlantSample sample() const;
   /// Commands `voltage` from now on and advances by one sample time.
-  void step(double voltage);
+  void step(double voltage) { step(voltage, {}); }
+  /// The same, and fills `seen` with what is measured at as many instants evenly over it, the first at its beginning.
+  void step(double voltage, std::span<PlantSample> seen);
   /// One sample time with the power stage off and the rotor held: time goes on, nothing moves.
   void wait();
   int substeps() const { return substeps_; }
@@ -70,11 +73,13 @@ class Plant {
   State x_{};
   Contact contact_ = Contact::frictionless;
   double voltage_ = 0.0;       // at the terminals, during the present step
+  double limit_ = 0.0;         // of that voltage, during the present step
   double slope_ = 0.0;         // of that voltage, where the driver's slew rate limits it
   double voltage_time_ = 0.0;  // when voltage_ held
   bool loaded_ = false;        // inside the window of the load disturbance
   long long row_ = 0;
   std::vector<double> commands_;  // ring of the last whole_delay_ + 2 commands
+  std::vector<double> edges_;     // instants of the present step where something changes or is looked at
 };
 
 }  // namespace rwn

@@ -17,8 +17,7 @@ double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
 double Plant::applied(double command) const {
   double v = command * (1.0 - p_.compression * command * command);
   v = sign(v) * std::max(std::abs(v) - p_.deadzone, 0.0);
-  const double limit = std::max(p_.voltage_limit - p_.supply_resistance * std::abs(x_[current]), 0.0);
-  return std::clamp(v, -limit, limit);
+  return std::clamp(v, -limit_, limit_);
 }
 
 Plant::Electrics Plant::electrics(const State& x, double t) const {
