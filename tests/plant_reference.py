@@ -33,6 +33,7 @@ class Machine:
     braking: Callable[..., float] = zero  # N m
     drop: Callable[..., float] = zero  # V
     flux: Callable[..., float] = one  # factor of Kt, Ke
+    magnet: Callable[..., float] = one  # another, of (time, current, speed, angle, *extra)
     inductance: Callable[..., float] = one  # factor of L
     warmth: Callable[..., float] = one  # factor of R, of (time, current, speed, angle, *extra)
     inertia: Callable[[float], tuple[float, float]] = lambda _: (0.0, 0.0)  # added J(theta) and its slope
@@ -72,7 +73,7 @@ def run(motor: dict[str, float], machine: Machine, voltage: Array, rate: float) 
 
     def slope(t: float, x: Array, v: float) -> list[float]:
         i, w, th, *rest = x
-        flux = machine.flux(t, i, w, th)
+        flux = machine.flux(t, i, w, th) * machine.magnet(t, i, w, th, *rest)
         resistance = R * machine.warmth(t, i, w, th, *rest)
         di = (v - resistance * i - Kt * flux * w - machine.drop(t, i, w, th)) / (
             L * machine.inductance(t, i, w, th)

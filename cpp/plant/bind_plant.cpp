@@ -43,6 +43,14 @@ py::array_t<double> sampled(const std::map<std::string, double>& values, const A
   return out;
 }
 
+std::vector<std::array<double, plant_sample_width>> watched(Plant& plant, double voltage, std::size_t instants) {
+  std::vector<PlantSample> seen(instants);
+  plant.step(voltage, seen);
+  std::vector<std::array<double, plant_sample_width>> rows;
+  for (const PlantSample& one : seen) rows.push_back(row_of(one));
+  return rows;
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_plant, m, pybind11::mod_gil_not_used()) {
@@ -58,7 +66,11 @@ PYBIND11_MODULE(_plant, m, pybind11::mod_gil_not_used()) {
       .def(py::init([](const std::map<std::string, double>& values, double sample_time, double voltage_scale, int substeps,
                        double fineness) { return Plant(parameters_from(values), sample_time, voltage_scale, substeps, fineness); }),
            "parameters"_a, "sample_time"_a, "voltage_scale"_a, "substeps"_a, "fineness"_a)
-      .def("step", &Plant::step, "voltage"_a)
+      .def("step", py::overload_cast<double>(&Plant::step), "voltage"_a)
+      .def("step", &watched, "voltage"_a, "instants"_a,
+           "The same; returns (current, speed, position, sensed current, sensed speed, temperature rise) at `instants` even\n"
+           "places of the step, the first at its beginning.")
+      .def("wait", &Plant::wait)
       .def("sample", [](const Plant& plant) { return row_of(plant.sample()); })
       .def_property_readonly("substeps", &Plant::substeps);
 }

@@ -17,16 +17,20 @@ double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
 }  // namespace
 
 Plant::Plant(const PlantParameters& parameters, double sample_time, double voltage_scale, int substeps, double fineness)
-    : p_(parameters), sample_time_(sample_time) {
+    : p_(parameters),
+      sample_time_(sample_time),
+      wander_(parameters.wander_torque, parameters.wander_time, parameters.wander_seed) {
   if (!(sample_time > 0.0) || substeps < 1 || !(fineness > 0.0)) {
     throw std::invalid_argument("plant: sample time, substeps and fineness must be positive");
   }
-  if (!(p_.inductance > 0.0) || !(p_.inertia > p_.load_inertia + std::abs(p_.inertia_variation)) || !(p_.delay >= 0.0)) {
+  const double elsewhere = p_.load_inertia + p_.absorber_inertia + std::abs(p_.inertia_variation);
+  if (!(p_.inductance > 0.0) || !(p_.inertia > elsewhere) || !(p_.delay >= 0.0)) {
     throw std::invalid_argument("plant: inductance and the inertia left on the motor side must be positive, delay not negative");
   }
   two_mass_ = p_.load_inertia > 0.0;
   lugre_ = p_.bristle_stiffness > 0.0;
-  dry_ = !lugre_ && (p_.coulomb_plus > 0.0 || p_.coulomb_minus > 0.0 || p_.stribeck_excess > 0.0 || p_.friction_ratio > 0.0);
+  dry_ = !lugre_ && (p_.coulomb_plus > 0.0 || p_.coulomb_minus > 0.0 || p_.stribeck_excess > 0.0 || p_.friction_ratio > 0.0 ||
+                     p_.iron_loss > 0.0);
   const double stiff = 1.0 / std::max(p_.speed_lag, 1e-12) * (p_.speed_lag > 0.0) +
                        (lugre_ ? p_.bristle_stiffness * 1.2 * voltage_scale / p_.back_emf_constant / p_.coulomb_plus : 0.0);
   const double needed = sample_time * std::max(fastest_rate(voltage_scale) / fineness, stiff / 1.5);
@@ -48,8 +52,15 @@ double Plant::fastest_rate(double voltage_scale) const {
   if (p_.cogging_amplitude != 0.0) angular = p_.cogging_periods;
   if (p_.ripple_amplitude != 0.0) angular = std::max(angular, p_.ripple_harmonic);
   if (p_.inertia_variation != 0.0) angular = std::max(angular, 2.0);
+  if (p_.friction_wave != 0.0) angular = std::max(angular, 5.0);
   double rate = std::max({electrical, coupled, angular * top_speed, two_pi * p_.periodic_frequency * (p_.periodic_amplitude != 0.0)});
-  const double motor_side = p_.inertia - p_.load_inertia;
+  const double motor_side = rotor_inertia();
+  const double supply = two_pi * p_.supply_ripple_frequency * (p_.supply_ripple != 0.0);
+  rate = std::max({rate, supply, std::sqrt(p_.load_spring / motor_side)});
+  if (p_.absorber_inertia > 0.0) {
+    const double damped = p_.absorber_damping / p_.absorber_inertia;
+    rate = std::max(rate, std::sqrt(p_.absorber_stiffness / p_.absorber_inertia) + damped);
+  }
   if (two_mass_) {
     const double reduced = motor_side * p_.load_inertia / p_.inertia;
     const double impacts = p_.gap > 0.0 ? 4.0 : 1.0;  // the contact force jumps
@@ -71,95 +82,10 @@ void Plant::reset() {
 PlantSample Plant::sample() const {
   double seen = p_.speed_lag > 0.0 ? x_[lagged] : x_[speed];
   if (p_.rectification != 0.0) seen = std::abs(seen);
+  if (p_.eccentricity != 0.0) seen *= 1.0 + p_.eccentricity * std::sin(x_[position] + p_.eccentricity_phase);
   seen += p_.speed_offset;
   if (p_.speed_quantum > 0.0) seen = p_.speed_quantum * std::round(seen / p_.speed_quantum);
   return {x_[current], x_[speed], x_[position], x_[current] + p_.current_offset, seen, x_[heat]};
-}
-
-/// The driver: command to terminal voltage.
-double Plant::applied(double command) const {
-  double v = command * (1.0 - p_.compression * command * command);
-  v = sign(v) * std::max(std::abs(v) - p_.deadzone, 0.0);
-  return std::clamp(v, -p_.voltage_limit, p_.voltage_limit);
-}
-
-Plant::Electrics Plant::electrics(const State& x, double t) const {
-  const double i = x[current];
-  const double ratio = i / p_.saturation_current;
-  const double saturation = 1.0 / (1.0 + ratio * ratio);
-  double flux = saturation;
-  if (p_.ripple_amplitude != 0.0) flux *= 1.0 + p_.ripple_amplitude * std::cos(p_.ripple_harmonic * x[position]);
-  flux *= 1.0 + p_.flux_drift * t;
-  const double resistance = p_.resistance * (1.0 + p_.temperature_coefficient * x[heat]);
-  double v = voltage_ + slope_ * (t - voltage_time_) - resistance * i - p_.back_emf_constant * flux * x[speed];
-  if (p_.brush_drop != 0.0) v -= p_.brush_drop * std::tanh(i / p_.brush_current);
-  return {v / (p_.inductance * saturation), p_.torque_constant * flux * i, resistance * i * i};
-}
-
-double Plant::friction_level(const State& x, double torque, double direction) const {
-  double level = direction < 0.0 ? p_.coulomb_minus : p_.coulomb_plus;
-  if (p_.stribeck_excess != 0.0) {
-    const double slip = x[speed] / p_.stribeck_speed;
-    level += p_.stribeck_excess * std::exp(-slip * slip);
-  }
-  if (p_.friction_variation != 0.0) level *= 1.0 + p_.friction_variation * std::cos(x[position] + p_.friction_phase);
-  return level + p_.friction_ratio * std::abs(torque);
-}
-
-/// From motor to load; through a gap it pushes and never pulls.
-double Plant::shaft_torque(const State& x) const {
-  const double twist = x[position] - x[load_position];
-  const double bend = twist - std::clamp(twist, -0.5 * p_.gap, 0.5 * p_.gap);
-  const double torque = p_.stiffness * bend + p_.damping * (x[speed] - x[load_speed]);
-  if (p_.gap > 0.0 && torque * bend <= 0.0) return 0.0;
-  return torque;
-}
-
-/// All braking torques on the rotor except dry friction.
-double Plant::loads(const State& x, double t) const {
-  const double w = x[speed];
-  const double speed_now = std::abs(w);
-  double torque = (p_.viscous_friction - p_.load_viscous) * w;
-  torque += (p_.quadratic_drag * speed_now + p_.cubic_drag * w * w) * w;
-  if (p_.root_drag != 0.0) torque += p_.root_drag * sign(w) * std::sqrt(speed_now);
-  if (p_.cogging_amplitude != 0.0) torque += p_.cogging_amplitude * std::sin(p_.cogging_periods * x[position] + p_.cogging_phase);
-  if (p_.unbalance_amplitude != 0.0) torque += p_.unbalance_amplitude * std::sin(x[position] + p_.unbalance_phase);
-  if (loaded_) torque += p_.load_torque;
-  if (p_.periodic_amplitude != 0.0) torque += p_.periodic_amplitude * std::sin(two_pi * p_.periodic_frequency * t + p_.periodic_phase);
-  if (p_.viscous_excess != 0.0) torque += p_.viscous_excess * std::exp(-t / p_.viscous_time) * w;
-  if (p_.reluctance_torque != 0.0) torque += p_.reluctance_torque * x[current] * x[current];
-  if (p_.inertia_variation != 0.0) torque -= p_.inertia_variation * std::sin(2.0 * x[position]) * w * w;
-  if (two_mass_) torque += shaft_torque(x);
-  return torque;
-}
-
-Plant::State Plant::derivative(const State& x, double t) const {
-  State d{};
-  const Electrics e = electrics(x, t);
-  d[current] = e.current_rate;
-  if (p_.temperature_coefficient != 0.0) d[heat] = (e.heating - x[heat] / p_.thermal_resistance) / p_.heat_capacity;
-  if (contact_ != Contact::sticks) {
-    double torque = e.torque - loads(x, t);
-    if (contact_ != Contact::frictionless) {
-      const double direction = contact_ == Contact::forward ? 1.0 : -1.0;
-      torque -= direction * friction_level(x, e.torque, direction);
-    }
-    if (lugre_) {
-      const double level = friction_level(x, e.torque, x[speed]);
-      d[bristle] = x[speed] - p_.bristle_stiffness * std::abs(x[speed]) * x[bristle] / level;
-      torque -= p_.bristle_stiffness * x[bristle] + p_.bristle_damping * d[bristle];
-    }
-    double inertia = p_.inertia - p_.load_inertia;
-    if (p_.inertia_variation != 0.0) inertia += p_.inertia_variation * std::cos(2.0 * x[position]);
-    d[speed] = torque / inertia;
-    d[position] = x[speed];
-  }
-  if (two_mass_) {
-    d[load_speed] = (shaft_torque(x) - p_.load_viscous * x[load_speed]) / p_.load_inertia;
-    d[load_position] = x[load_speed];
-  }
-  if (p_.speed_lag > 0.0) d[lagged] = (x[speed] - x[lagged]) / p_.speed_lag;
-  return d;
 }
 
 Plant::State Plant::runge_kutta(const State& x, double t, double h) const {
@@ -183,7 +109,7 @@ double Plant::free_torque(const State& x, double t) const { return electrics(x, 
 /// With the rotor at rest: does it stick or slide, and which way.
 void Plant::settle_contact(double t) {
   const double torque = free_torque(x_, t);
-  const double level = friction_level(x_, electrics(x_, t).torque, torque);
+  const double level = friction_level(x_, t, electrics(x_, t).torque, torque);
   if (std::abs(torque) <= level) {
     contact_ = Contact::sticks;
   } else {
@@ -258,7 +184,12 @@ void Plant::segment(double begin, double end, double command) {
   }
 }
 
-void Plant::step(double voltage) {
+void Plant::wait() {
+  commands_[static_cast<std::size_t>(row_ % static_cast<long long>(commands_.size()))] = 0.0;
+  ++row_;
+}
+
+void Plant::step(double voltage, std::span<PlantSample> seen) {
   const auto ring = static_cast<long long>(commands_.size());
   commands_[static_cast<std::size_t>(row_ % ring)] = voltage;
   const auto command = [&](long long row) { return row < 0 ? 0.0 : commands_[static_cast<std::size_t>(row % ring)]; };
@@ -266,14 +197,21 @@ void Plant::step(double voltage) {
   const double begin = double(row_) * sample_time_;
   const double end = begin + sample_time_;
   const double switches = begin + fraction_delay_;
+  wander_.extend(end);
 
-  std::array<double, 5> edges{begin, switches, p_.load_start, p_.load_end, end};
-  for (double& edge : edges) edge = std::clamp(edge, begin, end);
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t k = 0; k + 1 < edges.size(); ++k) {
-    const double middle = 0.5 * (edges[k] + edges[k + 1]);
+  limit_ = std::max(p_.voltage_limit - p_.supply_resistance * std::abs(x_[current]), 0.0);
+
+  edges_.assign({begin, switches, p_.load_start, p_.load_end, end});
+  const double apart = seen.empty() ? sample_time_ : sample_time_ / double(seen.size());
+  for (std::size_t k = 1; k < seen.size(); ++k) edges_.push_back(begin + double(k) * apart);
+  for (double& edge : edges_) edge = std::clamp(edge, begin, end);
+  std::sort(edges_.begin(), edges_.end());
+  std::size_t next = 0;
+  for (std::size_t k = 0; k + 1 < edges_.size(); ++k) {
+    while (next < seen.size() && begin + double(next) * apart <= edges_[k]) seen[next++] = sample();
+    const double middle = 0.5 * (edges_[k] + edges_[k + 1]);
     loaded_ = p_.load_torque != 0.0 && middle > p_.load_start && middle < p_.load_end;
-    segment(edges[k], edges[k + 1], command(middle < switches ? newest - 1 : newest));
+    segment(edges_[k], edges_[k + 1], command(middle < switches ? newest - 1 : newest));
   }
   ++row_;
 }

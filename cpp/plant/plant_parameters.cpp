@@ -19,7 +19,14 @@ const std::vector<PlantParameterName>& plant_parameter_names() {
       RWN_NAME(temperature_coefficient), RWN_NAME(saturation_current), RWN_NAME(ripple_amplitude),
       RWN_NAME(ripple_harmonic), RWN_NAME(flux_drift), RWN_NAME(delay), RWN_NAME(compression), RWN_NAME(deadzone),
       RWN_NAME(voltage_limit), RWN_NAME(slew_rate), RWN_NAME(speed_lag), RWN_NAME(rectification),
-      RWN_NAME(speed_offset), RWN_NAME(current_offset), RWN_NAME(speed_quantum)
+      RWN_NAME(speed_offset), RWN_NAME(current_offset), RWN_NAME(speed_quantum),
+      RWN_NAME(friction_drift), RWN_NAME(friction_wave), RWN_NAME(friction_wave_phase_2),
+      RWN_NAME(friction_wave_phase_3), RWN_NAME(friction_wave_phase_5), RWN_NAME(iron_loss), RWN_NAME(iron_exponent),
+      RWN_NAME(band_drag), RWN_NAME(band_speed), RWN_NAME(band_width), RWN_NAME(eccentric_drag),
+      RWN_NAME(eccentric_phase), RWN_NAME(load_spring), RWN_NAME(added_inertia), RWN_NAME(wander_torque),
+      RWN_NAME(wander_time), RWN_NAME(wander_seed), RWN_NAME(absorber_inertia), RWN_NAME(absorber_stiffness),
+      RWN_NAME(absorber_damping), RWN_NAME(flux_temperature), RWN_NAME(supply_resistance), RWN_NAME(supply_ripple),
+      RWN_NAME(supply_ripple_frequency), RWN_NAME(eccentricity), RWN_NAME(eccentricity_phase)
 #undef RWN_NAME
   };
   return names;

@@ -210,7 +210,7 @@ def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Pat
     text = console.export_text()
     assert "misses" in text
     assert "not evidence" in text
-    tables.reliability_plot(grade_folder(made[0], results=tmp_path), tmp_path / "plot.html")
+    tables.reliability_plot(score.reliability(grades), tmp_path / "plot.html")
     assert "calibrated" in (tmp_path / "plot.html").read_text()
 
 

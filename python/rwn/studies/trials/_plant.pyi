@@ -14,7 +14,16 @@ class Plant:
         ...
     def sample(self) -> typing.Annotated[list[float], "FixedSize(6)"]:
         ...
+    @typing.overload
     def step(self, voltage: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @typing.overload
+    def step(self, voltage: typing.SupportsFloat | typing.SupportsIndex, instants: typing.SupportsInt | typing.SupportsIndex) -> list[typing.Annotated[list[float], "FixedSize(6)"]]:
+        """
+        The same; returns (current, speed, position, sensed current, sensed speed, temperature rise) at `instants` even
+        places of the step, the first at its beginning.
+        """
+    def wait(self) -> None:
         ...
     @property
     def substeps(self) -> int:

@@ -4,9 +4,21 @@ from __future__ import annotations
 
 import json
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+TASK = "task.json"  # in a trial's folder: {"heldout": true} gives the diagnosis the held-out recordings
+
+
+def heldout_given(folder: Path) -> bool:
+    """Whether the diagnosis may see the held-out recordings; without a task it may not."""
+    path = folder / TASK
+    return path.exists() and bool(json.loads(path.read_text())["heldout"])
 
 
 def train_files(folder: Path) -> list[Path]:
@@ -21,10 +33,21 @@ def simulated_file(out: Path, heldout: Path) -> Path:
     return out / f"{heldout.stem}_simulated.csv"
 
 
+def refitted_file(out: Path, heldout: Path) -> Path:
+    return out / f"{heldout.stem}_refitted.csv"
+
+
+def write_speed(path: Path, time: Array, speed: Array) -> None:
+    np.savetxt(
+        path, np.column_stack([time, speed]), fmt="%.9g", delimiter=",", header="time [s],speed [rad/s]", comments=""
+    )
+
+
 def diagnose_trial(folder: Path, out: Path) -> None:
     """Diagnoses the training recordings, then simulates the corrected model on the held-out voltages.
 
-    Writes diagnosis.json, corrected.toml, heldout_*_simulated.csv (time, speed) and timing.json to `out`.
+    Writes diagnosis.json, corrected.toml, heldout_*_simulated.csv (time, speed) and timing.json to `out`, and
+    heldout_*_refitted.csv of the nominal structure refitted where a corrected model is offered.
     """
     from rwn.diagnose import diagnose  # heavy, and the score needs only the file names above
     from rwn.model.files import read_model, write_model
@@ -34,20 +57,17 @@ def diagnose_trial(folder: Path, out: Path) -> None:
     out.mkdir(parents=True, exist_ok=True)
     model = read_model(folder / "model.toml")
     begin = time.perf_counter()
-    found = diagnose([read_recording(path) for path in train_files(folder)], model, jobs=1)
+    heldout = [read_recording(path) for path in heldout_files(folder)]
+    given = heldout if heldout_given(folder) else ()
+    found = diagnose([read_recording(path) for path in train_files(folder)], model, heldout=given, jobs=1)
     elapsed = time.perf_counter() - begin
     corrected = found.corrected if found.corrected is not None else model
     write_model(corrected, out / "corrected.toml")
-    for path in heldout_files(folder):
-        recording = read_recording(path)
-        speed = simulate(corrected, recording).signals["speed"]
-        np.savetxt(
-            simulated_file(out, path),
-            np.column_stack([recording.time, speed]),
-            fmt="%.9g",
-            delimiter=",",
-            header="time [s],speed [rad/s]",
-            comments="",
-        )
+    fitted = {name: row.refitted.value for name, row in found.nominal_fit.parameters.items()}
+    for path, recording in zip(heldout_files(folder), heldout, strict=True):
+        write_speed(simulated_file(out, path), recording.time, simulate(corrected, recording).signals["speed"])
+        if found.corrected is not None and fitted:
+            refitted = simulate(replace(model, parameters=fitted), recording)
+            write_speed(refitted_file(out, path), recording.time, refitted.signals["speed"])
     (out / "timing.json").write_text(json.dumps({"seconds": round(elapsed, 3)}))
     (out / "diagnosis.json").write_bytes(found.to_json())  # last: its presence says that all is done

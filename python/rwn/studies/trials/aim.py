@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +16,8 @@ from rwn.studies.trials.refit import Fit, Problem
 QUIET, LOUD = 0.0015, 0.012  # rms noise of an analogue speed signal over the rms speed
 TOLERANCE = 0.08  # of the visibility
 ROUNDS = 12
+
+Refit = Callable[[Sequence[Trace], Noise, Values | None], Fit]
 
 
 class UnsuitableError(Exception):
@@ -67,18 +69,19 @@ def refit(scene: Scene, traces: Sequence[Trace], noise: Noise, guess: Values | N
 
 
 def aim(
-    effect: Effect, values: Values, target: float, scene: Scene, noise: Noise, *, noise_is_free: bool
+    effect: Effect, values: Values, target: float, scene: Scene, noise: Noise, *, noise_is_free: bool,
+    tolerance: float = TOLERANCE, refitted: Refit | None = None,
 ) -> Aimed:
-    """Changes the noise within its usual range first, then the strength of the effect."""
+    """Changes the noise within its usual range first, then the strength of the effect; `refitted`: a quicker refit."""
     wanted = float(np.sqrt(target**2 - 1.0))
     guess: Values | None = None
     for _ in range(ROUNDS):
         traces = scene.run(scene.train, scene.plant([(effect, values)]))
-        fit = refit(scene, traces, noise, guess)
+        fit = refit(scene, traces, noise, guess) if refitted is None else refitted(traces, noise, guess)
         guess = fit.nominal
         if effect.scale is None and fit.visibility >= 2.0:
             return Aimed(values, noise, traces, fit)
-        if abs(fit.visibility / target - 1.0) < TOLERANCE:
+        if abs(fit.visibility / target - 1.0) < tolerance:
             return Aimed(values, noise, traces, fit)
         if effect.scale is None:
             raise UnsuitableError(f"{effect.name} does not show here and has no strength")
@@ -88,7 +91,7 @@ def aim(
             fitting = float(np.clip(noise.speed / factor, QUIET * speed, LOUD * speed))
             factor *= fitting / noise.speed
             noise = replace(noise, speed=fitting)
-        if abs(factor - 1.0) > 0.5 * TOLERANCE:
+        if abs(factor - 1.0) > 0.5 * tolerance:
             values = effect.scale(values, float(np.clip(factor, 0.08, 8.0)))
             if not effect.believable(values):
                 raise UnsuitableError(f"{effect.name} would have to be unbelievably strong")

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from rwn.studies.trials import excitations
+from rwn.studies.trials.controllers import Controller, Playback, SpeedLoop, shaped
 from rwn.studies.trials.motors import Motor
 from rwn.studies.trials.plant import Array, Bench, Trace, Values, simulate
 
@@ -62,37 +63,27 @@ class Setup:
         tau = max(self.motor.time_constant * self.rate, 8.0)
         return table[experiment.kind](rng, experiment.samples, tau)
 
+    def controller(self, experiment: Experiment) -> Controller:
+        """What commands the voltage of `experiment`: a voltage played back, or the speed loop."""
+        shape = self.shape(experiment)
+        if not experiment.closed_loop:
+            return Playback(shaped(experiment.amplitude * shape))
+        reference = shape * 0.8 * experiment.amplitude / self.motor.torque_constant
+        return SpeedLoop(reference, self.loop, 1.15 * experiment.amplitude, self.rate)
+
     def run(self, experiment: Experiment, plant: Values) -> Trace:
         """The noise-free recording of `experiment` on the plant with these parameters."""
-        shape = self.shape(experiment)
-        if experiment.closed_loop:
-            return self._closed(
-                shape * 0.8 * experiment.amplitude / self.motor.torque_constant, experiment, plant
-            )
-        return simulate(plant, shaped(experiment.amplitude * shape), rate=self.rate)
-
-    def _closed(self, reference: Array, experiment: Experiment, plant: Values) -> Trace:
-        """PI with anti-windup and a clipped output on the true speed (the drive's own tachometer)."""
-        proportional, integral = self.loop
-        ceiling = 1.15 * experiment.amplitude
-        bench = Bench(plant, rate=self.rate, voltage_scale=ceiling)
+        controller = self.controller(experiment)
+        if isinstance(controller, Playback):  # in one call
+            return simulate(plant, controller.voltage, rate=self.rate)
+        bench = Bench(plant, rate=self.rate, voltage_scale=controller.ceiling)
         rows = np.empty((experiment.samples, 6))
         voltage = np.empty(experiment.samples)
-        memory = 0.0
-        for k, wanted in enumerate(reference):
+        for k in range(experiment.samples):
             rows[k] = bench.sample()
-            error = wanted - rows[k, 1]
-            free = proportional * error + memory
-            voltage[k] = float(f"{min(max(free, -ceiling), ceiling):.7g}")
-            if abs(free) <= ceiling or free * error < 0.0:
-                memory += integral * error / self.rate
+            voltage[k] = controller.command(k, rows[k, 1])
             bench.step(voltage[k])
         return Trace.of(voltage, rows)
-
-
-def shaped(voltage: Array) -> Array:
-    """As a CSV file gives it back: seven figures."""
-    return np.array([float(f"{value:.7g}") for value in voltage])
 
 
 @dataclass(frozen=True)

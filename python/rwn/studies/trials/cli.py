@@ -27,13 +27,20 @@ def make(
     count: Annotated[int, typer.Option(min=1, help="Number of trials.")],
     out: Annotated[Path, typer.Option(help="Folder to make.")],
     split: Annotated[str | None, typer.Option(help="development or test; must agree with the seed.")] = None,
+    bench: Annotated[bool, typer.Option("--bench", help="Imperfect recordings, unnamed physics, two judges.")] = False,
+    judge: Annotated[str | None, typer.Option(help="With --bench: plant or mujoco alone (default: both).")] = None,
     jobs: Jobs = 2,
 ) -> None:
-    """Make COUNT trials with the independent plant and seal their answers."""
-    from rwn.studies.trials.make import make as make_set
+    """Make COUNT trials with independent plants and seal their answers."""
+    from rwn.studies.trials import make as sets
 
     try:
-        digest = make_set(seed, count, out, split=split, jobs=jobs, progress=_progress)
+        if judge is not None and not bench:
+            raise ValueError("--judge is for trials of a bench; give --bench too")
+        if bench:
+            digest = sets.make_bench(seed, count, out, split=split, judge=judge, jobs=jobs, progress=_progress)
+        else:
+            digest = sets.make(seed, count, out, split=split, jobs=jobs, progress=_progress)
     except (ValueError, OSError) as error:
         _stop(error)
     typer.echo(f"{count} trials in {out}; SHA-256 of the sealed answers: {digest}")
@@ -80,16 +87,27 @@ def score(
     """Open the sealed answers (or the answer.json files) and print how good the diagnoses are."""
     from rich.console import Console
 
+    from rwn.studies.trials.bench_trials import grade as bench_grade
+    from rwn.studies.trials.bench_trials import score as bench_score
+    from rwn.studies.trials.bench_trials import tables as bench_tables
     from rwn.studies.trials.grade import grade_folders
+    from rwn.studies.trials.score import reliability
     from rwn.studies.trials.tables import reliability_plot, show
 
+    console = Console(width=None if sys.stdout.isatty() else 150)  # a file has room
     try:
-        graded = grade_folders(folders, results=results)
+        if any(bench_grade.is_bench(folder) for folder in folders):
+            on_benches = bench_grade.grade_folders(folders, results=results)
+            bench_tables.show(on_benches, console)
+            bins = bench_score.reliability(on_benches.grades)
+        else:
+            graded = grade_folders(folders, results=results)
+            show(graded, console)
+            bins = reliability(graded.grades)
+        if plot is not None:
+            reliability_plot(bins, plot)
     except (ValueError, OSError) as error:
         _stop(error)
-    show(graded, Console(width=None if sys.stdout.isatty() else 150))  # a file has room
-    if plot is not None:
-        reliability_plot(graded, plot)
 
 
 @app.command()

@@ -64,6 +64,8 @@ def read_columns(path: Path) -> dict[str, Array]:
 def write_trial(folder: Path, trial: Trial) -> None:
     folder.mkdir(parents=True)
     (folder / "model.toml").write_text(model_toml(trial.nominal), encoding="utf-8")
+    for name, text in trial.notes.items():
+        (folder / name).write_text(text, encoding="utf-8")
     for use, recordings in (("train", trial.train), ("heldout", trial.heldout)):
         for number, recording in enumerate(recordings, start=1):
             write_recording(folder / f"{use}_{number}.csv", recording)

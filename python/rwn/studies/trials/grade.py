@@ -138,7 +138,7 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     said: dict[str, Any] = {"verdict": NO_RESULT}
     if (out / "diagnosis.json").exists():
         said = json.loads((out / "diagnosis.json").read_text())
-    mistaken, said = _without_mistake(said) if "mistake" in answer else ((), said)
+    mistaken, said = without_mistake(said) if "mistake" in answer else ((), said)
     effects = said.get("effects", []) if said["verdict"] == "missing-physics" else []
     names = tuple(str(effect["name"]) for effect in effects)
     candidates = tuple(said.get("set") or names[:1]) if names else ()
@@ -163,7 +163,7 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
         in_set=len(candidates) <= LARGEST_SET and any(name in accepted for name in candidates),
         equation=_equation_right(answer, said),
         ambiguous=len(candidates) > 1,
-        parameters=tuple(_parameters(answer, effects)) if named else (),
+        parameters=tuple(parameter_estimates(answer, effects)) if named else (),
         removed=tuple(_removed(answer, trial, out)),
         seconds=json.loads(timing.read_text())["seconds"] if timing.exists() else None,
         mistake=str(answer.get("mistake", {}).get("name", "")),
@@ -171,7 +171,7 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     )
 
 
-def _without_mistake(said: Mapping[str, Any]) -> tuple[tuple[str, ...], dict[str, Any]]:
+def without_mistake(said: Mapping[str, Any]) -> tuple[tuple[str, ...], dict[str, Any]]:
     """The recording mistakes that were not told apart, likeliest first, and what was said of the drive beneath them."""
     mistakes = [e for e in said.get("effects", []) if e["equation"] == RECORDING]
     physics = [e for e in said.get("effects", []) if e["equation"] != RECORDING]
@@ -188,7 +188,8 @@ def _equation_right(answer: Mapping[str, Any], said: Mapping[str, Any]) -> bool:
     return (effects[0].get("equation") or said.get("equation")) in right
 
 
-def _parameters(answer: Mapping[str, Any], effects: list[dict[str, Any]]) -> list[Estimated]:
+def parameter_estimates(answer: Mapping[str, Any], effects: list[dict[str, Any]]) -> list[Estimated]:
+    """Parameters of rightly named effects that are stated in the unit of the truth."""
     found = {effect["name"]: effect.get("parameters", {}) for effect in effects}
     out = []
     for effect in answer["effects"]:
@@ -214,6 +215,8 @@ def clean_speed(answer: Mapping[str, Any], heldout: Path) -> np.ndarray[Any, Any
     kept = heldout.with_name(f"{heldout.stem}_clean.csv")
     if kept.exists():
         return read_columns(kept)["speed"]
+    if "heldout_clean_speed" in answer:
+        return np.array(answer["heldout_clean_speed"][heldout_files(heldout.parent).index(heldout)])
     voltage = read_columns(heldout)["voltage"]
     return simulate(answer["plant"], voltage, rate=float(answer["sample_rate_Hz"])).sensed_speed
 

@@ -4,16 +4,29 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
+from rwn.studies.trials.bench_trials.plan import JUDGED_BY
+from rwn.studies.trials.bench_trials.plan import plans as bench_plans
+from rwn.studies.trials.bench_trials.trial import make_bench_trial
 from rwn.studies.trials.dossier import write_trial
-from rwn.studies.trials.plan import FIRST_TEST_SEED, SPLITS, Plan, plans, split_of
+from rwn.studies.trials.judges import JUDGES
+from rwn.studies.trials.plan import FIRST_TEST_SEED, SPLITS, plans, split_of
 from rwn.studies.trials.seal import ANSWERS, seal
-from rwn.studies.trials.trial import make_trial
+from rwn.studies.trials.trial import Trial, make_trial
 from rwn.studies.trials.workers import workers
 
+
+class Planned(Protocol):
+    """A plan; its name is the name of the trial's folder."""
+
+    @property
+    def name(self) -> str: ...
+
+
+P = TypeVar("P", bound=Planned)
 Progress = Callable[[int, int, str], None]
 
 WORK = ".making"  # answers of finished trials while the set is incomplete
@@ -46,39 +59,80 @@ def make(
     An interrupted call continues where it stopped. Raises ValueError for a seed of the other split, and
     FileExistsError where a finished set lies already.
     """
+    about = _about(seed, count, split)
+    return _make(about, plans(seed, count), make_trial, out, jobs=jobs, progress=progress)
+
+
+def make_bench(
+    seed: int,
+    count: int,
+    out: Path,
+    *,
+    split: str | None = None,
+    judge: str | None = None,
+    jobs: int = 2,
+    progress: Progress | None = None,
+) -> str:
+    """The same with bench trials. `judge` alone holds the truth where it is given, else each has its share.
+
+    Raises ValueError as well for a judge that is not known, or that cannot run here.
+    """
+    about = _about(seed, count, split) | {"bench": True} | ({"judge": judge} if judge else {})
+    if judge is not None and judge not in JUDGES:
+        raise ValueError(f"judge is {judge!r}; it must be one of {', '.join(JUDGES)}")
+    for name in JUDGED_BY if judge is None else (judge,):
+        if missing := JUDGES[name].missing():
+            raise ValueError(missing)
+    planned = bench_plans(seed, count, judge=judge)
+    return _make(about, planned, make_bench_trial, out, jobs=jobs, progress=progress)
+
+
+def _about(seed: int, count: int, split: str | None) -> dict[str, Any]:
     split = check_split(seed, split)
     if seed < 0 or count < 1:
         raise ValueError(
             f"seed {seed} and count {count}: the seed must not be negative, the count at least 1"
         )
+    return {"seed": seed, "split": split, "count": count}
+
+
+def _make(
+    about: dict[str, Any],
+    planned: Sequence[P],
+    make_one: Callable[[P], Trial],
+    out: Path,
+    *,
+    jobs: int,
+    progress: Progress | None,
+) -> str:
     if (out / ANSWERS).exists():
         raise FileExistsError(f"{out} already holds a finished set of trials; choose another folder")
-    planned = plans(seed, count)
     work = out / WORK
     work.mkdir(parents=True, exist_ok=True)
-    _same_set(work / "set.json", {"seed": seed, "count": count})
+    _same_set(work / "set.json", {key: value for key, value in about.items() if key != "split"})
     left = [plan for plan in planned if not (work / f"{plan.name}.json").exists()]
-    done = count - len(left)
+    done = len(planned) - len(left)
     with workers(jobs) as pool:
-        for number, plan in enumerate(pool.map(_make_one, left, [out] * len(left)), start=done + 1):
+        made = pool.map(_make_one, left, [make_one] * len(left), [out] * len(left))
+        for number, plan in enumerate(made, start=done + 1):
             if progress is not None:
-                progress(number, count, plan.name)
+                progress(number, len(planned), plan.name)
     answers = {plan.name: json.loads((work / f"{plan.name}.json").read_text()) for plan in planned}
-    digest = seal(out, {"seed": seed, "split": split, "count": count, "answers": answers})
+    digest = seal(out, about | {"answers": answers})
     shutil.rmtree(work)
     return digest
 
 
-def _same_set(path: Path, wanted: dict[str, int]) -> None:
+def _same_set(path: Path, wanted: dict[str, Any]) -> None:
     if path.exists() and json.loads(path.read_text()) != wanted:
         raise FileExistsError(
-            f"{path.parent.parent} holds an unfinished set of another seed or count; remove it"
+            f"{path.parent.parent} holds an unfinished set of another seed, count or kind; remove it"
         )
     path.write_text(json.dumps(wanted))
 
 
-def _make_one(plan: Plan, out: Path) -> Plan:
-    trial = make_trial(plan)
+def _make_one(plan: P, make_one: Callable[[P], Trial], out: Path) -> P:
+    trial = make_one(plan)
     folder, half = out / plan.name, out / WORK / plan.name
     for leftover in (folder, half):
         shutil.rmtree(leftover, ignore_errors=True)

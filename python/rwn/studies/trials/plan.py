@@ -5,6 +5,7 @@ Seeds below `FIRST_TEST_SEED` are for development, the others for tests: nobody 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -44,16 +45,16 @@ def compatible(a: Effect, b: Effect) -> bool:
     return strengths and not rivals and not both_dry and not (a.two_mass and b.two_mass)
 
 
-def _modes(rng: np.random.Generator, count: int) -> list[str]:
-    """Each mode its share of `count`, the largest remainders rounded up, in random order."""
-    exact = {mode: share * count for mode, share in SHARES.items()}
-    whole = {mode: int(value) for mode, value in exact.items()}
-    rest = sorted(exact, key=lambda mode: whole[mode] - exact[mode])[: count - sum(whole.values())]
-    modes = [mode for mode in SHARES for _ in range(whole[mode] + (mode in rest))]
-    return [str(mode) for mode in rng.permutation(modes)]
+def spread(rng: np.random.Generator, shares: Mapping[str, float], count: int) -> list[str]:
+    """Each name its share of `count`, the largest remainders rounded up, in random order."""
+    exact = {name: share * count for name, share in shares.items()}
+    whole = {name: int(value) for name, value in exact.items()}
+    rest = sorted(exact, key=lambda name: whole[name] - exact[name])[: count - sum(whole.values())]
+    names = [name for name in shares for _ in range(whole[name] + (name in rest))]
+    return [str(name) for name in rng.permutation(names)]
 
 
-class _Deck:
+class Deck:
     """Deals a shuffled set again and again."""
 
     def __init__(self, rng: np.random.Generator, size: int) -> None:
@@ -83,10 +84,10 @@ def plans(seed: int, count: int) -> list[Plan]:
     """The trials of `seed`; the first ones do not depend on how many follow only in kind, not in order."""
     rng = np.random.default_rng([SPLITS.index(split_of(seed)), seed])
     pairs = _pairs()
-    named, unnamed, paired = _Deck(rng, len(NAMED)), _Deck(rng, len(UNNAMED)), _Deck(rng, len(pairs))
-    levels = {mode: _Deck(rng, len(VISIBILITIES)) for mode in SHARES}
+    named, unnamed, paired = Deck(rng, len(NAMED)), Deck(rng, len(UNNAMED)), Deck(rng, len(pairs))
+    levels = {mode: Deck(rng, len(VISIBILITIES)) for mode in SHARES}
     out = []
-    for index, mode in enumerate(_modes(rng, count)):
+    for index, mode in enumerate(spread(rng, SHARES, count)):
         level = VISIBILITIES[levels[mode].deal()]
         effects: tuple[str, ...] = ()
         if mode == "double":

@@ -149,7 +149,11 @@ class Bin:
 
 def reliability(grades: Sequence[Grade]) -> list[Bin]:
     """Stated probability against the share that was right, in bins of a fifth; no empty bins."""
-    pairs = [(g.probability, g.first) for g in grades if g.probability is not None]
+    return binned([(g.probability, g.first) for g in grades if g.probability is not None])
+
+
+def binned(pairs: Sequence[tuple[float, bool]]) -> list[Bin]:
+    """Pairs of stated probability and outcome, in bins of a fifth; no empty bins."""
     bins = []
     for low, high in pairwise(BINS):
         inside = [(p, hit) for p, hit in pairs if low <= p < high or (high == 1.0 and p == 1.0)]

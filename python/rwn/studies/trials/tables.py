@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from rich.console import Console
@@ -23,50 +23,53 @@ BREAKDOWNS = {
 def show(graded: Graded, console: Console) -> None:
     """Everything that the score says, the promised figures first."""
     grades = graded.grades
-    console.print(_heading(graded))
-    console.print(_targets(grades))
+    missing = sum(g.verdict == NO_RESULT for g in grades)
+    console.print(heading(f"{len(grades)} trials", missing, graded.seeds, graded.split))
+    console.print(target_table(score.targets(grades)))
     for name, by in BREAKDOWNS.items():
-        console.print(_rows(f"single effects by {name}", name, score.broken_down(grades, by)))
+        console.print(rows(f"single effects by {name}", name, score.broken_down(grades, by)))
     spoilt = score.mistakes(grades)
     if spoilt:
-        console.print(_rows("recording mistakes", "mistake", spoilt))
-    console.print(_calibration(grades))
-    console.print(_rows("parameters of rightly named effects", "parameter", score.parameter_errors(grades)))
+        console.print(rows("recording mistakes", "mistake", spoilt))
+    console.print(reliability_table(score.brier(grades), score.reliability(grades), "named"))
+    console.print(rows("parameters of rightly named effects", "parameter", score.parameter_errors(grades)))
     console.print(_confusion(grades))
     console.print(_misses(grades))
 
 
-def _heading(graded: Graded) -> str:
-    missing = sum(g.verdict == NO_RESULT for g in graded.grades)
-    trials = f"{len(graded.grades)} trials" + (f" ({missing} WITHOUT A DIAGNOSIS)" if missing else "")
-    if not graded.seeds:
+def heading(trials: str, missing: int, numbers: Sequence[int], split: str | None) -> str:
+    """What was scored: `numbers` are the seeds, none where the answers lay open."""
+    trials += f" ({missing} WITHOUT A DIAGNOSIS)" if missing else ""
+    if not numbers:
         return f"{trials} with open answers"
-    note = "" if graded.split == "test" else f" (not evidence: test seeds start at {FIRST_TEST_SEED})"
-    seeds = f"seed{'s' if len(graded.seeds) > 1 else ''} {', '.join(map(str, graded.seeds))}"
-    return f"{trials}, {seeds}, {graded.split} split{note}"
+    note = "" if split == "test" else f" (not evidence: test seeds start at {FIRST_TEST_SEED})"
+    seeds = f"seed{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))}"
+    return f"{trials}, {seeds}, {split} split{note}"
 
 
-def _targets(grades: list[Grade]) -> Table:
+def target_table(targets: Sequence[score.Target]) -> Table:
+    """What is asked beside what was found."""
     table = Table("figure", "asked", "found", "met", title="targets")
-    for target in score.targets(grades):
+    for target in targets:
         table.add_row(
             target.name, target.asked, target.found, {True: "yes", False: "NO", None: "-"}[target.met]
         )
     return table
 
 
-def _rows(title: str, key: str, rows: Mapping[str, Mapping[str, object]]) -> Table:
-    columns = list(next(iter(rows.values()))) if rows else []
+def rows(title: str, key: str, figures_of: Mapping[str, Mapping[str, object]]) -> Table:
+    """A row of figures for each name."""
+    columns = list(next(iter(figures_of.values()))) if figures_of else []
     table = Table(key, *columns, title=title)
-    for name, figures in rows.items():
+    for name, figures in figures_of.items():
         table.add_row(name, *(str(value) for value in figures.values()))
     return table
 
 
-def _calibration(grades: list[Grade]) -> Table:
-    value, count = score.brier(grades)
-    table = Table("stated", "mean", "right", title=f"reliability; Brier {value:.3f} over {count} named")
-    for each in score.reliability(grades):
+def reliability_table(brier: tuple[float, int], bins: Sequence[score.Bin], what: str) -> Table:
+    """Stated probability against the share that was right."""
+    table = Table("stated", "mean", "right", title=f"reliability; Brier {brier[0]:.3f} over {brier[1]} {what}")
+    for each in bins:
         table.add_row(f"{each.low:.1f}-{each.high:.1f}", f"{each.stated:.3f}", str(each.right))
     return table
 
@@ -99,11 +102,10 @@ def _missed(g: Grade) -> bool:
     return g.false_alarm if g.mode == "null" else not score.named_right(g)
 
 
-def reliability_plot(graded: Graded, path: Path) -> None:
+def reliability_plot(bins: Sequence[score.Bin], path: Path) -> None:
     """Stated probability against the share that was right, as a self-contained HTML file."""
     import plotly.graph_objects as go
 
-    bins = score.reliability(graded.grades)
     figure = go.Figure(layout={"template": "simple_white", "width": 560, "height": 520})
     figure.add_scatter(
         x=[0, 1], y=[0, 1], mode="lines", line={"dash": "dot", "color": "grey"}, name="calibrated"
@@ -113,7 +115,7 @@ def reliability_plot(graded: Graded, path: Path) -> None:
         y=[each.right.hits / each.right.count for each in bins],
         text=[str(each.right) for each in bins],
         mode="lines+markers",
-        name="first name",
+        name="stated",
     )
     figure.update_xaxes(title="stated probability", range=[0, 1])
     figure.update_yaxes(title="share right", range=[0, 1])

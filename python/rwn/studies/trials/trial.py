@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -28,11 +28,13 @@ ATTEMPTS = 20 * PATIENCE
 
 @dataclass(frozen=True)
 class Trial:
-    plan: Plan
+    """`notes`: small files that lie with the recordings, name to text."""
+
     nominal: Nominal
     train: tuple[Recording, ...]
     heldout: tuple[Recording, ...]
     answer: dict[str, Any]
+    notes: dict[str, str] = field(default_factory=dict)
 
 
 def make_trial(plan: Plan) -> Trial:
@@ -81,7 +83,6 @@ class _Composer:
             answer["rival_residuals"] = {"truth": truth, "nominal": round(fit.total, 4)} | rivals
         answer["equivalent"] = [name for name, left in rivals.items() if left < ENOUGH]
         return Trial(
-            self.plan,
             nominal,
             self._measured(self.scene.train, plant, noise),
             self._measured(self.scene.heldout, plant, noise),
@@ -174,7 +175,7 @@ class _Composer:
         return {
             "case": self.plan.name,
             "verdict": verdict,
-            "effects": [_description(effect, values) for effect, values in cast],
+            "effects": [description(effect, values) for effect, values in cast],
             "equivalent": [],
             "mode": self.plan.mode,
             "visibility": round(fit.visibility, 3),
@@ -199,23 +200,23 @@ class _Composer:
             "true_parameters": scene.true,
             "refitted_parameters": fit.nominal,
             "heldout_effect_in_noise": [
-                round(_error(fit.nominal, t, scene.setup.rate) / noise.speed, 3) for t in heldout
+                round(free_run_error(fit.nominal, t, scene.setup.rate) / noise.speed, 3) for t in heldout
             ],
             "heldout_E_nominal": [
-                round(_error(nominal.values, t, scene.setup.rate) / float(np.std(t.speed)), 5)
+                round(free_run_error(nominal.values, t, scene.setup.rate) / float(np.std(t.speed)), 5)
                 for t in heldout
             ],
             "plant": plant,
         }
 
 
-def _error(nominal: Values, truth: Trace, rate: float) -> float:
+def free_run_error(nominal: Values, truth: Trace, rate: float) -> float:
     """Rms free-run speed error of a nominal model on a noise-free recording [rad/s]."""
     model = simulate(plant_of(nominal), truth.voltage, rate=rate)
     return float(np.sqrt(np.mean((model.speed - truth.sensed_speed) ** 2)))
 
 
-def _description(effect: Effect, values: Values) -> dict[str, Any]:
+def description(effect: Effect, values: Values) -> dict[str, Any]:
     return {
         "name": effect.name,
         "equation": effect.equation,

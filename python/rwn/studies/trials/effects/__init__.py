@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rwn.studies.trials.effects import electrical, friction, interface, torque, unnamed
+from rwn.studies.trials.effects import background, electrical, friction, interface, torque, unnamed
 from rwn.studies.trials.effects.definition import Effect as Effect
 from rwn.studies.trials.effects.definition import Situation as Situation
 
@@ -13,3 +13,4 @@ EFFECTS: dict[str, Effect] = {
 }
 NAMED: tuple[str, ...] = tuple(name for name, effect in EFFECTS.items() if effect.named)
 UNNAMED: tuple[str, ...] = tuple(name for name, effect in EFFECTS.items() if not effect.named)
+BACKGROUND: dict[str, Effect] = {effect.name: effect for site in (unnamed, background) for effect in site.EFFECTS}
