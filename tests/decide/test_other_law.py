@@ -26,6 +26,7 @@ def drag(power: int) -> Ranking:
     return rank(prepare(runs, NOMINAL), progress=lambda *_: None, names=["quadratic-drag"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("power", "seen"), [(2, ""), (3, "a torque over speed")])
 def test_a_cubic_drag_is_not_sure_to_be_a_quadratic_one(power: int, seen: str) -> None:
     ranking = drag(power)
@@ -41,6 +42,7 @@ def test_a_name_that_leaves_another_law_is_not_given_as_sure() -> None:
     assert verdict.whole(ranking, ranking.fits[0], another=True) == verdict.ANOTHER < 0.5
 
 
+@pytest.mark.slow
 def test_the_report_says_that_a_name_may_only_be_the_nearest() -> None:
     runs = [recorded(seed, lambda w, _: -0.03 * (w / 90.0) ** 3) for seed in range(3)]
     said = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
