@@ -89,7 +89,7 @@ stubs: install-test
 # The site of docs/, in site/.
 docs: install-test
 	@$(PIP) --group docs
-	$(PY) -m mkdocs build --strict
+	NO_MKDOCS_2_WARNING=1 DISABLE_MKDOCS_2_WARNING=true $(PY) -m mkdocs build --strict
 
 # For work on rwn itself: quick rebuilds, no build isolation.
 develop: install-tools
