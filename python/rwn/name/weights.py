@@ -10,7 +10,7 @@ import numpy as np
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 
-MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it is worth
+MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it counts for
 
 
 @dataclass(frozen=True, kw_only=True)
