@@ -87,7 +87,7 @@ def _leads_somewhere(names: list[str]) -> bool:
 
 
 def test_every_effect_has_its_page() -> None:
-    pages = dict(runpy.run_path(str(ROOT / "tools/effects_pages.py"))["pages"]())
+    pages = dict(runpy.run_path(str(ROOT / "tools/effects_pages.py"), run_name="pages")["pages"]())
     for name, effect in table().items():
         page = pages[f"effects/{name}.md"]
         assert effect.equation in page
