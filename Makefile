@@ -1,20 +1,23 @@
-# make demo | demo-real | test | test-sanitize | lint | bench | stubs; everything else is set up by these.
+# make demo | demo-real | test | check | test-sanitize | lint | bench | stubs | docs; everything else is set up by these.
 PY := .venv/bin/python
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 JOBS ?= $(shell nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
+PIP := $(PY) -m pip install -q --disable-pip-version-check
 
-.PHONY: demo demo-real test test-cpp test-sanitize test-python lint bench install install-test stubs develop clean
+.PHONY: demo demo-real test check test-cpp test-sanitize test-python lint lint-only bench install install-tools \
+  install-test stubs docs develop clean
 
 install:
 	@./tools/setup.sh
-	@$(PY) -m pip install -q --disable-pip-version-check .
+	@$(PIP) .
 
-# One build for the extension and the C++ tests: the kernels take most of the time.
-WITH_TESTS := -C cmake.define.RWN_BUILD_TESTS=ON -C cmake.define.RWN_WERROR=ON
-install-test:
+install-tools:
 	@./tools/setup.sh test
-	@$(PY) -m pip install -q --disable-pip-version-check --group test --group dev '.[thesis]' $(WITH_TESTS)
+	@$(PIP) --group test --group dev
+
+install-test: install-tools
+	@$(PIP) '.[thesis]' -C cmake.define.RWN_WERROR=ON
 
 # The main job on the embedded recording, whose missing effect is known.
 demo: install
@@ -28,18 +31,29 @@ demo-real: install
 	@.venv/bin/rwn diagnose $(EMPS)/DATA_EMPS.mat --heldout $(EMPS)/DATA_EMPS_PULSES.mat \
 	  --model python/rwn/demo/emps.toml --out demo-out/emps --overwrite
 
-test: test-cpp test-sanitize test-python lint
+# Everything that CI runs. The sanitized build goes on beside pip, which waits for downloads much of its time.
+test: install-tools
+	@$(MAKE) -j2 --no-print-directory test-sanitize test-python
+	@$(MAKE) --no-print-directory lint-only
 
-test-cpp: install-test
-	ctest --test-dir "$$(dirname "$$(ls -t build/cp*/rwn_tests | head -n 1)")" --output-on-failure -j $(JOBS)
+# What to run while working: lint, types, imports, and every test that is not marked slow, on the checkout as it is (`make develop` built it).
+check: lint-only
+	@ls .venv/lib/python3*/site-packages/rwn/_core*.so >/dev/null 2>&1 || { echo "check: run 'make develop' first" >&2; exit 2; }
+	$(PY) -m pytest -q -n $(JOBS) --dist worksteal -m "not slow"
+
+# The C++ tests as they are shipped: optimised, with the kernels of this processor.
+test-cpp: install-tools
+	cmake --preset release >/dev/null
+	cmake --build --preset release -j $(JOBS) -- --quiet
+	build/release/rwn_tests --gtest_brief=1
 
 # The C++ tests with the address and undefined-behaviour sanitizers; EVERY_ISA=ON: with the kernels of every instruction set.
 EVERY_ISA ?= OFF
 ISAS_OFF := baseline
 ISAS_ON := baseline avx2 avx512
-test-sanitize: install-test
-	cmake -S . -B build/sanitize -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DRWN_SANITIZE=ON -DRWN_BUILD_TESTS=ON -DRWN_EVERY_ISA=$(EVERY_ISA) >/dev/null
-	cmake --build build/sanitize -j $(JOBS)
+test-sanitize: install-tools
+	cmake --preset sanitize -DRWN_EVERY_ISA=$(EVERY_ISA) >/dev/null
+	cmake --build --preset sanitize -j $(JOBS) -- --quiet
 	for isa in $(ISAS_$(EVERY_ISA)); do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
 
 test-python: install-test
@@ -47,25 +61,37 @@ test-python: install-test
 
 bench:
 	@./tools/setup.sh
-	@$(PY) -m pip install -q --disable-pip-version-check '.[bench]'
+	@$(PIP) '.[bench]'
 	$(PY) bench/bench_simulate.py
 	$(PY) bench/bench_structured_network.py
 	$(PY) bench/bench_diagnose.py
 
 lint: install-test
-	$(PY) -m ruff check python tests bench
+	@$(MAKE) --no-print-directory lint-only
+
+lint-only:
+	$(PY) -m ruff check python tests bench tools
 	$(PY) -m mypy
+	PYTHONPATH=python .venv/bin/lint-imports
 
 clean:
-	rm -rf build .venv
+	rm -rf build .venv site
 
-# The type stubs of the extension; a test fails when they are stale.
+# The type stubs of the extensions; a test fails when they are stale.
 stubs: install-test
-	cd build && $(PY:%=../%) -m pybind11_stubgen rwn._core -o stubs --exit-code >/dev/null && \
-	  sed -i '/^__all__/d' stubs/rwn/_core.pyi && cp stubs/rwn/_core.pyi ../python/rwn/_core.pyi
+	rm -rf build/stubs
+	for m in rwn._core rwn.studies.trials._plant; do \
+	  (cd build && $(PY:%=../%) -m pybind11_stubgen $$m -o stubs --exit-code >/dev/null) || exit 1; done
+	sed -i '/^__all__/d' build/stubs/rwn/_core.pyi build/stubs/rwn/studies/trials/_plant.pyi
+	cp build/stubs/rwn/_core.pyi python/rwn/_core.pyi
+	cp build/stubs/rwn/studies/trials/_plant.pyi python/rwn/studies/trials/_plant.pyi
+
+# The site of docs/, in site/.
+docs: install-test
+	@$(PIP) --group docs
+	NO_MKDOCS_2_WARNING=1 DISABLE_MKDOCS_2_WARNING=true $(PY) -m mkdocs build --strict
 
 # For work on rwn itself: quick rebuilds, no build isolation.
-develop:
-	@./tools/setup.sh test
-	@[ -d .venv/lib/python3.11/site-packages/scikit_build_core ] || $(PY) -m pip install -q --disable-pip-version-check scikit-build-core pybind11 cmeel-eigen --group test --group dev
-	@$(PY) -m pip install -q --disable-pip-version-check --no-build-isolation '.[thesis]' $(WITH_TESTS)
+develop: install-tools
+	@$(PY) -c 'import scikit_build_core' 2>/dev/null || $(PIP) scikit-build-core pybind11 cmeel-eigen
+	@$(PIP) --no-build-isolation '.[thesis]' -C cmake.define.RWN_WERROR=ON

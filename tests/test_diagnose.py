@@ -34,6 +34,7 @@ def demo() -> Diagnosis:
     return rwn.diagnose(read(DEMO, model, "train.csv"), model, heldout=read(DEMO, model, "heldout.csv"), jobs=3)
 
 
+@pytest.mark.slow
 def test_the_demo_lacks_coulomb_friction_and_its_correction_predicts(demo: Diagnosis) -> None:
     assert demo.verdict == "missing-physics"
     assert [e.name for e in demo.effects] == ["coulomb-friction"]
@@ -51,12 +52,14 @@ def test_the_corrected_model_has_nothing_missing(demo: Diagnosis) -> None:
     assert again.verdict == "adequate"
 
 
+@pytest.mark.slow
 def test_the_result_does_not_depend_on_the_number_of_threads(demo: Diagnosis) -> None:
     model = rwn.read_model(DEMO / "model.toml")
     alone = rwn.diagnose(read(DEMO, model, "train.csv"), model, heldout=read(DEMO, model, "heldout.csv"), jobs=1)
     assert alone.to_json() == demo.to_json()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [2, 4, 8, 10, 13])
 def test_example_cases_with_known_answers(shared: Path, number: int) -> None:
     found, answer = example(shared, number)
@@ -68,6 +71,7 @@ def test_example_cases_with_known_answers(shared: Path, number: int) -> None:
         assert found.equation == effects[0]["equation"]
 
 
+@pytest.mark.slow
 def test_emps(shared: Path) -> None:
     """From inertia and viscous friction alone; published: Fc 20.3935 N, Fv 203.5034 N s/m, force error 5.982 %."""
     model = rwn.read_model(DEMO / "emps.toml")

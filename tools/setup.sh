@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # Prepares a bare Debian machine and the virtual environment: ./tools/setup.sh [test]
+# PYTHON names the interpreter of a new environment (3.11 or later; default python3).
 set -euo pipefail
 cd "$(dirname "$0")/.."
+python=${PYTHON:-python3}
 
 need=()
 command -v g++ >/dev/null || need+=(g++)
-python3 -c 'import ensurepip, venv' 2>/dev/null || need+=(python3-venv)
-[ -e /usr/include/python3.11/Python.h ] || python3 -c 'import sysconfig,os,sys; sys.exit(not os.path.exists(sysconfig.get_path("include")+"/Python.h"))' 2>/dev/null || need+=(python3-dev)
+"$python" -c 'import ensurepip, venv' 2>/dev/null || need+=(python3-venv)
+has_headers='import os, sys, sysconfig; sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h")))'
+"$python" -c "$has_headers" 2>/dev/null || need+=(python3-dev)
 if [ "${1:-}" = test ]; then
   [ -e /usr/include/gtest/gtest.h ] || need+=(libgtest-dev)
   [ -e /usr/include/eigen3/Eigen/Core ] || need+=(libeigen3-dev)  # the sanitized tests build without pip, which would bring it
@@ -19,5 +22,7 @@ if [ ${#need[@]} -gt 0 ]; then
   echo "setup: installing ${need[*]}"
   $sudo apt-get update -qq && DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq "${need[@]}" >/dev/null
 fi
-[ -x .venv/bin/pip ] || python3 -m venv .venv
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
+  { echo "setup: $("$python" --version) is too old; set PYTHON to an interpreter of 3.11 or later" >&2; exit 2; }
+[ -x .venv/bin/pip ] || "$python" -m venv .venv
 .venv/bin/pip install -q --disable-pip-version-check --upgrade 'pip>=25.1'

@@ -3,7 +3,7 @@
 
 namespace rwn::testing {
 
-/// Number of calls of malloc and aligned_alloc so far; always 0 under the address sanitizer, which owns them.
+/// Number of heap allocations so far.
 long allocations();
 
 }  // namespace rwn::testing

@@ -9,6 +9,7 @@ from rwn.fit.identify import Identification as Identification
 from rwn.fit.identify import identify as identify
 from rwn.model.files import read_model as read_model
 from rwn.model.model import Model as Model
+from rwn.model.recordings import read_recordings as read_recordings
 from rwn.networks.conventional_network import ConventionalNetwork as ConventionalNetwork
 from rwn.networks.online_training import OnlineTraining as OnlineTraining
 from rwn.networks.online_training import train_recurrent as train_recurrent

@@ -21,6 +21,8 @@ from rwn.name.forward import rank
 from rwn.report import text as words
 from rwn.simulate.run import judging_run
 
+pytestmark = pytest.mark.slow
+
 NOMINAL = Model(
     kind="dc",
     parameters={**MOTOR, "inertia": 3.2e-4, "resistance": 0.78},

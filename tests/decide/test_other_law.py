@@ -25,6 +25,7 @@ def drag(power: int) -> Ranking:
     return rank(prepare(runs, NOMINAL), progress=lambda *_: None, names=["quadratic-drag"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("power", "seen"), [(2, ""), (3, "a torque over speed")])
 def test_a_cubic_drag_is_not_sure_to_be_a_quadratic_one(power: int, seen: str) -> None:
     ranking = drag(power)
@@ -35,6 +36,7 @@ def test_a_cubic_drag_is_not_sure_to_be_a_quadratic_one(power: int, seen: str) -
     assert (curve.place.words if curve.is_a_law else "") == seen
 
 
+@pytest.mark.slow
 def test_a_name_beside_which_a_curve_is_seen_is_not_certain() -> None:
     runs = [recorded(seed, lambda w, _: -0.03 * (w / 90.0) ** 3) for seed in range(3)]
     said = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)

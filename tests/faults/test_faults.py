@@ -91,12 +91,14 @@ def test_nothing_is_doubted_where_nothing_is_wrong(model: rwn.Model, right: rwn.
     assert wrong_scale([without(right, "current")], model) is None
 
 
+@pytest.mark.slow
 def test_missing_physics_is_no_mistake(model: rwn.Model) -> None:
     recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     assert wrong_scale([recording], model) is None
     assert rwn.diagnose([recording], model).verdict == "missing-physics"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("names", "delay", "signal"), [(MOTION, 7, "speed"), (MOTION, -5, "speed"), (("current",), 4, "current")]
 )
@@ -108,6 +110,7 @@ def test_channels_out_of_step(
     assert not ranking.fits[0].added
 
 
+@pytest.mark.slow
 def test_a_channel_out_of_step_is_seen_through_missing_physics(model: rwn.Model) -> None:
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     faults, ranking = resolved([altered(friction, ("current",), delay=6)], model, say=silent)
@@ -115,6 +118,7 @@ def test_a_channel_out_of_step_is_seen_through_missing_physics(model: rwn.Model)
     assert ranking.fits[0].added == ("coulomb-friction",)
 
 
+@pytest.mark.slow
 def test_nothing_is_compared_where_an_early_channel_was_not_measured(model: rwn.Model) -> None:
     """Its first value in place of the unknown ones made what lies beneath `unexplained`."""
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
@@ -156,6 +160,7 @@ def test_units_are_seen_through_physics_that_slows_the_motor(
     assert (found.name, found.signals, found.factor) == ("wrong-unit", names, pytest.approx(factor))
 
 
+@pytest.mark.slow
 def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model) -> None:
     """A delay and one effect explain nearly as much of it as a lag and that effect, but not as much."""
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
@@ -186,6 +191,7 @@ def test_gear_ratio(model: rwn.Model, ratio: float) -> None:
     assert found.factor == pytest.approx(ratio, rel=0.15)  # friction slows the motor too
 
 
+@pytest.mark.slow
 def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Model) -> None:
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     wrong = altered(friction, MOTION, 1.0 / 3.5)
@@ -218,6 +224,7 @@ def test_scales_are_judged_by_the_signal_they_belong_to(model: rwn.Model, right:
         assert wrong_scale(undone([wrong], found), model) is None
 
 
+@pytest.mark.slow
 def test_the_verdict_names_the_mistake_before_the_physics(model: rwn.Model) -> None:
     recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     found = rwn.diagnose([altered(recording, MOTION, 60.0 / (2.0 * np.pi))], model)
@@ -231,6 +238,7 @@ def test_the_verdict_names_the_mistake_before_the_physics(model: rwn.Model) -> N
     assert beneath.startswith("The model lacks Coulomb friction")
 
 
+@pytest.mark.slow
 def test_a_drive_that_is_hardly_moved_says_nothing(model: rwn.Model, right: rwn.Recording) -> None:
     rng = np.random.default_rng(2)
     n = len(right)
@@ -244,6 +252,7 @@ def test_a_drive_that_is_hardly_moved_says_nothing(model: rwn.Model, right: rwn.
     assert "no motion" in found.next_experiment
 
 
+@pytest.mark.slow
 def test_what_fits_best_alone_is_a_rival_though_its_law_is_on_a_limit(model: rwn.Model) -> None:
     recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     ranking = rank(prepare([recording], model), progress=lambda *_: None, at_once=1)

@@ -126,6 +126,7 @@ def test_pairs_that_are_known_are_weighed_though_nothing_is_left_to_try_more() -
     assert not again.cut_short  # what is left is noise: nothing more would have been tried
 
 
+@pytest.mark.slow
 def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     model = rwn.Model(kind="dc", parameters=MOTOR)
     wavy = recorded(1, lambda speed, angle: 0.004 * np.sin(3.0 * angle) * np.cos(7.0 * angle) - 1e-7 * speed**3, 1000)

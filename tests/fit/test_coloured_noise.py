@@ -150,6 +150,7 @@ def test_independent_errors_have_none() -> None:
     np.testing.assert_allclose(again.minimum.values, this.minimum.values, rtol=5e-3)
 
 
+@pytest.mark.slow
 def test_free_runs_come_closer_to_the_truth() -> None:
     """Over 12 recordings, on an input that none of them had; plain least squares follows what drifts."""
     squares = []
@@ -182,6 +183,7 @@ def test_where_nothing_but_noise_is_left_nothing_changes() -> None:
     assert ranking.counted is ranking.left
 
 
+@pytest.mark.slow
 def test_a_diagnosis_says_so() -> None:
     found = rwn.diagnose([made(3, rectified=True)], UNKNOWN, heldout=[made(4, rectified=True)])
     assert [e.name for e in found.effects] == ["sensor-rectification"]

@@ -14,6 +14,7 @@ from rwn.fit.preparation import prepare
 SHEET = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "resistance": 0.05})
 
 
+@pytest.mark.slow
 def test_recordings_with_different_signals_are_fitted_together() -> None:
     both = recorded(1, lambda w, _: -0.004 * np.sign(w))
     speed_alone = recorded(2, lambda w, _: -0.004 * np.sign(w))

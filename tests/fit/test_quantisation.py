@@ -14,6 +14,7 @@ from rwn.recording.quantisation import mean_rounding_error
 DEMO = Path(rwn.__file__).parent / "demo"
 
 
+@pytest.mark.slow
 def test_a_coarse_speed_signal_is_named() -> None:
     model = rwn.read_model(DEMO / "model.toml")
     recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
@@ -36,6 +37,7 @@ def test_the_mean_rounding_error_is_that_of_rounded_draws(noise: float) -> None:
     assert np.allclose(mean_rounding_error(cells, noise), mean, atol=0.012)
 
 
+@pytest.mark.slow
 def test_how_coarse_a_speed_is_does_not_bend_the_motor() -> None:
     """A slow speed between two steps is shown wrong in the same way for long: plain least squares follows it."""
     model = rwn.read_model(DEMO / "model.toml")

@@ -55,6 +55,7 @@ def test_what_swings_is_more_than_noise(periods: float) -> None:
     assert quiet.at_the_floor  # where it is not loud it may be noise
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("stiffness", "noise"), [(4.0, 0.2), (20.0, 0.05)], ids=["7 samples", "3 samples"])
 def test_a_shaft_is_seen_beside_a_drag(stiffness: float, noise: float) -> None:
     """However few samples it swings within: a backlash that is never left is no shaft."""

@@ -40,6 +40,7 @@ def _run(effect: OwnEffect, values: dict[str, float]) -> tuple[float, list[float
 
 
 # the same formulas every time: libraries may differ in the last digit, and a formula can make that as large as it likes
+@pytest.mark.slow
 @settings(derandomize=True, max_examples=400, deadline=None)
 @given(text=FORMULAS, numbers=st.lists(NUMBERS, min_size=4, max_size=4))
 def test_the_core_computes_what_numpy_does(text: str, numbers: list[float]) -> None:

@@ -78,6 +78,7 @@ def test_what_is_refused(text: str, match: str) -> None:
     assert "\n" not in str(refused.value)
 
 
+@pytest.mark.slow
 @given(st.text(max_size=40))
 def test_no_text_does_anything_but_parse_or_be_refused(text: str) -> None:
     with contextlib.suppress(InputError):

@@ -236,6 +236,7 @@ def test_priors_give_way_where_nothing_but_noise_is_left() -> None:
             assert held.value("viscous_friction") > 1.2 * motor["viscous_friction"]
 
 
+@pytest.mark.slow
 def test_a_strong_cog_is_found() -> None:
     motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
              "inertia": 2e-5, "viscous_friction": 2e-5}  # fmt: skip

@@ -31,6 +31,7 @@ def test_an_unbalance_takes_a_sixth_of_a_turn(size: float, told: bool) -> None:
     assert observable("cogging-torque", problem), "however little it turns"
 
 
+@pytest.mark.slow
 def test_an_unbalance_is_named_where_the_shaft_never_turns_round() -> None:
     """Trial 12 of seed 10034: `unexplained` while half a turn was asked for."""
     run = swinging(2.0, weight=0.02)

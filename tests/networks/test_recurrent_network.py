@@ -28,6 +28,7 @@ def loop_gain(network: rwn.RecurrentNetwork) -> float:
     return float(np.max(np.abs(network.c / network.d), initial=0.0) * network.wavelet.max_derivative)
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(shapes)
 def test_training_agrees_with_the_twin(shape: tuple[int, int, int, str]) -> None:

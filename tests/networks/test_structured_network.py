@@ -31,6 +31,7 @@ shapes = st.tuples(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(shapes)
 def test_training_agrees_with_the_twin(shape: tuple[int, int, str, bool, float]) -> None:

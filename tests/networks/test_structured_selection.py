@@ -41,6 +41,7 @@ def test_noise_ends_the_selection() -> None:
     assert select(columns, wanted, np.empty((4000, 0)), 20, noise=1.0) == [7, 2]
 
 
+@pytest.mark.slow
 def test_selected_wavelets_give_the_friction_of_table_20() -> None:
     """Wanted: J within 0.01 %, total slope within 1e-4 %, friction curve within 4e-5 N m, in 60 iterations."""
     _, u, y, slope = simultaneous()

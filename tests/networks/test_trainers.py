@@ -40,6 +40,7 @@ def test_gradient_descent_parity(wavelet: Wavelet, shape: dict[str, int], seed: 
     assert relative(training.mse, np.array(history)) < 1e-12
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=15)
 @given(wavelets, shapes, seeds)
 def test_pattern_descent_parity_over_1000_samples(wavelet: Wavelet, shape: dict[str, int], seed: int) -> None:
@@ -70,6 +71,7 @@ def test_at_higher_rates_the_core_differs_from_the_twin_no_more_than_the_twin_fr
     assert relative(got, want.parameters) < 1e-12 + 30 * own
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(wavelets, shapes, seeds)
 def test_pattern_gauss_newton_parity_over_1000_samples(

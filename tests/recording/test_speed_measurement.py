@@ -88,12 +88,14 @@ def test_the_core_takes_the_same_difference(way: SpeedMeasurement) -> None:
     assert np.allclose(out.signals["speed"], difference(way, problem.whole[0].time, out.signals["position"]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("counts", [500, 8000])
 def test_a_drive_that_takes_backward_differences_lacks_nothing(counts: int) -> None:
     runs = [_recorded(seed, BACKWARD, counts=counts, friction=0.0) for seed in (1, 2)]
     assert rwn.diagnose(runs, _model()).verdict == "adequate"
 
 
+@pytest.mark.slow
 def test_friction_is_right_beneath_backward_differences() -> None:
     runs = [_recorded(seed, BACKWARD, counts=8000, friction=0.01) for seed in (1, 2)]
     found = rwn.diagnose([replace(r, signals={s: r.signals[s] for s in ("voltage", "speed")}) for r in runs], _model())

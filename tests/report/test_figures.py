@@ -21,6 +21,7 @@ def test_no_spike_is_lost(length: int) -> None:
     assert (x[0], x[-1]) == (0.0, length - 1.0)
 
 
+@pytest.mark.slow
 def test_a_burst_of_a_recording_is_drawn_and_a_spike_is_said() -> None:
     run = recorded(1, lambda w, _: -0.004 * np.sign(w), 6000)
     speed = run.signals["speed"].copy()

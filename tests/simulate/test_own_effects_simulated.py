@@ -203,6 +203,7 @@ def braked() -> rwn.Diagnosis:
     return rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
 
 
+@pytest.mark.slow
 def test_a_concealed_eddy_brake_is_named(braked: rwn.Diagnosis) -> None:
     assert braked.verdict == "missing-physics"
     assert [e.name for e in braked.effects] == ["eddy-brake"]
@@ -220,6 +221,7 @@ def test_a_concealed_eddy_brake_is_named(braked: rwn.Diagnosis) -> None:
     assert row.corrected < 1.1 * (row.noise_floor or 0.0)
 
 
+@pytest.mark.slow
 def test_its_corrected_model_is_one_file_that_simulates(braked: rwn.Diagnosis, tmp_path: Path) -> None:
     write_model(braked.corrected, tmp_path / "corrected.toml")
     assert rwn.read_model(tmp_path / "corrected.toml") == braked.corrected
@@ -232,6 +234,7 @@ def test_its_corrected_model_is_one_file_that_simulates(braked: rwn.Diagnosis, t
     assert np.std(error) < 0.25
 
 
+@pytest.mark.slow
 def test_it_is_not_named_where_it_is_not() -> None:
     runs = [recorded(seed, lambda *_: 0.0) for seed in range(2)]
     found = rwn.diagnose(runs, NOMINAL, jobs=1)
@@ -273,6 +276,7 @@ def test_a_formula_without_a_value_ends_the_run_with_advice(tmp_path: Path) -> N
     assert end.cost == np.inf
 
 
+@pytest.mark.slow
 def test_the_worked_example_of_the_documentation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page = (Path(__file__).parents[2] / "docs/own_effects.md").read_text(encoding="utf-8")
     definition, script = (re.search(rf"```{kind}\n(.*?)```", page, re.DOTALL) for kind in ("toml", "python"))

@@ -38,6 +38,7 @@ def made(
     return rwn.Recording(name=f"made {seed}", time=time, signals={"voltage": voltage, "speed": speed})
 
 
+@pytest.mark.slow
 def test_simulation_agrees_with_numpy_at_irregular_instants() -> None:
     rng = np.random.default_rng(3)
     time = np.cumsum(rng.uniform(0.005, 0.03, 300))
@@ -59,6 +60,7 @@ def test_an_initial_state_is_estimated_where_the_model_says_so() -> None:
     assert np.max(np.abs(rwn.simulate(BELT, run).signals["speed"] - seen)) > 0.5
 
 
+@pytest.mark.slow
 def test_identify_finds_coefficients_that_nobody_gave() -> None:
     fit = rwn.identify([made(1), made(2)], UNKNOWN)
     assert fit.status == "converged"
@@ -70,6 +72,7 @@ def test_identify_finds_coefficients_that_nobody_gave() -> None:
     assert again.model.parameters["a0"] == pytest.approx(1250.0, rel=0.01)
 
 
+@pytest.mark.slow
 def test_intervals_cover() -> None:
     """36 intervals of 95 %: about 34 hold the truth."""
     fits = [rwn.identify([made(10 + k), made(50 + k)], UNKNOWN).parameters for k in range(6)]
@@ -94,6 +97,7 @@ def late(voltage: Array) -> Array:
     return np.concatenate([np.zeros(3), voltage[:-3]])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "how"),
     [

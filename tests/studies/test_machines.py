@@ -60,6 +60,7 @@ def test_the_table_says_what_was_found_and_what_was_wanted() -> None:
     assert "| unexplained | x [m] | 3 | 2 |  | <= 1.5 |" in markdown([nothing])
 
 
+@pytest.mark.slow
 def test_ced(shared: Path) -> None:
     low, high = ced.run(shared / "data" / ced.MACHINE.folder, silent)
     for outcome in (low, high):
@@ -118,6 +119,7 @@ def test_frc_speed_lags_the_voltage(shared: Path) -> None:
         frc.read_sysid(folder / file, "sideways", columns, unit)
 
 
+@pytest.mark.slow
 def test_odrive_cogging_is_found_at_its_harmonics(shared: Path) -> None:
     folder = shared / "data" / odrive.MACHINE.folder
     first, second = (odrive.read_revolution(folder / f"nocomp_{k}.npy") for k in (0, 1))

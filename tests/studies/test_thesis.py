@@ -25,6 +25,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("thesis")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("experiment", EXPERIMENTS, ids=lambda e: e.name)
 def test_every_experiment_runs_at_a_reduced_count(experiment: Experiment, results: Path) -> None:
     shares: list[float] = []
@@ -136,6 +137,7 @@ def test_select_names_what_exists() -> None:
         select(table=99)
 
 
+@pytest.mark.slow
 def test_the_command_prints_the_comparison_and_writes_the_page(results: Path) -> None:
     pytest.importorskip("matplotlib")
     answer = CliRunner().invoke(app, ["run", "--figure", "18", "--reduced", "--out", str(results)])
@@ -153,6 +155,7 @@ def test_the_command_refuses_what_it_cannot_run(options: list[str], tmp_path: Pa
     assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.slow
 def test_the_walk_through_is_written_and_the_repositorys_shows_the_code_as_it_is(tmp_path: Path) -> None:
     """`rwn thesis table-20 --page docs/table_20.md` writes it."""
     pytest.importorskip("matplotlib")

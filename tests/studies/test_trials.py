@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
+import os
 import shutil
 import tomllib
 from pathlib import Path
@@ -89,8 +91,15 @@ def fails_once(trial: Path, out: Path) -> None:
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    folder = tmp_path_factory.mktemp("trials") / "set"
-    return folder, make(SEED, COUNT, folder, split="development", jobs=2)
+    """One set for all workers of pytest-xdist: making it costs more than all tests that read it."""
+    base = tmp_path_factory.getbasetemp()
+    common = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder, digest = common / "trials", common / "trials.digest"
+    with (common / "trials.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not digest.exists():
+            digest.write_text(make(SEED, COUNT, folder, split="development", jobs=2))
+    return folder, digest.read_text()
 
 
 def test_rivals_are_effects() -> None:
@@ -112,8 +121,9 @@ def test_plans_cover_modes_and_effects_evenly() -> None:
     assert planned != plans(6, 300)
 
 
+@pytest.mark.slow
 def test_a_trial_is_the_same_every_time() -> None:
-    plan = Plan(3, 0, "offset", ("coulomb-friction",), 10.0)
+    plan = Plan(1, 0, "offset", ("coulomb-friction",), 10.0)
     first, again = make_trial(plan), make_trial(plan)
     assert first.answer == again.answer
     np.testing.assert_array_equal(first.train[0].speed, again.train[0].speed)
@@ -129,6 +139,7 @@ def test_recording_is_the_plant_and_its_noise() -> None:
     assert rms == pytest.approx(noise["speed_rms"], rel=0.2)
 
 
+@pytest.mark.slow
 def test_masked_nominal_hides_the_effect() -> None:
     """The nominal model as given fits the training recordings about as well as its refit."""
     trial = make_trial(Plan(3, 2, "masked", ("quadratic-drag",), 10.0))
@@ -145,6 +156,7 @@ def test_masked_nominal_hides_the_effect() -> None:
     assert errors[0] < 0.8 * errors[1]
 
 
+@pytest.mark.slow
 def test_folder_holds_recordings_and_no_answer(made: tuple[Path, str]) -> None:
     folder, _ = made
     trials = sorted(path for path in folder.iterdir() if path.is_dir())
@@ -172,6 +184,7 @@ def test_seal_breaks_when_the_answers_change(tmp_path: Path) -> None:
         unseal(tmp_path)
 
 
+@pytest.mark.slow
 def test_finished_set_is_not_made_again(made: tuple[Path, str]) -> None:
     with pytest.raises(FileExistsError):
         make(SEED, COUNT, made[0])
@@ -184,6 +197,7 @@ def test_seed_must_agree_with_the_split(tmp_path: Path) -> None:
         make(10_000, 1, tmp_path, split="development")
 
 
+@pytest.mark.slow
 def test_truthful_tool_meets_every_target(made: tuple[Path, str], tmp_path: Path) -> None:
     assert run(made[0], results=tmp_path, jobs=1, diagnose=tell_the_truth) == []
     graded = grade_folder(made[0], results=tmp_path)
@@ -196,6 +210,7 @@ def test_truthful_tool_meets_every_target(made: tuple[Path, str], tmp_path: Path
     assert all(share == pytest.approx(1.0, abs=1e-3) for g in named for share in g.removed)
 
 
+@pytest.mark.slow
 def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Path) -> None:
     run(made[0], results=tmp_path, jobs=1, diagnose=always_backlash)
     grades = grade_folder(made[0], results=tmp_path).grades
@@ -214,6 +229,7 @@ def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Pat
     assert "calibrated" in (tmp_path / "plot.html").read_text()
 
 
+@pytest.mark.slow
 def test_several_sets_count_as_one(made: tuple[Path, str], shared: Path, tmp_path: Path) -> None:
     shutil.copytree(made[0], tmp_path / "copy")
     run(shared / "cases", results=tmp_path / "results" / "cases", jobs=1, diagnose=tell_the_truth)
@@ -229,6 +245,7 @@ def test_several_sets_count_as_one(made: tuple[Path, str], shared: Path, tmp_pat
     assert len({g.case for g in both.grades}) == 28
 
 
+@pytest.mark.slow
 def test_trial_without_a_diagnosis_counts_as_wrong(made: tuple[Path, str], tmp_path: Path) -> None:
     grades = grade_folder(made[0], results=tmp_path).grades
     assert len(grades) == COUNT
@@ -236,6 +253,7 @@ def test_trial_without_a_diagnosis_counts_as_wrong(made: tuple[Path, str], tmp_p
     assert all(g.false_alarm for g in grades if g.mode == "null")
 
 
+@pytest.mark.slow
 def test_run_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
@@ -254,6 +272,7 @@ def test_folder_without_trials_is_refused(tmp_path: Path) -> None:
         run(tmp_path)
 
 
+@pytest.mark.slow
 def test_command_line_scores_and_explains_itself(made: tuple[Path, str], tmp_path: Path) -> None:
     run(made[0], results=tmp_path, jobs=1, diagnose=tell_the_truth)
     done = CliRunner().invoke(app, ["score", str(made[0]), "--results", str(tmp_path)])
@@ -266,6 +285,7 @@ def test_command_line_scores_and_explains_itself(made: tuple[Path, str], tmp_pat
     assert "development split" in wrong.output
 
 
+@pytest.mark.slow
 def test_example_cases_can_be_scored(shared: Path, tmp_path: Path) -> None:
     run(shared / "cases", results=tmp_path, jobs=1, diagnose=tell_the_truth)
     grades = grade_folder(shared / "cases", results=tmp_path).grades

@@ -33,6 +33,7 @@ def identify(recordings: Sequence[Recording], model: Model) -> Identification:
     """Fits the uncertain parameters of `model` to the free run over all recordings.
 
     Intervals are 95 %, widened for what the residual's variance and colour say; declared uncertainties are priors.
+    Raises InputError where a recording does not fit the model.
     """
     problem = prepare(recordings, model)
     this = fit_nominal(problem)

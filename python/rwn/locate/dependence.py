@@ -23,7 +23,7 @@ from rwn.simulate.unknown_inputs import UnknownInputs
 Array = NDArray[np.float64]
 
 WAVELETS = 15
-CLEAR = 0.25  # share of the error's energy from which a dependence is worth words
+CLEAR = 0.25  # least share of the error's energy for which a dependence is put into words
 ORDERS = np.arange(1, 61)
 COORDINATES = {"speed": "rad/s", "acceleration": "rad/s^2", "current": "A", "time": "s"}
 

@@ -123,7 +123,7 @@ class Model:
 
     @property
     def vector(self) -> NDArray[np.float64]:
-        """The parameter vector of the model as it is, as the core takes it."""
+        """The parameter vector (n_parameters,) of the model as it is, SI, as the core takes it."""
         return vocabulary.parameter_vector(self.motor, self.effects, self.effect_table)
 
     def unit(self, parameter: str) -> str:

@@ -42,7 +42,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "drive_torque": ("N m", "N"),
 }
 
-MOST_SCANNED = 2  # parameters that are scanned beside each other: nine starts
+MOST_SCANNED = 2  # most parameters that are scanned together; two make nine starts
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,7 +14,7 @@ from rwn.fit.secant import down_secants
 from rwn.model.vocabulary import table
 from rwn.parallel import side_by_side
 
-PLAIN = "coulomb-friction"  # what the other laws of dry friction elaborate
+PLAIN = "coulomb-friction"  # the law of dry friction that the other ones elaborate
 
 
 def with_simpler(problem: Problem, nominal: Fit, fits: list[Fit]) -> list[Fit]:

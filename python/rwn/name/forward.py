@@ -29,15 +29,15 @@ from rwn.simulate.run import windowed
 
 Progress = Callable[[str, float], None]
 
-MOST_EFFECTS = 3  # at once
-WORTH = 0.2  # share of what is left that another effect has to remove
-FAR_OFF = 100.0  # squared error in units of the noise, from which short windows are tried too,
-LOST = 0.2  # where the error of some signal is more than this share of its own spread
-PATIENCE = 4  # in short windows, where the misfit is large and the first steps of a fit are short
-WHOLE = 0.99  # share of the time from which a window is none
+MOST_EFFECTS = 3  # most effects in one explanation
+WORTH = 0.2  # smallest share of the remaining misfit that a further effect has to remove
+FAR_OFF = 100.0  # largest mean squared error, in units of the noise, of a free run that follows the motion
+LOST = 0.2  # largest rms error of a signal, as a share of its spread, of a free run that follows the motion
+PATIENCE = 4  # factor on the iterations in short windows: the first steps of a fit are short where the misfit is large
+WHOLE = 0.99  # share of the recording's time from which a window counts as all of it
 OFFSET = "constant-load"
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
-BRIEF = 10  # samples that a load acts for at least
+BRIEF = 10  # fewest samples that a load disturbance lasts
 
 
 def rank(

@@ -14,7 +14,7 @@ from rwn.name.weights import RankedFit
 from rwn.recording.units import linear_unit
 
 QUANTISATION = "sensor-quantization"
-SURE = 0.99  # probability that is stated of steps, which are read off the values
+SURE = 0.99  # probability that is stated of a quantisation step, which is read off the values
 
 
 @dataclass(frozen=True, kw_only=True)

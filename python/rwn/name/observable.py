@@ -6,8 +6,8 @@ import numpy as np
 
 from rwn.fit.problem import Problem
 
-A_SIXTH = 1.0 / 6.0  # travel in revolutions, from which a torque of the angle is more than a load and a spring
-HALF_A_METRE = 0.5  # the same of a linear axis, where nothing repeats by the metre
+A_SIXTH = 1.0 / 6.0  # least travel [revolutions] that tells a torque over the angle from a load and a spring
+HALF_A_METRE = 0.5  # least travel [m] of a linear axis that tells a force over the position from a load and a spring
 
 
 def observable(name: str, problem: Problem) -> bool:

@@ -32,13 +32,13 @@ from rwn.name.starts import (
 )
 from rwn.parallel import side_by_side
 
-RESOLUTION = 0.1  # change of cost that no comparison of explanations rests on
-ITERATIONS = 4  # of every start in the round on LOOK samples
-FURTHER = 6  # iterations more there of those that are promising
-BRIEF_LOOK = 2500  # samples on which starts of one effect are told apart beside others; alone LOOK
-NO_GAIN = 0.98  # cost in units of the base's, from which a start where the error is rough has gained nothing
-STEEP = 0.5  # share of its first cost that a fit may have left after a round, to go on whatever the others have
-LOST = 10.0  # what a start may leave of the rest after a round on a part, in units of what it left before
+RESOLUTION = 0.1  # changes of the cost below this decide nothing between explanations
+ITERATIONS = 4  # iterations of every start in the first round, which is made on LOOK samples
+FURTHER = 6  # further iterations of the promising starts in the first round
+BRIEF_LOOK = 2500  # samples of the first round of starts beside other effects; an effect alone has LOOK
+NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a rough error has gained nothing
+STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
+LOST = 10.0  # a round on a part is undone where the error on the rest grows by more than this factor
 
 
 def screen(

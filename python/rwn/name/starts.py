@@ -15,10 +15,10 @@ from rwn.fit.problem import Problem
 from rwn.fit.secant import rough
 from rwn.name.initial_guesses.guesses import initial_guesses
 
-KEPT_UNFITTED = 4  # starts of a kind that are fitted, of those where derivatives mislead from afar
-KEPT_OF_AN_ORDER = 2  # the same of each order of a periodic effect
-SAME_END = 1.0  # squared error in units of its variance, within which two starts have come to the same end
-BENT = 0.5  # declared standard deviations, from which the motor of a fit differs from the one as given
+KEPT_UNFITTED = 4  # starts kept of an effect whose derivatives mislead far from the minimum
+KEPT_OF_AN_ORDER = 2  # starts kept of each order of a periodic effect
+SAME_END = 1.0  # two starts have reached the same minimum within this squared distance, in units of its variance
+BENT = 0.5  # declared deviations by which a parameter may move while the motor counts as the one given
 
 
 class Start(NamedTuple):

@@ -10,7 +10,7 @@ import numpy as np
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 
-MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it is worth
+MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it counts for
 EXACT = 1000.0  # the same of one that is noise alone: a simulation is exact to about 0.1 % of the squared error
 
 

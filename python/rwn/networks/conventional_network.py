@@ -64,11 +64,14 @@ class ConventionalNetwork:
 
     @property
     def parameters(self) -> Array:
-        """All parameters in one vector: b, a, w, m, d, each row by row."""
+        """All parameters (n_parameters,): b, a, w, m, d, each row by row."""
         return np.concatenate([getattr(self, f.name).ravel() for f in fields(self)[1:]])
 
     def with_parameters(self, parameters: ArrayLike) -> ConventionalNetwork:
-        """The network of the same shape with these parameters, in the order of `parameters`."""
+        """The network of the same shape with these parameters, in the order of `parameters`.
+
+        Raises ValueError for a wrong number.
+        """
         flat = as_float_array("parameters", parameters, 1)
         parts = [getattr(self, f.name) for f in fields(self)[1:]]
         if flat.size != sum(p.size for p in parts):
@@ -91,16 +94,16 @@ class ConventionalNetwork:
         return self.core.output(as_patterns("x", x))
 
     def mse(self, x: ArrayLike, y: ArrayLike) -> float:
-        """Mean over patterns and outputs of the squared error (2.21)."""
+        """Mean squared error (2.21) over patterns x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
         xs, ys = as_pairs(x, y)
         return float(np.mean((self.output(xs) - ys) ** 2))
 
     def gradient(self, x: ArrayLike, y: ArrayLike) -> Array:
-        """Gradient of 1/2 sum of squared errors (2.12) in the order of `parameters`; 2.13-2.19, with m and d
-        summed over outputs, which the thesis omits."""
+        """Gradient of 1/2 sum of squared errors (2.12) for x (patterns, inputs) and y (patterns, outputs), in
+        the order of `parameters`; 2.13-2.19, with m and d summed over outputs, which the thesis omits."""
         return self.core.gradient(*as_pairs(x, y))
 
     def jacobian(self, x: ArrayLike) -> Array:
-        """dyhat/dtheta (2.23): (patterns, outputs, parameters)."""
+        """dyhat/dtheta (2.23): (patterns, outputs, parameters), for inputs x (patterns, inputs)."""
         xs = as_patterns("x", x)
         return self.core.jacobian(xs).reshape(self.outputs, len(xs), -1).transpose(1, 0, 2)

@@ -46,7 +46,7 @@ class OnlineTraining(Generic[Network]):
 
     @classmethod
     def of(cls, network: Network, theta: Array, history: _core.OnlineHistory) -> OnlineTraining[Network]:
-        """From the core's history, for a network of the shape of `network`."""
+        """From the core's history, for a network of the shape of `network` with parameters theta (n_parameters,)."""
         arrays = {
             name: read_only(np.array(getattr(history, key), dtype=np.float64))
             for name, key in (
@@ -83,7 +83,7 @@ def train_structured(
     the state `start` with sensitivities zero.
 
     learn: names of the groups that learn, of v1..v5, w, m, d, c.
-    rates: the learning-rate rule; None is `rwn.rates.Thesis()`.
+    rates: the learning-rate rule; None is `rwn.networks.rates.Thesis()`.
     frozen_every: cycles between evaluations with frozen parameters; 0: before the first and after the last.
     follow_state: after each correction the state moves with its parameters, x += (dx/dtheta) dtheta, so that
         a change acts at once instead of after 1/(1 - rho) samples.

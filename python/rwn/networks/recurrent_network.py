@@ -58,11 +58,14 @@ class RecurrentNetwork:
 
     @property
     def theta(self) -> Array:
-        """All parameters, [b, a, w, m, d, c], matrices row by row."""
+        """All parameters (n_parameters,): [b, a, w, m, d, c], matrices row by row."""
         return np.concatenate([[self.b], self.a, self.w, self.m.ravel(), self.d.ravel(), self.c.ravel()])
 
     def with_theta(self, theta: ArrayLike) -> RecurrentNetwork:
-        """The same network with other parameters [b, a, w, m, d, c]."""
+        """The same network with other parameters theta (n_parameters,): [b, a, w, m, d, c].
+
+        Raises ValueError for a wrong number.
+        """
         values = as_float_array("theta", theta, 1)
         if len(values) != len(self.theta):
             raise ValueError(
@@ -82,15 +85,15 @@ class RecurrentNetwork:
         return self.core.simulate(self.as_inputs(x))
 
     def sensitivities(self, x: ArrayLike) -> tuple[Array, Array]:
-        """Output (n,) and its derivative by every entry of `theta` (n, parameters) (3.7-3.18)."""
+        """Output (n,) for inputs x (n, inputs), its derivative by every entry of `theta` (n, parameters) (3.7-3.18)."""
         return self.core.sensitivities(self.as_inputs(x))
 
     def mse(self, x: ArrayLike, y: ArrayLike) -> float:
-        """Mean squared error with frozen parameters."""
+        """Mean squared error for inputs x (n, inputs) and wanted output y (n,), parameters frozen."""
         return float(np.mean((as_float_array("y", y, 1) - self.simulate(x)) ** 2))
 
     def as_inputs(self, x: ArrayLike) -> Array:
-        """Inputs (n, inputs), checked."""
+        """x as inputs (n, inputs). Raises ValueError where it is not."""
         inputs = as_patterns("x", x)
         if inputs.shape[1] != self.inputs:
             raise ValueError(f"x must have {self.inputs} column(s), one per input, got {inputs.shape[1]}")

@@ -52,6 +52,7 @@ def train_side_by_side(
 
     networks: of one size and one wavelet; their starts (seeds) differ.
     rates: one rule for all, or one for each; a group without a rate does not learn.
+    start: speed [rad/s] and current [A] at the first sample of each cycle, (2,).
     Raises ValueError for networks that are not alike, arrays that do not fit, cycles < 1.
     """
     u, y = as_signals(voltage, speed)

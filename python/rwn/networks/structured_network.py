@@ -67,7 +67,10 @@ class StructuredNetwork:
         c: ArrayLike = (),
         wavelet: Wavelet | None = None,
     ) -> StructuredNetwork:
-        """The Euler-forward network (4.5) of a motor at `sample_time` [s]; without w, m, d, c no friction."""
+        """The Euler-forward network (4.5) of a motor at `sample_time` [s]; without w, m, d, c no friction.
+
+        Raises ValueError where a value is not positive.
+        """
         t = float(sample_time)
         for name, value in (("sample_time", t), ("inertia", motor.inertia), ("inductance", motor.inductance)):
             if not value > 0:
@@ -102,11 +105,14 @@ class StructuredNetwork:
 
     @property
     def theta(self) -> Array:
-        """All parameters, [v, w, m, d, c]."""
+        """All parameters (5 + 4 wavelets,): [v, w, m, d, c]."""
         return np.concatenate([self.v, self.w, self.m, self.d, self.c])
 
     def with_theta(self, theta: ArrayLike) -> StructuredNetwork:
-        """The same network with other parameters [v, w, m, d, c]."""
+        """The same network with other parameters theta (5 + 4 wavelets,): [v, w, m, d, c].
+
+        Raises ValueError for a wrong number.
+        """
         values = as_float_array("theta", theta, 1)
         if len(values) != 5 + 4 * self.wavelets:
             raise ValueError(
@@ -135,7 +141,8 @@ class StructuredNetwork:
     def sensitivities(
         self, voltage: ArrayLike, speed: ArrayLike, *, start: ArrayLike = (0.0, 0.0)
     ) -> tuple[Array, Array]:
-        """Simulated speed (n,) and its derivative by `theta` (n, 5 + 4 wavelets) (4.13-4.28, E)."""
+        """Speed (n,) [rad/s] as `simulate` has it, with `start`, and its derivative by `theta` (n, 5 + 4 wavelets)
+        (4.13-4.28, E), for the voltage (n,) [V] and the measured speed."""
         return self.core.sensitivities(*as_signals(voltage, speed), as_start(start))
 
     def torque(self, speed: ArrayLike) -> Array:
@@ -150,7 +157,7 @@ class StructuredNetwork:
         return out
 
     def mse(self, voltage: ArrayLike, speed: ArrayLike, *, start: ArrayLike = (0.0, 0.0)) -> float:
-        """Mean squared speed error with frozen parameters [rad2/s2]."""
+        """Mean squared error [rad2/s2] of `simulate` for voltage (n,) [V], speed (n,) [rad/s] and start."""
         u, y = as_signals(voltage, speed)
         return float(np.mean((y - self.simulate(u, y, start=start)) ** 2))
 

@@ -17,10 +17,9 @@ class Training:
     """A finished training.
 
     `status` is `converged` (target or minimum reached), `iteration-limit`, `stalled` or `diverged`; `advice`
-    says what to try. `mse` is the history by iteration; for `pattern-descent` it is the tracking error met
-    while learning, and
-    `frozen_mse` the error of `network` with its weights held. Of a diverged run `network` is the best one
-    met.
+    says what to try. `mse` (iterations,) is the history; for `pattern-descent` it is the tracking error met
+    while learning, and `frozen_mse` the error of `network` with its weights held. Of a diverged run
+    `network` is the best one met.
     """
 
     network: ConventionalNetwork

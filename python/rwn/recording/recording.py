@@ -23,7 +23,7 @@ Flags = NDArray[np.bool_]
 
 @dataclass(frozen=True, kw_only=True)
 class Recording:
-    """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in the SI units of `rwn.signals`.
+    """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in SI units (see docs/recordings.md).
 
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
     stands there is a guess that nothing is compared with. Arrays are made float64, contiguous and read-only.

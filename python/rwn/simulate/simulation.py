@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Simulation:
-    """Simulated signals at the recording's instants, SI, (n_t,) each, as the recording's sensors would show them."""
+    """`signals` name -> (n_t,), SI, at `time` (n_t,) [s] of the recording, as its sensors would show them."""
 
     time: Array
     signals: Mapping[str, Array]

@@ -149,7 +149,7 @@ RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork
       frozen = mse;
       wary *= settle;
       forget *= settle;
-    } else {  // the cycle went astray: undo it, and try again more carefully
+    } else {  // the frozen error grew: undo the cycle and try again with smaller corrections
       theta = out.network.theta();
       run.load(out.network);
       root.reset();

@@ -24,10 +24,10 @@ from rwn.simulate.linear_response import speed_filter
 
 Array = NDArray[np.float64]
 
-RATES = 100  # natural frequencies that are looked at,
-SLOWEST = 6.0  # from so many periods in the longest recording up to the highest frequency that is sampled,
-RATIOS = (0.03, 0.1, 0.3)  # each with these damping ratios
-BEHIND = (0.05, 0.9)  # least and largest part of the inertia that is believed to be behind the spring
+RATES = 100  # natural frequencies that are tried, up to the highest that is sampled
+SLOWEST = 6.0  # lowest natural frequency that is tried, in periods per longest recording
+RATIOS = (0.03, 0.1, 0.3)  # damping ratios that are tried with each natural frequency
+BEHIND = (0.05, 0.9)  # least and largest share of the inertia that may be behind the spring
 
 
 class Resonance(NamedTuple):

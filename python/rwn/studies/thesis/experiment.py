@@ -20,7 +20,7 @@ class Row:
     ours: our number (the median over seeds), None if the run diverged or could not be done; `missing` says it.
     spread: smallest and largest over the seeds.
     count: iterations, cycles, seeds, in words.
-    judge: how the word is computed, a name in `rwn.thesis.words`.
+    judge: how the word is computed, a name in `rwn.studies.thesis.words`.
     wanted: for the judge `wanted`, the value to reach; for `claim`, the share of cases that must hold.
     group: rows of one group must keep the thesis's order to count as `trend`.
     reason: the measured cause, shown where the word is not the best one.

@@ -1,0 +1,65 @@
+"""The docstrings of what `import rwn` gives: there, with the shapes and units of arrays, and with what is raised."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import re
+import textwrap
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+import rwn
+
+SHAPE = r"\(\w[\w +]*,[\w +,]*\)|elementwise|as `(?:parameters|theta)`|order of `parameters`"
+UNITS = {"voltage": "[V]", "speed": "[rad/s]", "current": "[A]", "torque": "[N m]", "time": "[s]", "sample_time": "[s]"}
+ARRAY = re.compile(r"\b(ArrayLike|Array|NDArray)\b")
+
+
+def public() -> Iterator[tuple[str, Any, str]]:
+    """Name, object and the docstring of its class, of all that is exported and their public methods."""
+    for name, thing in vars(rwn).items():
+        if name.startswith("_") or inspect.ismodule(thing) or not getattr(thing, "__module__", "").startswith("rwn"):
+            continue
+        yield name, thing, ""
+        if inspect.isclass(thing):
+            for member, value in vars(thing).items():
+                function = value.fget if isinstance(value, property) else getattr(value, "__func__", value)
+                if not member.startswith("_") and inspect.isfunction(function):
+                    yield f"{name}.{member}", function, inspect.getdoc(thing) or ""
+
+
+THINGS = list(public())
+
+
+@pytest.mark.parametrize(("name", "thing", "of_class"), THINGS, ids=[name for name, _, _ in THINGS])
+def test_a_docstring_says_what_is_needed(name: str, thing: Any, of_class: str) -> None:
+    own = inspect.getdoc(thing) or ""
+    assert own, f"{name} has no docstring"
+    for array, annotation in arrays(thing):
+        text = own if array == "return" else f"{own}\n{of_class}"
+        assert array == "return" or re.search(rf"\b{array}\b", text), f"{name} does not say what '{array}' is"
+        assert re.search(SHAPE, text), f"{name} gives no shape for '{array}' ({annotation})"
+        if array in UNITS:
+            assert UNITS[array] in text, f"{name} gives no unit for '{array}': expected {UNITS[array]}"
+    if "raise " in checks(thing):
+        assert re.search(r"\b[Rr]aises\b", own), f"{name} does not say what it raises"
+
+
+def arrays(thing: Any) -> Iterator[tuple[str, str]]:
+    """Arguments, fields and 'return' that are arrays, each with its annotation."""
+    if dataclasses.is_dataclass(thing):
+        told = {field.name: str(field.type) for field in dataclasses.fields(thing)}
+    elif inspect.isfunction(thing):
+        told = {name: str(kind) for name, kind in thing.__annotations__.items()}
+    else:
+        told = {}
+    yield from ((name, kind) for name, kind in told.items() if ARRAY.search(kind))
+
+
+def checks(thing: Any) -> str:
+    """The source in which a function, or the making of an object, refuses its input."""
+    made: Callable[..., Any] | None = vars(thing).get("__post_init__") if inspect.isclass(thing) else thing
+    return textwrap.dedent(inspect.getsource(made)) if made else ""
