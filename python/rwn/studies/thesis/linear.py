@@ -48,7 +48,7 @@ class Case:
 
 def thesis_rule(fraction: float) -> Thesis:
     """As the thesis has it: running maxima, every group at the whole fraction of its own bound."""
-    return Thesis(fraction=fraction, shared=False, printed=False)
+    return Thesis(fraction=fraction, shared=False)
 
 
 def as_printed(
