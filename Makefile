@@ -50,6 +50,7 @@ bench:
 	@$(PY) -m pip install -q --disable-pip-version-check '.[bench]'
 	$(PY) bench/bench_simulate.py
 	$(PY) bench/bench_structured_network.py
+	$(PY) bench/bench_recurrent_network.py
 	$(PY) bench/bench_diagnose.py
 
 lint: install-test
