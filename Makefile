@@ -1,10 +1,10 @@
-# make demo | demo-real | test | test-sanitize | lint | bench | stubs; everything else is set up by these.
+# make demo | demo-real | test | test-sanitize | mutants | lint | bench | stubs; everything else is set up by these.
 PY := .venv/bin/python
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 JOBS ?= $(shell nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: demo demo-real test test-cpp test-sanitize test-python lint bench install install-test stubs develop clean
+.PHONY: demo demo-real test test-cpp test-sanitize test-python mutants lint bench install install-test stubs develop clean
 
 install:
 	@./tools/setup.sh
@@ -44,6 +44,10 @@ test-sanitize: install-test
 
 test-python: install-test
 	$(PY) -m pytest -n $(JOBS) --dist worksteal
+
+# Alters the network kernels one line at a time and asks whether a test notices; by hand, it takes an hour.
+mutants: install-test
+	$(PY) tools/mutants.py
 
 bench:
 	@./tools/setup.sh
