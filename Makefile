@@ -1,11 +1,11 @@
-# make demo | demo-real | test | check | test-sanitize | lint | bench | stubs | docs; everything else is set up by these.
+# make demo | demo-real | test | check | test-sanitize | mutants | lint | bench | stubs | docs; everything else is set up by these.
 PY := .venv/bin/python
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 JOBS ?= $(shell nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 PIP := $(PY) -m pip install -q --disable-pip-version-check
 
-.PHONY: demo demo-real test check test-cpp test-sanitize test-python lint lint-only bench install install-tools \
+.PHONY: demo demo-real test check test-cpp test-sanitize test-python mutants lint lint-only bench install install-tools \
   install-test stubs docs develop clean
 
 install:
@@ -59,11 +59,16 @@ test-sanitize: install-tools
 test-python: install-test
 	$(PY) -m pytest -n $(JOBS) --dist worksteal
 
+# Alters the network kernels one line at a time and asks whether a test notices; by hand, it takes an hour.
+mutants: install-test
+	$(PY) tools/mutants.py
+
 bench:
 	@./tools/setup.sh
 	@$(PIP) '.[bench]'
 	$(PY) bench/bench_simulate.py
 	$(PY) bench/bench_structured_network.py
+	$(PY) bench/bench_recurrent_network.py
 	$(PY) bench/bench_diagnose.py
 
 lint: install-test

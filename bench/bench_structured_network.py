@@ -164,7 +164,7 @@ def main() -> None:
     many, start, wavelet = np.tile(rates, (SEEDS, 1)), np.zeros(2), net.wavelet.core
     check(net, u, y, rates)
     check_side_by_side(networks, u, y)
-    printed = Thesis(fraction=1e-4, printed=True)
+    adaptive = {name: Thesis(fraction=1e-4, eigen=name == "eigen") for name in ("thesis", "eigen")}
 
     def in_numba(cycles: int) -> None:
         v, weights = parts(net)
@@ -179,12 +179,13 @@ def main() -> None:
 
     calls: Calls = {
         "held": (lambda n: core_theta(net, u, y, Fixed(RATES), n), 1),
-        "thesis": (lambda n: core_theta(net, u, y, printed, n), 1),
+        "thesis": (lambda n: core_theta(net, u, y, adaptive["thesis"], n), 1),
         "side": (lambda n: _core.train_side_by_side(theta, wavelet, many, u, y, start, cycles=n), SEEDS),
         "numba": (in_numba, 1),
         "jax": (in_jax, 1),
     }
     times = time_all(calls, ROUNDS)
+    times |= time_all({"eigen": (lambda n: core_theta(net, u, y, adaptive["eigen"], n), 1)}, 20)
     times |= time_all({"numpy": (lambda n: twin.train(net, u, y, rates=rates, cycles=n), 1)}, 5)
     report(times)
 
@@ -196,17 +197,23 @@ def bounds(width: int, ghz: float) -> tuple[float, float]:
     return alone / PORTS / ghz, side / PORTS / ghz
 
 
+def machine() -> str:
+    """Processor, clock, instruction set and compiler, in one line."""
+    cpu = next(s for s in Path("/proc/cpuinfo").read_text().splitlines() if s.startswith("model name"))
+    compiler = subprocess.run(["g++", "--version"], capture_output=True, text=True, check=False)
+    return f"{cpu.split(':')[1].strip()}, {clock_ghz():.2f} GHz now, {_core.isa()}; {compiler.stdout.splitlines()[0]}"
+
+
 def report(ns: dict[str, float]) -> None:
     isa, ghz = _core.isa(), clock_ghz()
     alone, side = bounds({"baseline": 2, "avx2": 4, "avx512": 8}[isa], ghz)
     held = ns["held"]
-    cpu = next(s for s in Path("/proc/cpuinfo").read_text().splitlines() if s.startswith("model name"))
-    compiler = subprocess.run(["g++", "--version"], capture_output=True, text=True, check=False)
-    print(f"\n{cpu.split(':')[1].strip()}, {ghz:.2f} GHz now, {isa}; {compiler.stdout.splitlines()[0]}")
+    print(f"\n{machine()}")
     print(f"N_w = {WAVELETS}: forward, V1-V3, P and Q of v1..v3 and 4 x {WAVELETS}, update; rates held\n")
     rows = [
         ("rwn, rates held", held, "", ""),
         ("rwn, thesis rule at every sample", ns["thesis"], f"{ns['thesis'] / held:.2f} x held", "at most 2"),
+        ("the same, eigen=True", ns["eigen"], f"{ns['eigen'] / held:.1f} x held", ""),
         (
             f"rwn, {SEEDS} seeds side by side, per seed",
             ns["side"],

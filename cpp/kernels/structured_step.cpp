@@ -68,7 +68,9 @@ void train_held(StructuredBlock& b, const StructuredCycle& c) {
 
 void train(StructuredBlock& b, const StructuredCycle& c) { b.carry ? train_held<true>(b, c) : train_held<false>(b, c); }
 
-template <bool Carry>
+/// Decompose: cond(M) and rho(A) by the function of the bounds. A call, even one that is not taken, costs the loop its
+/// registers, so the loop without it is compiled by itself.
+template <bool Carry, bool Decompose>
 void train_bounded(StructuredBlock& b, const StructuredCycle& c, ThesisBounds& shared) {
   ThesisBounds t = shared;
   with_run(b, [&](auto& run) {
@@ -80,7 +82,8 @@ void train_bounded(StructuredBlock& b, const StructuredCycle& c, ThesisBounds& s
       WithBounds bounds{t};
       run.advance(u, speed, bounds);
       see_signals(t, x1, x2, u, run.tau);
-      const PlantGain gain = plant_gain(run.a11, run.a12, run.a21, run.a22);
+      const PlantGain gain = Decompose ? t.decompose(run.a11, run.a12, run.a21, run.a22)
+                                       : plant_gain(run.a11, run.a12, run.a21, run.a22);
       const double* rates = thesis_rates(t, run.v, gain, bounds.bounds, run.electrical, run.friction);
       const double error = c.speed[n] - run.x1;
       squares += error * error;
@@ -92,7 +95,11 @@ void train_bounded(StructuredBlock& b, const StructuredCycle& c, ThesisBounds& s
 }
 
 void train_thesis(StructuredBlock& b, const StructuredCycle& c, ThesisBounds& t) {
-  b.carry ? train_bounded<true>(b, c, t) : train_bounded<false>(b, c, t);
+  if (t.decompose) {
+    b.carry ? train_bounded<true, true>(b, c, t) : train_bounded<false, true>(b, c, t);
+  } else {
+    b.carry ? train_bounded<true, false>(b, c, t) : train_bounded<false, false>(b, c, t);
+  }
 }
 
 void train_side_by_side(StructuredBlock& b, const StructuredCycle& c) {

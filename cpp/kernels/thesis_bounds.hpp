@@ -64,7 +64,7 @@ RWN_INLINE const double* thesis_rates(ThesisBounds& t, const double* v, const Pl
   const double v1 = magnitude(v[0]), v2 = magnitude(v[1]), v3 = magnitude(v[2]), v4 = magnitude(v[3]);
   raise(t, kV1, gain * v2 * t.x1);                                   // 4.51
   raise(t, kV2, gain * (v3 * t.x2 + v1 * t.x1 + t.tau));             // 4.63
-  raise(t, kV3, gain * ((t.printed ? v3 : v2) * t.x2 + v4 * t.x1));  // 4.75, E2 = [v2; 0]
+  raise(t, kV3, gain * ((t.misprint ? v3 : v2) * t.x2 + v4 * t.x1));  // 4.75, E2 = [v2; 0]
   if (electrical) {
     raise(t, kV4, gain * (v3 * t.x1 + t.u));  // E.11
     raise(t, kV5, gain * t.x2);               // E.23

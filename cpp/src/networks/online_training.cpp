@@ -158,24 +158,14 @@ RecurrentTraining train(const RecurrentNetwork& network, const RecurrentSignals&
   keep_frozen(history, 0, mean_squared_error(network, signals));
   OnlineWatch watcher(history, mean_square, history.mse_frozen[0]);
   bool still = false;
-  RecurrentRateValues last{};
   for (int done = 1; done <= options.cycles; ++done) {
-    run.restart();
-    double squares = 0.0;
-    for (Eigen::Index n = 0; n < signals.samples(); ++n) {
-      const double* x = signals.inputs.row(n).data();
-      const double error = signals.output[n] - run.advance(x);
-      squares += error * error;
-      const double* mu = rates.rates(run, x);
-      std::copy_n(mu, last.size(), last.begin());
-      run.correct(mu, error);
-    }
-    if (watcher.diverged(squares / samples, run.theta())) {
+    const double mse = rates.train(run, signals) / samples;
+    if (watcher.diverged(mse, run.theta())) {
       break;
     }
     still = stands_still(out.network.theta(), run.theta());
     out.network = RecurrentNetwork(run.theta(), network.inputs(), network.wavelet());
-    history.rates.push_back(as_vector(last));
+    history.rates.push_back(as_vector(rates.rates()));
     if (frozen_due(options, done)) {
       keep_frozen(history, done, mean_squared_error(out.network, signals));
     }

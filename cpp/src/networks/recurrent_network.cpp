@@ -1,5 +1,6 @@
 #include "rwn/networks/recurrent_network.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -41,73 +42,98 @@ Eigen::Index RecurrentNetwork::offset(int group) const {
 }
 
 RecurrentRun::RecurrentRun(const RecurrentNetwork& network)
-    : network_(network), inputs_(network.inputs()), wavelets_(network.wavelets()), theta_(network.theta()),
-      gradient_(theta_.size()), phi_(wavelets_ * inputs_), V1_(phi_.size()), V2_(phi_.size()), V3_(phi_.size()),
-      products_(inputs_ + 1) {
-  restart();
+    : network_(network), kernels_(recurrent_kernels()), theta_(network.theta()), gradient_(theta_.size()),
+      linear_(static_cast<std::size_t>(1 + 2 * network.inputs())) {
+  const long width = kernels_.width;
+  const long vectors = (network.wavelets() + width - 1) / width;
+  stride_ = (kOutputRows + network.inputs() * kInputRows) * width;
+  lanes_.resize(static_cast<std::size_t>(vectors * stride_));
+  block_ = {linear_.data(), lanes_.data(), vectors, network.inputs(), network.wavelet().index(), network.wavelet().omega0(), {}};
+  for (Eigen::Index j = 0; j < vectors * width; ++j) {
+    for (Eigen::Index i = 0; i < network.inputs(); ++i) {
+      lanes_[at(i, kShape, j)] = kPaddingTranslation;
+      lanes_[at(i, kShape + 1, j)] = kPaddingDilation;
+    }
+  }
+  load();
+}
+
+std::size_t RecurrentRun::at(int row, Eigen::Index j) const {
+  const Eigen::Index width = kernels_.width;
+  return static_cast<std::size_t>((j / width) * stride_ + row * width + j % width);
+}
+
+std::size_t RecurrentRun::at(Eigen::Index input, int row, Eigen::Index j) const {
+  return at(static_cast<int>(kOutputRows + input * kInputRows + row), j);
+}
+
+/// Calls f(index in the flat vector, place in the lanes) for w, m, d, c or for the derivatives by them.
+template <class F>
+void RecurrentRun::each(int output_row, int input_row, const F& f) const {
+  for (Eigen::Index j = 0; j < network_.wavelets(); ++j) {
+    f(network_.offset(kOutput) + j, at(output_row, j));
+    for (int k = 0; k < 3; ++k) {
+      for (Eigen::Index i = 0; i < network_.inputs(); ++i) {
+        f(network_.offset(kShift + k) + j * network_.inputs() + i, at(i, input_row + k, j));
+      }
+    }
+  }
+}
+
+void RecurrentRun::load() {
+  std::copy_n(theta_.data(), 1 + network_.inputs(), linear_.begin());
+  each(kWeightRow, kShape, [&](Eigen::Index k, std::size_t lane) { lanes_[lane] = theta_[k]; });
+}
+
+void RecurrentRun::save() {
+  std::copy_n(linear_.begin(), 1 + network_.inputs(), theta_.data());
+  each(kWeightRow, kShape, [&](Eigen::Index k, std::size_t lane) { theta_[k] = lanes_[lane]; });
 }
 
 void RecurrentRun::restart() {
-  for (Vector* v : {&gradient_, &phi_, &V1_, &V2_, &V3_}) {
-    v->setZero();
-  }
-}
-
-/// Fills the gradient's w, m, d, c of wavelet j; its w entry is Phi_j (3.9).
-template <class W>
-void RecurrentRun::wavelet(const W& kind, const double* x, Eigen::Index j) {
-  const Eigen::Index count = wavelets_ * inputs_;
-  const double* m = theta_.data() + 1 + inputs_ + wavelets_;
-  double* gm = gradient_.data() + 1 + inputs_ + wavelets_;
-  const double weight = theta_[1 + inputs_ + j];
-  products_[0] = 1.0;
-  for (Eigen::Index i = 0; i < inputs_; ++i) {
-    const Eigen::Index k = j * inputs_ + i;
-    const double d = m[count + k];
-    const double c = m[2 * count + k];
-    const double z = (x[i] + c * phi_[k] - m[k]) / d;
-    const double slope = kind.derivative(z) / d;
-    V1_[k] = slope * (c * V1_[k] - 1.0);
-    V2_[k] = slope * (c * V2_[k] - z);
-    V3_[k] = slope * (c * V3_[k] + phi_[k]);
-    phi_[k] = kind.value(z);
-    products_[i + 1] = products_[i] * phi_[k];
-  }
-  gradient_[1 + inputs_ + j] = products_[inputs_];
-  double after = weight;  // w_j times the product of the factors behind i
-  for (Eigen::Index i = inputs_ - 1; i >= 0; --i) {
-    const Eigen::Index k = j * inputs_ + i;
-    const double others = products_[i] * after;
-    gm[k] = others * V1_[k];
-    gm[count + k] = others * V2_[k];
-    gm[2 * count + k] = others * V3_[k];
-    after *= phi_[k];
+  const long width = kernels_.width;
+  for (long p = 0; p < block_.vectors; ++p) {
+    for (long i = 0; i < block_.inputs; ++i) {
+      const auto first = lanes_.begin() + p * stride_ + (kOutputRows + i * kInputRows + kFactor) * width;
+      std::fill(first, first + (kInputRows - kFactor) * width, 0.0);
+    }
   }
 }
 
 double RecurrentRun::advance(const double* x) {
-  network_.wavelet().visit([&](const auto& kind) {
-    for (Eigen::Index j = 0; j < wavelets_; ++j) {
-      wavelet(kind, x, j);
-    }
-  });
+  const double y = kernels_.advance(block_, x);
   gradient_[0] = 1.0;
-  double y = theta_[0];
-  for (Eigen::Index i = 0; i < inputs_; ++i) {
-    gradient_[1 + i] = x[i];
-  }
-  for (Eigen::Index k = 1; k < 1 + inputs_ + wavelets_; ++k) {
-    y += theta_[k] * gradient_[k];
-  }
+  std::copy_n(x, network_.inputs(), gradient_.data() + 1);
+  each(kProduct, kSlopes, [&](Eigen::Index k, std::size_t lane) { gradient_[k] = lanes_[lane]; });
   return y;
 }
 
 void RecurrentRun::correct(const double* rates, double error) {
-  for (int g = 0; g < kRecurrentGroups; ++g) {
-    const Eigen::Index first = network_.offset(g);
-    const Eigen::Index size = network_.size(g);
-    theta_.segment(first, size) += (rates[g] * error) * gradient_.segment(first, size);
-  }
+  std::copy_n(rates, kRecurrentGroups, block_.rates);
+  kernels_.correct(block_, error);
+  save();
+}
+
+RecurrentCycle RecurrentRun::cycle(const Eigen::Ref<const RowMatrix>& inputs, const double* output) {
+  restart();
+  return {inputs.data(), inputs.outerStride(), output, inputs.rows()};
+}
+
+double RecurrentRun::train(const RecurrentSignals& s, const double* rates) {
+  std::copy_n(rates, kRecurrentGroups, block_.rates);
+  const double squares = kernels_.train(block_, cycle(s.inputs, s.output.data()));
+  save();
+  return squares;
+}
+
+double RecurrentRun::train_thesis(const RecurrentSignals& s, RecurrentBounds& bounds) {
+  const double squares = kernels_.train_thesis(block_, cycle(s.inputs, s.output.data()), bounds);
+  save();
+  return squares;
+}
+
+void RecurrentRun::simulate(const Eigen::Ref<const RowMatrix>& inputs, double* output) {
+  kernels_.simulate(block_, cycle(inputs, nullptr), output);
 }
 
 void check(const RecurrentNetwork& network, const RecurrentSignals& signals) {
@@ -122,14 +148,13 @@ void check(const RecurrentNetwork& network, const RecurrentSignals& signals) {
 Vector simulate(const RecurrentNetwork& network, const Eigen::Ref<const RowMatrix>& inputs) {
   RecurrentRun run(network);
   Vector output(inputs.rows());
-  for (Eigen::Index n = 0; n < inputs.rows(); ++n) {
-    output[n] = run.advance(inputs.row(n).data());
-  }
+  run.simulate(inputs, output.data());
   return output;
 }
 
 RecurrentSensitivities sensitivities(const RecurrentNetwork& network, const Eigen::Ref<const RowMatrix>& inputs) {
   RecurrentRun run(network);
+  run.restart();
   RecurrentSensitivities out{Vector(inputs.rows()), RowMatrix(inputs.rows(), network.theta().size())};
   for (Eigen::Index n = 0; n < inputs.rows(); ++n) {
     out.output[n] = run.advance(inputs.row(n).data());

@@ -34,9 +34,9 @@ StructuredRun::StructuredRun(const StructuredNetwork& network)
   block_ = {linear_.data(), network_.data(), vectors, network.wavelet().index(), network.wavelet().omega0(),
             rates_.data(),  true,            true,    false};
   want(true, true);
-  for (long j = 0; j < vectors * width; ++j) {  // the padding: wavelets too far away to answer or to learn
-    network_[at(kTheta + 1, j)] = 1e6;
-    network_[at(kTheta + 2, j)] = 1.0;
+  for (long j = 0; j < vectors * width; ++j) {
+    network_[at(kTheta + 1, j)] = kPaddingTranslation;
+    network_[at(kTheta + 2, j)] = kPaddingDilation;
   }
   load(network);
 }

@@ -51,6 +51,58 @@ TEST(RecurrentNetwork, GradientsMatchFiniteDifferences) {
   }
 }
 
+/// The output by the scalar wavelet and the equations 3.1-3.4.
+Vector by_hand(const RecurrentNetwork& net, const RowMatrix& x) {
+  const RecurrentRun at(net);
+  Vector phi = Vector::Zero(net.size(kShift)), out(x.rows());
+  for (Eigen::Index n = 0; n < x.rows(); ++n) {
+    out[n] = net.theta()[0] + at.parameters(kDirect).dot(x.row(n));
+    for (Eigen::Index j = 0; j < net.wavelets(); ++j) {
+      double product = 1.0;
+      for (Eigen::Index i = 0; i < net.inputs(); ++i) {
+        const Eigen::Index k = j * net.inputs() + i;
+        phi[k] = net.wavelet().value((x(n, i) + at.parameters(kLoop)[k] * phi[k] - at.parameters(kShift)[k]) / at.parameters(kScale)[k]);
+        product *= phi[k];
+      }
+      out[n] += at.parameters(kOutput)[j] * product;
+    }
+  }
+  return out;
+}
+
+TEST(RecurrentNetwork, SimulatesItsEquations) {
+  for (const char* name : {"gaussian-derivative", "mexican-hat", "morlet"}) {
+    for (Eigen::Index columns : {1, 2, 5}) {
+      for (Eigen::Index wavelets : {0, 3, 8, 17}) {
+        const RecurrentNetwork net = network(columns, wavelets, Wavelet(name));
+        const RowMatrix x = inputs(300, columns);
+        EXPECT_LT((simulate(net, x) - by_hand(net, x)).cwiseAbs().maxCoeff(), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(RecurrentRun, TrainingSampleBySampleEqualsTheCycleKernel) {
+  for (Eigen::Index columns : {1, 3}) {
+    const RecurrentNetwork net = network(columns, 11, Wavelet());
+    const RowMatrix x = inputs(900, columns);
+    const Vector y = Vector::Ones(900);
+    const double rates[kRecurrentGroups] = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-4};
+    RecurrentRun cycle(net), steps(net);
+    const double squares = cycle.train({x, y}, rates);
+    steps.restart();
+    double met = 0.0;
+    for (Eigen::Index n = 0; n < x.rows(); ++n) {
+      const double error = y[n] - steps.advance(x.row(n).data());
+      met += error * error;
+      steps.correct(rates, error);
+    }
+    EXPECT_GT((cycle.theta() - net.theta()).cwiseAbs().maxCoeff(), 1e-3);
+    EXPECT_LT((cycle.theta() - steps.theta()).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_NEAR(squares / met, 1.0, 1e-12);
+  }
+}
+
 TEST(RecurrentNetwork, PerSampleLoopsDoNotAllocate) {
   const RecurrentNetwork net = network(2, 5, Wavelet());
   const RowMatrix x = inputs(300, 2);
@@ -59,14 +111,11 @@ TEST(RecurrentNetwork, PerSampleLoopsDoNotAllocate) {
   const RecurrentMask all{true, true, true, true, true, true};
   RecurrentRun run(net);
   for (const auto& rule : std::vector<RateRule>{FixedRates{std::vector<double>(6, 1e-6)}, ThesisRates{1e-3},
-                                               ImpulseResponseRates{}, NormalisedRates{1e-3}}) {
+                                               TightenedRates{1e-3}, ImpulseResponseRates{}, NormalisedRates{1e-3}}) {
     const auto rates = std::visit([&](const auto& v) { return v.on(net, all); }, rule);
     rates->prepare(run, signals);
     const long before = testing::allocations();
-    for (Eigen::Index n = 0; n < x.rows(); ++n) {
-      const double error = y[n] - run.advance(x.row(n).data());
-      run.correct(rates->rates(run, x.row(n).data()), error);
-    }
+    rates->train(run, signals);
     EXPECT_EQ(testing::allocations(), before) << rule.index();
   }
 }

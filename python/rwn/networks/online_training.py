@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from rwn import _core
 from rwn.networks.arrays import Array, as_float_array, read_only
-from rwn.networks.rates import RateReport, RateRule, Thesis
+from rwn.networks.rates import RateReport, RateRule, Tightened
 from rwn.networks.recurrent_network import RecurrentNetwork
 from rwn.networks.structured_network import StructuredNetwork, as_signals, as_start
 
@@ -83,7 +83,7 @@ def train_structured(
     the state `start` with sensitivities zero.
 
     learn: names of the groups that learn, of v1..v5, w, m, d, c.
-    rates: the learning-rate rule; None is `rwn.networks.rates.Thesis()`.
+    rates: the learning-rate rule; None is `rwn.networks.rates.Tightened()`.
     frozen_every: cycles between evaluations with frozen parameters; 0: before the first and after the last.
     follow_state: after each correction the state moves with its parameters, x += (dx/dtheta) dtheta, so that
         a change acts at once instead of after 1/(1 - rho) samples.
@@ -95,7 +95,7 @@ def train_structured(
         u,
         y,
         as_start(start),
-        rates=(rates or Thesis()).core_for(network.groups),
+        rates=(rates or Tightened()).core_for(network.groups),
         learn=as_mask(learn, network.groups),
         cycles=cycles,
         frozen_every=frozen_every,
@@ -120,7 +120,7 @@ def train_recurrent(
         network.core,
         network.as_inputs(x),
         as_float_array("y", y, 1),
-        rates=(rates or Thesis()).core_for(network.groups),
+        rates=(rates or Tightened()).core_for(network.groups),
         learn=as_mask(learn, network.groups),
         cycles=cycles,
         frozen_every=frozen_every,

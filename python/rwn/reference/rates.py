@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rwn.networks.arrays import Array
-from rwn.networks.rates import Normalised, Thesis
+from rwn.networks.rates import Normalised, Thesis, Tightened
+from rwn.networks.recurrent_network import RecurrentNetwork
 from rwn.networks.structured_network import StructuredNetwork
+from rwn.networks.wavelets import Wavelet
+from rwn.reference.recurrent_network import RecurrentRun
 from rwn.reference.structured_network import StructuredRun
 
 
@@ -18,20 +22,23 @@ def plant_gain(A: Array) -> float:
     return float(np.linalg.cond(M) / (1 - np.abs(eigenvalues).max()))
 
 
-def thesis_bounds(run: StructuredRun, maxima: dict[str, float], printed: bool) -> Array:
+def wavelet_bounds(wavelet: Wavelet, rule: Thesis | Tightened) -> tuple[float, float, float]:
+    """max|phi|, max|phi'|, max|z phi'|: 1, 1 and unused as printed, the wavelet's own when tightened."""
+    if isinstance(rule, Thesis):
+        return 1.0, 1.0, 0.0
+    return wavelet.max_value, wavelet.max_derivative, wavelet.max_scaled_derivative
+
+
+def thesis_bounds(run: StructuredRun, maxima: dict[str, float], rule: Thesis | Tightened) -> Array:
     """Bounds of ||dy/dtheta_g|| for v1..v5, w, m, d, c (4.51-4.123, E.11, E.23)."""
-    wavelet = run.wavelet
-    phi, slope, scaled = (
-        (1.0, 1.0, 0.0)
-        if printed
-        else (wavelet.max_value, wavelet.max_derivative, wavelet.max_scaled_derivative)
-    )
+    phi, slope, scaled = wavelet_bounds(run.wavelet, rule)
     v1, v2, v3, v4, _ = np.abs(run.v)
     G = plant_gain(run.plant)
+    third = v3 if isinstance(rule, Thesis) and rule.misprint else v2
     linear = [
         v2 * maxima["x1"],
         v3 * maxima["x2"] + v1 * maxima["x1"] + maxima["tau"],
-        (v3 if printed else v2) * maxima["x2"] + v4 * maxima["x1"],
+        third * maxima["x2"] + v4 * maxima["x1"],
         v3 * maxima["x1"] + maxima["u"],
         maxima["x2"],
     ]
@@ -39,18 +46,25 @@ def thesis_bounds(run: StructuredRun, maxima: dict[str, float], printed: bool) -
         return G * np.array([*linear, 0, 0, 0, 0])
     w, m, d, c = np.abs(run.w), np.abs(run.m), np.abs(run.d), np.abs(run.c)
     driven = w / d / (1 - slope * c / d)
+    reach = (maxima["speed"] + c + m) / d if isinstance(rule, Thesis) else scaled
     translation = np.max(slope * driven)  # 3.55
-    dilation = np.max(driven * ((maxima["speed"] + c + m) / d if printed else scaled))  # 3.73, corrected
+    dilation = np.max(driven * reach)  # 3.73
     net = v2 * np.sqrt(len(run.w)) * np.array([phi, translation, dilation, phi * translation])
     return G * np.array([*linear, *net])
 
 
+def rates_of(bounds: Array, learn: NDArray[np.bool_], rule: Thesis | Tightened) -> Array:
+    """mu_g = fraction * 2 / bound_g^2 of the groups that learn (3.31, 4.30)."""
+    share = learn.sum() if rule.shared else 1
+    seen = learn & (bounds > 0)
+    return np.where(seen, 2 * rule.fraction / share / np.where(seen, bounds, 1.0) ** 2, 0.0)
+
+
 def train_thesis(
-    network: StructuredNetwork, u: Array, y: Array, *, learn: Iterable[str], rule: Thesis
+    network: StructuredNetwork, u: Array, y: Array, *, learn: Iterable[str], rule: Thesis | Tightened
 ) -> tuple[StructuredNetwork, Array]:
     """One cycle with the `thesis` rule, running maxima; the network and the largest bounds."""
     mask = np.array([group in set(learn) for group in network.groups])
-    share = mask.sum() if rule.shared else 1
     run = StructuredRun(network, np.zeros(2))
     maxima = dict.fromkeys(("x1", "x2", "u", "tau", "speed"), 0.0)
     largest = np.zeros(9)
@@ -58,11 +72,38 @@ def train_thesis(
         now = {"x1": run.x[0], "x2": run.x[1], "u": u[n - 1], "speed": y[n - 1]}
         error = y[n] - run.advance(u[n - 1], y[n - 1])
         maxima = {key: max(value, abs(now.get(key, run.torque))) for key, value in maxima.items()}
-        largest = np.maximum(largest, thesis_bounds(run, maxima, rule.printed))
-        seen = mask & (largest > 0)
-        rates = np.where(seen, 2 * rule.fraction / share / np.where(seen, largest, 1.0) ** 2, 0.0)
-        run.correct(rates, error, follow_state=False)
+        largest = np.maximum(largest, thesis_bounds(run, maxima, rule))
+        run.correct(rates_of(largest, mask, rule), error, follow_state=False)
     return network.with_theta(run.theta), largest
+
+
+def recurrent_bounds(network: RecurrentNetwork, inputs: Array, rule: Thesis | Tightened) -> Array:
+    """Bounds of ||dy/dtheta_g|| for b, a, w, m, d, c (3.33, 3.38, 3.44, 3.57, 3.75, 3.88); inputs: largest |x_i|."""
+    phi, slope, scaled = wavelet_bounds(network.wavelet, rule)
+    w, m, d, c = (np.abs(part) for part in (network.w, network.m, network.d, network.c))
+    count, size = len(inputs), network.wavelets
+    others = phi ** (count - 1)
+    driven = others * w[:, None] / d / (1 - slope * c / d)
+    reach = (inputs + c + m) / d if isinstance(rule, Thesis) else scaled
+    root = np.sqrt(size * count)
+    translation = root * slope * np.max(driven, initial=0.0)
+    dilation = root * np.max(driven * reach, initial=0.0)
+    direct = np.sqrt(count) * inputs.max()
+    return np.array([1.0, direct, np.sqrt(size) * others * phi, translation, dilation, phi * translation])
+
+
+def train_thesis_recurrent(
+    network: RecurrentNetwork, x: Array, y: Array, *, learn: Iterable[str], rule: Thesis | Tightened
+) -> tuple[RecurrentNetwork, Array]:
+    """One cycle of the recurrent network with running maxima (3.19, 3.31); the network and the largest bounds."""
+    mask = np.array([group in set(learn) for group in network.groups])
+    run, inputs, largest = RecurrentRun(network), np.zeros(network.inputs), np.zeros(6)
+    for n in range(len(y)):
+        inputs = np.maximum(inputs, np.abs(x[n]))
+        largest = np.maximum(largest, recurrent_bounds(run.network, inputs, rule))
+        output, gradient = run.advance(x[n])
+        run.correct(rates_of(largest, mask, rule), y[n] - output, gradient)
+    return run.network, largest
 
 
 def train_normalised(

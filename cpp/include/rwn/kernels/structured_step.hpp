@@ -2,6 +2,8 @@
 // Plain structs and function pointers only: this header is included by files built for different processors.
 #pragma once
 
+#include "rwn/networks/plant_gain.hpp"
+
 namespace rwn {
 
 /// Parameter groups of the structured network, in the order of rates and of the flat parameter vector.
@@ -41,8 +43,10 @@ struct ThesisBounds {
   double numerator[kStructuredGroups];  // 2 * fraction; 0 for a group that does not learn
   double maximum[kStructuredGroups];    // largest bound seen
   double rate[kStructuredGroups];       // numerator / maximum^2; 0 before anything was seen
-  double phi, slope, scaled_slope;      // bounds of |phi|, |phi'|, |z phi'|; 1, 1 and 0 (unused) as printed
-  bool printed;                         // eq. 4.71-4.75, 3.73 as printed
+  double phi, slope, scaled_slope;      // bounds of |phi|, |phi'|, |z phi'|; the last only where `printed` is false
+  bool printed;                         // |z| bounded by (u + |c| + |m|)/|d| (3.73)
+  bool misprint;                        // |v3| where 4.66-4.75 need |v2|
+  PlantGain (*decompose)(double a11, double a12, double a21, double a22);  // null: the closed form
   double root_wavelets;                 // sqrt(N_w)
   double x1, x2, u, tau, input;         // maxima of the driving signals
   double spectral_radius, condition, recurrence, steepest;  // worst seen: |c/d| max|phi'|, 1/|d|

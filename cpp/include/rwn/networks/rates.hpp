@@ -10,10 +10,11 @@
 #include "rwn/networks/rates/impulse_response.hpp"
 #include "rwn/networks/rates/normalised.hpp"
 #include "rwn/networks/rates/thesis.hpp"
+#include "rwn/networks/rates/tightened.hpp"
 
 namespace rwn {
 
-using RateRules = std::tuple<FixedRates, ThesisRates, ImpulseResponseRates, NormalisedRates>;
+using RateRules = std::tuple<FixedRates, ThesisRates, TightenedRates, ImpulseResponseRates, NormalisedRates>;
 using RateRule = VariantOf<RateRules>::type;
 
 /// Name and guarantee of every rule.

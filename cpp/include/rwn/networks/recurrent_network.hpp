@@ -3,13 +3,11 @@
 
 #include <Eigen/Core>
 
+#include "rwn/kernels/recurrent_step.hpp"
 #include "rwn/networks/structured_network.hpp"
 #include "rwn/networks/wavelets.hpp"
 
 namespace rwn {
-
-/// Parameter groups of the recurrent network, in the order of rates and of the flat parameter vector.
-enum RecurrentGroup { kBias, kDirect, kOutput, kShift, kScale, kLoop, kRecurrentGroups };
 
 /// Parameters of the recurrent network (eq. 3.1-3.4), flat: theta = [b, a, w, m, d, c] with a (N_i), w (N_w) and
 /// m, d, c (N_w, N_i) row-major.
@@ -31,10 +29,19 @@ class RecurrentNetwork {
   Wavelet wavelet_;
 };
 
-/// Workspace of one run; nothing is allocated after construction.
+/// One recording: inputs x (n, N_i) and the wanted output y (n).
+struct RecurrentSignals {
+  Eigen::Ref<const RowMatrix> inputs;
+  VectorRef output;
+  Eigen::Index samples() const { return output.size(); }
+};
+
+/// Workspace of one run: what the kernels read and write. Nothing is allocated after construction.
 class RecurrentRun {
  public:
   explicit RecurrentRun(const RecurrentNetwork& network);
+  RecurrentRun(const RecurrentRun&) = delete;
+  RecurrentRun& operator=(const RecurrentRun&) = delete;
 
   /// phi and V1-V3 before the first sample: 0.
   void restart();
@@ -42,6 +49,11 @@ class RecurrentRun {
   double advance(const double* x);
   /// theta += rates e dy/dtheta (3.19).
   void correct(const double* rates, double error);
+  /// A cycle of the two, with rates held or with the `thesis` rule at every sample; returns the sum of squared errors.
+  /// The gradient is that of the last `advance`.
+  double train(const RecurrentSignals& s, const double* rates);
+  double train_thesis(const RecurrentSignals& s, RecurrentBounds& bounds);
+  void simulate(const Eigen::Ref<const RowMatrix>& inputs, double* output);
 
   const Vector& theta() const { return theta_; }
   const Vector& gradient() const { return gradient_; }
@@ -50,19 +62,20 @@ class RecurrentRun {
   const RecurrentNetwork& network() const { return network_; }
 
  private:
-  template <class W>
-  void wavelet(const W& kind, const double* x, Eigen::Index j);
+  std::size_t at(int row, Eigen::Index j) const;
+  std::size_t at(Eigen::Index input, int row, Eigen::Index j) const;
+  template <class F>
+  void each(int output_row, int input_row, const F& f) const;
+  void load();
+  void save();
+  RecurrentCycle cycle(const Eigen::Ref<const RowMatrix>& inputs, const double* output);
 
   RecurrentNetwork network_;  // shapes and wavelet; its parameters are those at the start
-  Eigen::Index inputs_, wavelets_;
-  Vector theta_, gradient_, phi_, V1_, V2_, V3_, products_;
-};
-
-/// One recording: inputs x (n, N_i) and the wanted output y (n).
-struct RecurrentSignals {
-  Eigen::Ref<const RowMatrix> inputs;
-  VectorRef output;
-  Eigen::Index samples() const { return output.size(); }
+  const RecurrentKernels& kernels_;
+  Vector theta_, gradient_;
+  AlignedVector linear_, lanes_;
+  long stride_ = 0;  // doubles between two vectors of wavelets
+  RecurrentBlock block_{};
 };
 
 /// Output (n) with frozen parameters.

@@ -29,7 +29,8 @@ struct FixedStructured : StructuredRates {
 struct FixedRecurrent : RecurrentRates {
   RecurrentRateValues values;
   explicit FixedRecurrent(RecurrentRateValues v) : values(v) {}
-  const double* rates(const RecurrentRun&, const double*) override { return values.data(); }
+  double train(RecurrentRun& run, const RecurrentSignals& signals) override { return run.train(signals, values.data()); }
+  RecurrentRateValues rates() const override { return values; }
 };
 
 }  // namespace

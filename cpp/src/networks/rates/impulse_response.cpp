@@ -129,7 +129,8 @@ class ImpulseRecurrent : public RecurrentRates {
       rates_[g] = learn_[g] && bounds_[g] > 0.0 ? top / (bounds_[g] * bounds_[g]) : 0.0;
     }
   }
-  const double* rates(const RecurrentRun&, const double*) override { return rates_.data(); }
+  double train(RecurrentRun& run, const RecurrentSignals& signals) override { return run.train(signals, rates_.data()); }
+  RecurrentRateValues rates() const override { return rates_; }
   RecurrentRateValues bounds() const override { return bounds_; }
 
  private:

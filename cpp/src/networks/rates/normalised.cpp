@@ -138,14 +138,22 @@ class NormalisedRecurrent : public RecurrentRates {
     }
   }
 
-  const double* rates(const RecurrentRun& run, const double*) override {
-    const double step = rule_.fraction / (rule_.regularisation * largest_ + weigh(run));
-    for (std::size_t g = 0; g < rates_.size(); ++g) {
-      rates_[g] = std::isfinite(step) ? step * scale_[g] : 0.0;
+  double train(RecurrentRun& run, const RecurrentSignals& signals) override {
+    run.restart();
+    double squares = 0.0;
+    for (Eigen::Index n = 0; n < signals.samples(); ++n) {
+      const double error = signals.output[n] - run.advance(signals.inputs.row(n).data());
+      squares += error * error;
+      const double step = rule_.fraction / (rule_.regularisation * largest_ + weigh(run));
+      for (std::size_t g = 0; g < rates_.size(); ++g) {
+        rates_[g] = std::isfinite(step) ? step * scale_[g] : 0.0;
+      }
+      watch(report, run, slope_);
+      run.correct(rates_.data(), error);
     }
-    watch(report, run, slope_);
-    return rates_.data();
+    return squares;
   }
+  RecurrentRateValues rates() const override { return rates_; }
 
  private:
   void set_scales(const RecurrentRun& run, const RecurrentSignals& signals) {

@@ -3,39 +3,80 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rwn/networks/plant_analysis.hpp"
+#include "rwn/networks/rates/tightened.hpp"
+
 namespace rwn {
 namespace {
 
-/// The constants of the printed bounds are 1, whatever the wavelet (3.44, 3.52); corrected ones are the wavelet's own.
-struct WaveletBounds {
-  double phi = 1.0, slope = 1.0, scaled_slope = 0.0;
-  WaveletBounds(const Wavelet& wavelet, bool printed) {
-    if (!printed) {
-      phi = wavelet.max_value();
-      slope = wavelet.max_derivative();
-      scaled_slope = wavelet.max_scaled_derivative();
-    }
-  }
+/// What `thesis` and `tightened` differ in, and share.
+struct Options {
+  double fraction;
+  Maxima maxima;
+  bool shared, printed, misprint, eigen;
+  explicit Options(const ThesisRates& r)
+      : fraction(r.fraction), maxima(r.maxima), shared(r.shared), printed(true), misprint(r.misprint), eigen(r.eigen) {}
+  explicit Options(const TightenedRates& r)
+      : fraction(r.fraction), maxima(r.maxima), shared(r.shared), printed(false), misprint(false), eigen(r.eigen) {}
 };
 
-template <std::size_t N>
-double numerator(const ThesisRates& rule, const std::array<bool, N>& learn) {
-  return 2.0 * rule.fraction / (rule.shared ? std::max(count(learn), 1) : 1);
+/// The constants of the printed bounds are 1, whatever the wavelet (3.44, 3.52); tightened ones are the wavelet's own.
+template <class Bounds>
+void set_constants(Bounds& t, const Wavelet& wavelet, bool printed) {
+  t.printed = printed;
+  t.phi = printed ? 1.0 : wavelet.max_value();
+  t.slope = printed ? 1.0 : wavelet.max_derivative();
+  t.scaled_slope = printed ? 0.0 : wavelet.max_scaled_derivative();
 }
 
-class ThesisStructured : public StructuredRates {
+/// The rates of the groups that learn, from the maxima as they stand.
+template <class Bounds, std::size_t N>
+void set_rates(Bounds& t, const Options& rule, const std::array<bool, N>& learn) {
+  const double numerator = 2.0 * rule.fraction / (rule.shared ? std::max(count(learn), 1) : 1);
+  for (std::size_t g = 0; g < N; ++g) {
+    t.numerator[g] = learn[g] ? numerator : 0.0;
+    t.rate[g] = t.maximum[g] > 0.0 ? t.numerator[g] / (t.maximum[g] * t.maximum[g]) : 0.0;
+  }
+}
+
+template <std::size_t N>
+std::array<double, N> values(const double (&from)[N]) {
+  std::array<double, N> out;
+  std::copy_n(from, N, out.begin());
+  return out;
+}
+
+PlantGain by_eigen(double a11, double a12, double a21, double a22) {
+  return plant_gain_by_eigen(Eigen::Matrix2d{{a11, a12}, {a21, a22}});
+}
+
+/// Maxima, rates and reports of the rule on one kind of network.
+template <class Rates, class Bounds, std::size_t N>
+class Adaptive : public Rates {
  public:
-  ThesisStructured(const ThesisRates& rule, const StructuredNetwork& network, const StructuredMask& learn)
-      : rule_(rule), learn_(learn) {
-    const WaveletBounds w(network.wavelet(), rule.printed);
-    t_.phi = w.phi;
-    t_.slope = w.slope;
-    t_.scaled_slope = w.scaled_slope;
-    t_.printed = rule.printed;
-    t_.root_wavelets = std::sqrt(static_cast<double>(network.wavelets()));
+  using Values = std::array<double, N>;
+  Adaptive(const Options& rule, const Wavelet& wavelet, const std::array<bool, N>& learn) : rule_(rule), learn_(learn) {
+    set_constants(t_, wavelet, rule.printed);
     if (rule.maxima == Maxima::running) {
-      learn_now();
+      set_rates(t_, rule_, learn_);
     }
+  }
+  Values rates() const override { return values(t_.rate); }
+  Values bounds() const override { return values(t_.maximum); }
+
+ protected:
+  Options rule_;
+  std::array<bool, N> learn_;
+  Bounds t_{};
+};
+
+class AdaptiveStructured : public Adaptive<StructuredRates, ThesisBounds, kStructuredGroups> {
+ public:
+  AdaptiveStructured(const Options& rule, const StructuredNetwork& network, const StructuredMask& learn)
+      : Adaptive(rule, network.wavelet(), learn) {
+    t_.misprint = rule.misprint;
+    t_.decompose = rule.eigen ? by_eigen : nullptr;
+    t_.root_wavelets = std::sqrt(static_cast<double>(network.wavelets()));
   }
 
   /// A cycle of training with all rates zero sees the maxima and moves nothing.
@@ -45,7 +86,7 @@ class ThesisStructured : public StructuredRates {
     }
     run.train_thesis(signals, t_);
     record(signals);
-    learn_now();
+    set_rates(t_, rule_, learn_);
   }
 
   double train(StructuredRun& run, const StructuredSignals& signals) override {
@@ -57,21 +98,7 @@ class ThesisStructured : public StructuredRates {
     return squares;
   }
 
-  StructuredRateValues rates() const override { return values(t_.rate); }
-  StructuredRateValues bounds() const override { return values(t_.maximum); }
-
  private:
-  static StructuredRateValues values(const double* from) {
-    StructuredRateValues out;
-    std::copy_n(from, out.size(), out.begin());
-    return out;
-  }
-  void learn_now() {
-    for (std::size_t g = 0; g < learn_.size(); ++g) {
-      t_.numerator[g] = learn_[g] ? numerator(rule_, learn_) : 0.0;
-      t_.rate[g] = t_.maximum[g] > 0.0 ? t_.numerator[g] / (t_.maximum[g] * t_.maximum[g]) : 0.0;
-    }
-  }
   void record(const StructuredSignals& signals) {
     report.samples += static_cast<long>(signals.samples() - 1);
     report.spectral_radius = t_.spectral_radius;
@@ -82,113 +109,64 @@ class ThesisStructured : public StructuredRates {
     report.defective = t_.defective;
     report.recurrent = t_.recurrent;
   }
-
-  ThesisRates rule_;
-  StructuredMask learn_;
-  ThesisBounds t_{};
 };
 
-class ThesisRecurrent : public RecurrentRates {
+class AdaptiveRecurrent : public Adaptive<RecurrentRates, RecurrentBounds, kRecurrentGroups> {
  public:
-  ThesisRecurrent(const ThesisRates& rule, const RecurrentNetwork& network, const RecurrentMask& learn)
-      : rule_(rule), wavelet_(network.wavelet(), rule.printed), learn_(learn),
-        x_(static_cast<std::size_t>(network.inputs())) {
+  AdaptiveRecurrent(const Options& rule, const RecurrentNetwork& network, const RecurrentMask& learn)
+      : Adaptive(rule, network.wavelet(), learn), input_(static_cast<std::size_t>(network.inputs())) {
     const double inputs = static_cast<double>(network.inputs());
-    root_inputs_ = std::sqrt(inputs);
-    root_wavelets_ = std::sqrt(static_cast<double>(network.wavelets()));
-    others_ = std::pow(wavelet_.phi, inputs - 1.0);
+    t_.input = input_.data();
+    t_.root_inputs = std::sqrt(inputs);
+    t_.root_wavelets = std::sqrt(static_cast<double>(network.wavelets()));
+    t_.others = std::pow(t_.phi, inputs - 1.0);
   }
 
   void prepare(RecurrentRun& run, const RecurrentSignals& signals) override {
     if (rule_.maxima == Maxima::running) {
       return;
     }
-    run.restart();
-    for (Eigen::Index n = 0; n < signals.samples(); ++n) {
-      run.advance(signals.inputs.row(n).data());
-      see(run, signals.inputs.row(n).data());
-    }
-    held_ = rule_.maxima == Maxima::pre_pass;
-    set_rates();
+    run.train_thesis(signals, t_);
+    record();
+    set_rates(t_, rule_, learn_);
   }
 
-  const double* rates(const RecurrentRun& run, const double* x) override {
-    if (!held_) {
-      const bool meaningful = see(run, x);
-      set_rates();
-      if (!meaningful) {
-        std::fill_n(rates_.begin() + kShift, 3, 0.0);
-      }
+  double train(RecurrentRun& run, const RecurrentSignals& signals) override {
+    if (rule_.maxima == Maxima::pre_pass) {
+      return run.train(signals, t_.rate);
     }
-    return rates_.data();
+    const double squares = run.train_thesis(signals, t_);
+    record();
+    return squares;
   }
-  RecurrentRateValues bounds() const override { return bounds_; }
 
  private:
-  /// Raises the maxima (3.33, 3.38, 3.44, 3.57, 3.75, 3.88); false where |c/d| max|phi'| >= 1 leaves them without meaning.
-  bool see(const RecurrentRun& run, const double* x) {
-    ++report.samples;
-    watch(report, run, wavelet_.slope);
-    double largest_input = 0.0;
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-      x_[i] = std::max(x_[i], std::abs(x[i]));
-      largest_input = std::max(largest_input, x_[i]);
-    }
-    raise(kBias, 1.0);
-    raise(kDirect, root_inputs_ * largest_input);
-    raise(kOutput, root_wavelets_ * others_ * wavelet_.phi);
-    return see_wavelets(run);
+  void record() {
+    report.samples = t_.samples;
+    report.recurrence = t_.recurrence;
+    report.smallest_dilation = 1.0 / t_.steepest;
+    report.recurrent = t_.recurrent;
   }
 
-  bool see_wavelets(const RecurrentRun& run) {
-    const auto w = run.parameters(kOutput);
-    const auto m = run.parameters(kShift), d = run.parameters(kScale), c = run.parameters(kLoop);
-    const Eigen::Index inputs = run.network().inputs();
-    double translation = 0.0, dilation = 0.0;
-    for (Eigen::Index k = 0; k < d.size(); ++k) {
-      const double steep = 1.0 / std::abs(d[k]);
-      const double ratio = wavelet_.slope * std::abs(c[k]) * steep;
-      if (!(ratio < 1.0)) {
-        return false;
-      }
-      const double driven = others_ * std::abs(w[k / inputs]) * steep / (1.0 - ratio);
-      const double x = x_[static_cast<std::size_t>(k % inputs)];
-      const double reach = rule_.printed ? (x + std::abs(c[k]) + std::abs(m[k])) * steep : wavelet_.scaled_slope;
-      translation = std::max(translation, driven * wavelet_.slope);
-      dilation = std::max(dilation, driven * reach);
-    }
-    const double root = root_wavelets_ * root_inputs_;
-    raise(kShift, root * translation);
-    raise(kScale, root * dilation);
-    raise(kLoop, root * translation * wavelet_.phi);
-    return true;
-  }
-
-  void raise(std::size_t g, double bound) { bounds_[g] = std::max(bounds_[g], bound); }
-  void set_rates() {
-    const double top = numerator(rule_, learn_);
-    for (std::size_t g = 0; g < bounds_.size(); ++g) {
-      rates_[g] = learn_[g] && bounds_[g] > 0.0 ? top / (bounds_[g] * bounds_[g]) : 0.0;
-    }
-  }
-
-  ThesisRates rule_;
-  WaveletBounds wavelet_;
-  RecurrentMask learn_;
-  std::vector<double> x_;
-  double root_inputs_ = 1.0, root_wavelets_ = 1.0, others_ = 1.0;
-  bool held_ = false;
-  RecurrentRateValues bounds_{}, rates_{};
+  std::vector<double> input_;
 };
 
 }  // namespace
 
 std::unique_ptr<StructuredRates> ThesisRates::on(const StructuredNetwork& network, const StructuredMask& learn) const {
-  return std::make_unique<ThesisStructured>(*this, network, learn);
+  return std::make_unique<AdaptiveStructured>(Options(*this), network, learn);
 }
 
 std::unique_ptr<RecurrentRates> ThesisRates::on(const RecurrentNetwork& network, const RecurrentMask& learn) const {
-  return std::make_unique<ThesisRecurrent>(*this, network, learn);
+  return std::make_unique<AdaptiveRecurrent>(Options(*this), network, learn);
+}
+
+std::unique_ptr<StructuredRates> TightenedRates::on(const StructuredNetwork& network, const StructuredMask& learn) const {
+  return std::make_unique<AdaptiveStructured>(Options(*this), network, learn);
+}
+
+std::unique_ptr<RecurrentRates> TightenedRates::on(const RecurrentNetwork& network, const RecurrentMask& learn) const {
+  return std::make_unique<AdaptiveRecurrent>(Options(*this), network, learn);
 }
 
 }  // namespace rwn

@@ -7,8 +7,9 @@ from rwn.networks.rates.impulse_response import ImpulseResponse
 from rwn.networks.rates.normalised import Normalised
 from rwn.networks.rates.rule import GUARANTEES, RateReport, RateRule
 from rwn.networks.rates.thesis import Thesis
+from rwn.networks.rates.tightened import Tightened
 
-RATES: dict[str, type[RateRule]] = {rule.name: rule for rule in (Fixed, Thesis, ImpulseResponse, Normalised)}
+RATES: dict[str, type[RateRule]] = {rule.name: rule for rule in (Fixed, Thesis, Tightened, ImpulseResponse, Normalised)}
 
 __all__ = [
     "GUARANTEES",
@@ -19,4 +20,5 @@ __all__ = [
     "RateReport",
     "RateRule",
     "Thesis",
+    "Tightened",
 ]

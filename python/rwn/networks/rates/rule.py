@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Protocol, TypeAlias
 from rwn import _core
 
 CoreRule: TypeAlias = (
-    _core.FixedRates | _core.ThesisRates | _core.ImpulseResponseRates | _core.NormalisedRates
+    _core.FixedRates | _core.ThesisRates | _core.TightenedRates | _core.ImpulseResponseRates | _core.NormalisedRates
 )
 GUARANTEES: dict[str, str] = dict(_core.rate_rules())
 DEFAULTS: dict[str, dict[str, Any]] = _core.rate_defaults()

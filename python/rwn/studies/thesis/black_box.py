@@ -2,15 +2,18 @@
 rule.
 
 Open in the thesis, and chosen here: Coulomb friction 0.044 N m without stiction and B = 0.06 ("viscous
-and Coulomb"); T = 0.1 ms; 3 wavelets over the range of every input, w small random, c = 0; a and b start
-from least squares (from random a the Euler inputs never converge); running maxima at 0.05 of the bound
-of each group by itself; all 10 000 cycles. The wanted line is the plain least-squares network (w =
-0), and its free run, which the thesis does not give.
+and Coulomb"); T = 0.1 ms; 3 wavelets over the range of every input, w uniform in [-1, 1], c = 0; a and b start
+from least squares (from random a the Euler inputs never converge); running maxima at 0.2 of the bound of each
+group by itself; an iteration is a cycle: all 10 000 from one seed, 300 from 20. The thesis's errors are those
+met while learning, in the test too: with frozen weights they are a hundred times larger and more. "Choices" shows
+them after 1, 30 and 300 cycles, and at other fractions. The last lines are the plain least-squares network (w = 0),
+and its free run, which the thesis does not give.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -18,12 +21,28 @@ import numpy as np
 import rwn
 from rwn.networks.arrays import Array
 from rwn.studies.thesis.drive import MOTOR, SAMPLES, T, chirp, sine
-from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Panel, Row, Settings, curve
+from rwn.studies.thesis.experiment import (
+    Experiment,
+    Figure,
+    Outcome,
+    Panel,
+    Row,
+    Search,
+    Settings,
+    curve,
+    median_row,
+)
 from rwn.studies.thesis.linear import thesis_rule
+from rwn.studies.thesis.search import median, search
 from rwn.studies.thesis.within_cycle import SHAPES, first_cycle_panel, rates_figure
 
 PAGES = {"bilinear": (6.4572e-6, 1.2912e-5), "euler": (6.8587e-6, 1.6747e-5)}
-RULE = thesis_rule(0.05)
+FRACTION = 0.2
+RULE = thesis_rule(FRACTION)
+REASON = (
+    "what an iteration is, the start and the fraction are not said, and each moves the error by 10 or more; ours "
+    "passes the thesis's value and goes on falling"
+)
 FIGURES = {"bilinear": (46, 47, 49), "euler": (51, 52, 54)}
 
 
@@ -49,13 +68,13 @@ def inputs(kind: str, u: Array, y: Array) -> tuple[Array, Array]:
     return np.column_stack([u[2:], u[1:-1], *past] if kind == "bilinear" else past), y[2:]
 
 
-def least_squares(x: Array, y: Array, seed: int) -> rwn.RecurrentNetwork:
-    """a and b by least squares, 3 wavelets over every input's range."""
+def least_squares(x: Array, y: Array, seed: int, size: float = 1.0) -> rwn.RecurrentNetwork:
+    """a and b by least squares, 3 wavelets over every input's range, w uniform in [-size, size]."""
     solution = np.linalg.lstsq(np.column_stack([np.ones(len(x)), x]), y, rcond=None)[0]
     low, high = x.min(axis=0), x.max(axis=0)
     m = low + (high - low) * np.array([0.5, 0.25, 0.75])[:, None]
     d = np.tile(0.5 * (high - low), (3, 1))
-    w = np.random.default_rng(seed).normal(0, 1e-3, 3)
+    w = np.random.default_rng(seed).uniform(-size, size, 3)
     return rwn.RecurrentNetwork(
         b=float(solution[0]), a=np.asarray(solution[1:], dtype=np.float64), w=w, m=m, d=d, c=0 * d
     )
@@ -72,40 +91,45 @@ def free_run(net: rwn.RecurrentNetwork, kind: str, u: Array, y: Array) -> float:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Trained:
-    """One set of inputs: what was learned from the chirp, and the sine that it is tested on."""
+class Data:
+    """One set of inputs: the chirp that is learned from, and the sine that is tested on."""
 
     kind: str
-    cycles: int
     x: Array
     target: Array
     test_x: Array
     test: Array
     test_voltage: Array
     test_speed: Array
+
+
+def data(kind: str) -> Data:
+    """The thesis's signals."""
+    u, test_u = chirp(12.0, 0.1, 4.0), sine(3.0, 1.0)
+    test_y = speed_of(test_u)
+    x, target = inputs(kind, u, speed_of(u))
+    test_x, test = inputs(kind, test_u, test_y)
+    return Data(
+        kind=kind, x=x, target=target, test_x=test_x, test=test, test_voltage=test_u, test_speed=test_y
+    )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Trained:
+    """One training, and its error on the test signal with learning on."""
+
     start: rwn.RecurrentNetwork
     training: rwn.OnlineTraining[rwn.RecurrentNetwork]
+    tested: float
 
 
-def learn(kind: str, cycles: int) -> Trained:
+def learn(d: Data, cycles: int, seed: int, *, size: float = 1.0, fraction: float = FRACTION) -> Trained:
     """Trains with one set of inputs, from least squares on."""
-    u, test_u = chirp(12.0, 0.1, 4.0), sine(3.0, 1.0)
-    y, test_y = speed_of(u), speed_of(test_u)
-    x, target = inputs(kind, u, y)
-    test_x, test = inputs(kind, test_u, test_y)
-    start = least_squares(x, target, 0)
-    return Trained(
-        kind=kind,
-        cycles=cycles,
-        x=x,
-        target=target,
-        test_x=test_x,
-        test=test,
-        test_voltage=test_u,
-        test_speed=test_y,
-        start=start,
-        training=rwn.train_recurrent(start, x, target, rates=RULE, cycles=cycles),
-    )
+    start, rule = least_squares(d.x, d.target, seed, size), thesis_rule(fraction)
+    training = rwn.train_recurrent(start, d.x, d.target, rates=rule, cycles=cycles)
+    going_on = rwn.train_recurrent(training.network, d.test_x, d.test, rates=rule, cycles=1)
+    tested = np.inf if training.status == "diverged" else float(going_on.mse_learning[0])
+    return Trained(start=start, training=training, tested=tested)
 
 
 def without_wavelets(net: rwn.RecurrentNetwork) -> rwn.RecurrentNetwork:
@@ -114,68 +138,93 @@ def without_wavelets(net: rwn.RecurrentNetwork) -> rwn.RecurrentNetwork:
     return rwn.RecurrentNetwork(b=net.b, a=net.a, w=np.zeros(0), m=none, d=none, c=none)
 
 
-def rows(case: Trained) -> list[Row]:
+def rows(d: Data, full: Trained, short: list[Trained]) -> list[Row]:
     """The thesis's numbers, and what plain least squares reaches."""
-    run, net = case.training, case.training.network
-    linear = without_wavelets(case.start)
-    going_on = rwn.train_recurrent(net, case.test_x, case.test, rates=RULE, cycles=1)
-    trained, tested = PAGES[case.kind]
-    number, _, test_number = FIGURES[case.kind]
-
-    def row(number: int, what: str, thesis: float, ours: float) -> Row:
-        return Row(
-            where=f"Figure {number}",
-            case=f"{case.kind}, {what}",
-            thesis=thesis,
-            ours=float(ours),
-            count=f"{case.cycles} cycles; {run.status}",
-            reason="the thesis's numbers are tracking errors",
-        )
-
-    def plain(what: str, ours: float, wanted: float | None) -> Row:
+    trained, tested = PAGES[d.kind]
+    number, _, test_number = FIGURES[d.kind]
+    found = []
+    for runs in ([full], short):
+        cycles = len(runs[0].training.mse_learning)
+        count = f"{cycles} cycles, {len(runs)} seed{'s' * (len(runs) > 1)}"
+        suffix = "" if runs[0] is full else f", {cycles} cycles"
+        for where, what, thesis, values in (
+            (number, "trained, while learning", trained, [r.training.mse_learning[-1] for r in runs]),
+            (number, "trained, frozen", None, [r.training.mse_frozen[-1] for r in runs]),
+            (test_number, "tested, learning on", tested, [r.tested for r in runs]),
+            (test_number, "tested, frozen", None, [r.training.network.mse(d.test_x, d.test) for r in runs]),
+        ):
+            answer = runs[0] is full and thesis is not None
+            found.append(
+                median_row(
+                    f"Figure {where}",
+                    f"{d.kind}, {what}{suffix}",
+                    thesis,
+                    values,
+                    count=count,
+                    answer=answer,
+                    judge="factor-2" if answer else "none",
+                    reason=REASON,
+                )
+            )
+    linear = without_wavelets(full.start)
+    for what, ours, wanted in (
+        ("frozen", linear.mse(d.test_x, d.test), 4e-9),
+        ("free run", free_run(linear, d.kind, d.test_voltage, d.test_speed), None),
+    ):
         judge: Literal["wanted", "none"] = "none" if wanted is None else "wanted"
-        return Row(
-            where=f"Figure {test_number}",
-            case=f"{case.kind}, least squares, {what}",
-            ours=float(ours),
-            judge=judge,
-            wanted=wanted,
-            count="one solve",
-        )
-
-    return [
-        row(number, "trained, while learning", trained, run.mse_learning[-1]),
-        row(number, "trained, frozen", trained, run.mse_frozen[-1]),
-        row(test_number, "tested, learning on", tested, going_on.mse_learning[0]),
-        row(test_number, "tested, frozen", tested, net.mse(case.test_x, case.test)),
-        plain("frozen", linear.mse(case.test_x, case.test), 4e-9),
-        plain("free run", free_run(linear, case.kind, case.test_voltage, case.test_speed), None),
-    ]
+        case = f"{d.kind}, least squares, {what}"
+        place = f"Figure {test_number}"
+        found.append(Row(where=place, case=case, ours=float(ours), judge=judge, wanted=wanted, count="one solve"))
+    return found
 
 
-def figures(case: Trained) -> list[Figure]:
+def choices(d: Data, settings: Settings) -> Search:
+    """Size of w, fraction and cycles."""
+    trained, tested = PAGES[d.kind]
+
+    def values(size: float, fraction: float, cycles: int) -> list[float | None]:
+        runs = [learn(d, cycles, s, size=size, fraction=fraction) for s in range(settings.pick(10, 1))]
+        return [median([r.training.mse_learning[-1] for r in runs]), median([r.tested for r in runs])]
+
+    tried = {
+        f"w {size}, fraction {fraction}, {cycles} cycles": partial(values, size, fraction, settings.pick(cycles, 1))
+        for size in (0.001, 1.0)
+        for fraction in (0.05, 0.2, 0.5, 0.95)
+        for cycles in (1, 30, 300)
+    }
+    return search(
+        f"Figures {FIGURES[d.kind][0]} and {FIGURES[d.kind][2]}, {d.kind}: size of w, fraction and cycles",
+        {"trained, while learning": trained, "tested, learning on": tested},
+        tried,
+        taken="",
+        count="10 seeds; the experiment goes on to 10 000 cycles with w 1.0 and 0.2",
+    )
+
+
+def figures(d: Data, case: Trained) -> list[Figure]:
     """Error and rates while learning, and the test."""
     t = T * np.arange(2, SAMPLES)
     shown = [
-        curve(case.test, t, label="motor", style="k-"),
-        curve(case.training.network.simulate(case.test_x), t, label="network", style="--"),
+        curve(d.test, t, label="motor", style="k-"),
+        curve(case.training.network.simulate(d.test_x), t, label="network", style="--"),
     ]
 
     def first_rates(samples: int) -> Array:
-        return rwn.train_recurrent(case.start, case.x[:samples], case.target[:samples], rates=RULE).rates
+        return rwn.train_recurrent(case.start, d.x[:samples], d.target[:samples], rates=RULE).rates
 
-    first = first_cycle_panel(first_rates, len(case.target), SHAPES)
-    number, rate_number, test_number = FIGURES[case.kind]
+    first = first_cycle_panel(first_rates, len(d.target), SHAPES)
+    number, rate_number, test_number = FIGURES[d.kind]
+    ends, mse = {"after 10 000": PAGES[d.kind][0]}, [curve(case.training.mse_learning)]
     return [
         Figure(
             number=number,
-            title=f"MSE, {case.kind}",
-            panels=[Panel(xlabel="cycle", curves=[curve(case.training.mse_learning)], log_y=True)],
+            title=f"MSE, {d.kind}",
+            panels=[Panel(xlabel="cycle", curves=mse, thesis=ends, log_x=True, log_y=True)],
         ),
-        rates_figure(rate_number, f"Learning rates, {case.kind}", case.training, first),
+        rates_figure(rate_number, f"Learning rates, {d.kind}", case.training, first),
         Figure(
             number=test_number,
-            title=f"Test, {case.kind}, frozen weights",
+            title=f"Test, {d.kind}, frozen weights",
             panels=[Panel(xlabel="time [s]", ylabel="speed [rad/s]", curves=shown)],
         ),
     ]
@@ -193,14 +242,23 @@ def run(settings: Settings) -> Outcome:
             panels=[Panel(xlabel="speed [rad/s]", ylabel="torque [N m]", curves=[level])],
         )
     ]
+    searches = []
     for k, kind in enumerate(PAGES):
-        case = learn(kind, settings.pick(10_000, 2))
-        all_rows += rows(case)
-        all_figures += figures(case)
-        settings.progress((k + 1) / 2)
-    return Outcome(rows=all_rows, figures=all_figures)
+        d = data(kind)
+        full = learn(d, settings.pick(10_000, 2), 0)
+        settings.progress((2 * k + 1) / 4)
+        short = [learn(d, settings.pick(300, 1), s) for s in range(settings.pick(20, 2))]
+        all_rows += rows(d, full, short)
+        all_figures += figures(d, full)
+        searches.append(choices(d, settings))
+        settings.progress((2 * k + 2) / 4)
+    return Outcome(rows=all_rows, figures=all_figures, searches=searches)
 
 
 EXPERIMENT = Experiment(
-    name="black-box", title="Sections 3.5.1-3.5.2: black box", run=run, figures=(44, 46, 47, 49, 51, 52, 54)
+    name="black-box",
+    title="Sections 3.5.1-3.5.2: black box",
+    run=run,
+    figures=(44, 46, 47, 49, 51, 52, 54),
+    minutes=2.5,
 )

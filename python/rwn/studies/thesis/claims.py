@@ -70,4 +70,4 @@ def _by_wavelet(task: Task, iterations: int, seeds: int) -> Iterator[np.ndarray]
         )
 
 
-EXPERIMENT = Experiment(name="claims", title="Claims of chapter 2 over 20 seeds", run=run)
+EXPERIMENT = Experiment(name="claims", title="Claims of chapter 2 over 20 seeds", run=run, minutes=1.0)

@@ -100,4 +100,9 @@ def run(settings: Settings) -> Outcome:
     return Outcome(rows=rows)
 
 
-EXPERIMENT = Experiment(name="claims-rates", title="Claim of chapters 3 to 5 over 60 seeds: adaptive rates", run=run)
+EXPERIMENT = Experiment(
+    name="claims-rates",
+    title="Claim of chapters 3 to 5 over 60 seeds: adaptive rates",
+    run=run,
+    minutes=0.7,
+)

@@ -13,7 +13,8 @@ from rwn.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from rwn.studies.thesis.experiment import Experiment
+    from rwn.studies.thesis.experiment import Count, Experiment
+    from rwn.studies.thesis.runner import Finished
 
 app = typer.Typer(help="Repeats the tables and figures of Zahidi's thesis.", no_args_is_help=True)
 
@@ -41,8 +42,8 @@ def run(
     out: Annotated[Path, typer.Option(help="Finished experiments are kept here; a rerun resumes.")] = Path(
         "thesis-results"
     ),
-    reduced: Annotated[
-        bool, typer.Option("--reduced", help="Small counts: a quick look, not a proof.")
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Shortened counts, at most five minutes: a look, not a repetition.")
     ] = False,
     jobs: Annotated[int, typer.Option(min=1, help="Experiments at a time.")] = os.cpu_count() or 1,
     page: Annotated[Path | None, typer.Option(help="The page to write; default OUT/thesis.md.")] = None,
@@ -58,7 +59,38 @@ def run(
             fix="`rwn thesis list` shows what there is",
         )
     experiments = select(table=table, figure=figure)
-    _run(experiments, out, reduced=reduced, jobs=jobs, page=page or out / "thesis.md")
+    _run(experiments, out, count="quick" if quick else "full", jobs=jobs, page=page or out / "thesis.md")
+
+
+@app.command()
+def check(
+    archive: Annotated[Path, typer.Argument(help="A folder of archived results.")],
+    *,
+    out: Annotated[Path, typer.Option(help="The results to hold against it.")] = Path("thesis-results"),
+) -> None:
+    """Holds results against an archived set; exit code 1 where a word changed or a number is missing."""
+    from rwn.studies.thesis.check import differences, read_archive
+
+    old, new = read_archive(archive), read_archive(out)
+    found = list(differences(list(old.values()), new))
+    for d in found:
+        typer.echo(f"{d.experiment}: {d.where}, {d.case}: {d.archived} archived, {d.found} found")
+    changed = sum(d.changed for d in found)
+    rows = sum(len(done.rows) for done in old.values())
+    typer.echo(f"{rows} rows archived, {len(found)} differ by more than 5 %, {changed} in their word or missing")
+    raise typer.Exit(1 if changed else 0)
+
+
+@app.command("real-machine")
+def real_machine(
+    folder: Annotated[Path, typer.Argument(help="The folder of EMPS: DATA_EMPS.mat, DATA_EMPS_PULSES.mat.")],
+) -> None:
+    """The recurrent network for the friction of a real machine, beside a static one."""
+    from rwn.studies.thesis.real_machine import compare
+
+    typer.echo("error of the force, of its size")
+    for name, (fitted, heldout) in compare(folder).items():
+        typer.echo(f"{name:26} fitted {fitted:6.2f} %   not fitted {heldout:6.2f} %")
 
 
 @app.command("table-20")
@@ -72,30 +104,41 @@ def table_20(
     typer.echo(f"page: {page}")
 
 
-def _run(experiments: Sequence[Experiment], out: Path, *, reduced: bool, jobs: int, page: Path) -> None:
+def _run(experiments: Sequence[Experiment], out: Path, *, count: Count, jobs: int, page: Path) -> None:
     from rich.console import Console
-    from rich.progress import Progress
 
-    from rwn.studies.thesis.comparison import rich_table, tally
+    from rwn.studies.thesis.comparison import rich_table
+    from rwn.studies.thesis.overview import overview_table
     from rwn.studies.thesis.page import write_page
-    from rwn.studies.thesis.runner import run as run_experiments
 
     console = Console()
     if not console.is_terminal:
         console = Console(width=160)  # a file or a pipe has room
-    with Progress(console=Console(stderr=True)) as bars:
-        tasks = {e.name: bars.add_task(e.name, total=1.0) for e in experiments}
-        results = run_experiments(
-            experiments,
-            out,
-            reduced=reduced,
-            jobs=jobs,
-            progress=lambda e, share: bars.update(tasks[e.name], completed=share),
-        )
+    results = _with_progress(experiments, out, count, jobs)
     console.print(rich_table(results))
-    console.print(
-        ", ".join(f"{w}: {n}" for w, n in tally(results).items()),
-        f"in {sum(r.seconds for r in results):.0f} s",
-    )
+    console.print(overview_table(results))
+    seconds = sum(r.seconds for r in results)
+    console.print(f"{seconds:.0f} s of experiments" + ("" if count == "full" else "; shortened counts"))
     write_page(results, page)
     console.print(f"page: {page}")
+
+
+def _with_progress(experiments: Sequence[Experiment], out: Path, count: Count, jobs: int) -> list[Finished]:
+    """Runs them; bars of each and of all on stderr, with the time left at the weights of the experiments."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from rwn.studies.thesis.runner import run as run_experiments
+
+    done = dict.fromkeys([e.name for e in experiments], 0.0)
+    weights = {e.name: e.minutes for e in experiments}
+    with Progress(console=Console(stderr=True)) as bars:
+        tasks = {e.name: bars.add_task(e.name, total=1.0) for e in experiments}
+        every = bars.add_task("all", total=sum(weights.values()))
+
+        def show(experiment: Experiment, share: float) -> None:
+            done[experiment.name] = share
+            bars.update(tasks[experiment.name], completed=share)
+            bars.update(every, completed=sum(weights[name] * part for name, part in done.items()))
+
+        return run_experiments(experiments, out, count=count, jobs=jobs, progress=show)

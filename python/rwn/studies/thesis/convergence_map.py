@@ -113,4 +113,9 @@ def run(settings: Settings) -> Outcome:
     return Outcome(rows=rows, figures=figures)
 
 
-EXPERIMENT = Experiment(name="convergence-map", title="Where the learning-rate rules converge", run=run)
+EXPERIMENT = Experiment(
+    name="convergence-map",
+    title="Where the learning-rate rules converge",
+    run=run,
+    minutes=0.3,
+)

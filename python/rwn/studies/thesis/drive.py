@@ -83,14 +83,15 @@ def friction_network(
     wavelets: int,
     *,
     seed: int,
-    wavelet: str = "gaussian-derivative",
+    wavelet: rwn.Wavelet | None = None,
     motor: rwn.MotorParameters = MOTOR,
+    size: float = 0.1,
 ) -> rwn.StructuredNetwork:
-    """Dyadic wavelets over the speeds of a recording, w normal with deviation 1e-3, c = 0."""
+    """Dyadic wavelets over the speeds of a recording, w uniform in [-size, size], c = 0."""
     m, d = dyadic_shapes(float(speed.min()), float(speed.max()), wavelets)
-    w = np.random.default_rng(seed).normal(0, 1e-3, wavelets)
+    w = np.random.default_rng(seed).uniform(-size, size, wavelets)
     return rwn.StructuredNetwork.from_motor(
-        motor, sample_time=T, w=w, m=m, d=d, c=0 * m, wavelet=rwn.Wavelet(wavelet)
+        motor, sample_time=T, w=w, m=m, d=d, c=0 * m, wavelet=wavelet or rwn.Wavelet()
     )
 
 

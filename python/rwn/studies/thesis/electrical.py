@@ -96,5 +96,8 @@ def run(settings: Settings) -> Outcome:
 
 
 EXPERIMENT = Experiment(
-    name="electrical", title="Appendix E: electrical and mechanical parameters together", run=run
+    name="electrical",
+    title="Appendix E: electrical and mechanical parameters together",
+    run=run,
+    minutes=1.5,
 )

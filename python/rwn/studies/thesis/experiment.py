@@ -21,6 +21,7 @@ class Row:
     spread: smallest and largest over the seeds.
     count: iterations, cycles, seeds, in words.
     judge: how the word is computed, a name in `rwn.studies.thesis.words`.
+    answer: this row, and no other, speaks for a number of the thesis; other readings of the same number are asides.
     wanted: for the judge `wanted`, the value to reach; for `claim`, the share of cases that must hold.
     group: rows of one group must keep the thesis's order to count as `trend`.
     reason: the measured cause, shown where the word is not the best one.
@@ -39,6 +40,7 @@ class Row:
     reason: str = ""
     unit: str = ""
     missing: str = "diverged"
+    answer: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,13 +68,14 @@ class Surface:
 
 @dataclass(frozen=True, kw_only=True)
 class Panel:
-    """One pair of axes: curves, or one surface."""
+    """One pair of axes: curves, or one surface; `thesis`: its own numbers by label, drawn as level lines."""
 
     xlabel: str = ""
     ylabel: str = ""
     title: str = ""
     curves: list[Curve] = field(default_factory=list)
     surface: Surface | None = None
+    thesis: dict[str, float] = field(default_factory=dict)
     log_x: bool = False
     log_y: bool = False
 
@@ -94,40 +97,74 @@ class Figure:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Search:
+    """What becomes of some of the thesis's numbers under choices that it leaves open.
+
+    numbers: the thesis's, by label.  lines: for each choice our numbers in that order, None where a run diverged.
+    taken: the choice that the experiment takes.  count: seeds and iterations, in words.
+    """
+
+    title: str
+    numbers: dict[str, float]
+    lines: dict[str, list[float | None]]
+    taken: str
+    count: str = ""
+    unit: str = ""
+
+    def near(self, choice: str) -> int:
+        """How many numbers the choice reproduces: within a factor of 2, in percent within one point."""
+        pairs = zip(self.numbers.values(), self.lines[choice], strict=True)
+        if self.unit == "%":
+            return sum(ours is not None and abs(ours - thesis) <= 1.0 for thesis, ours in pairs)
+        return sum(ours is not None and 0.5 <= ours / thesis <= 2.0 for thesis, ours in pairs)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Outcome:
-    """Rows and figures of one run of an experiment."""
+    """Rows, figures and searches of one run of an experiment."""
 
     rows: list[Row]
     figures: list[Figure] = field(default_factory=list)
+    searches: list[Search] = field(default_factory=list)
+
+
+Count = Literal["full", "quick", "tiny"]
+SHORTER = 20  # times shorter than the full counts are the quick ones
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How to run: at a reduced count (for tests), and where to report progress (share done, 0 to 1)."""
+    """How to run: at which counts (`tiny` ones are for tests), and where to report progress (share done, 0 to 1)."""
 
-    reduced: bool = False
+    count: Count = "full"
     progress: Callable[[float], None] = lambda _: None
 
-    def pick(self, full: int, reduced: int) -> int:
+    def pick(self, full: int, tiny: int) -> int:
         """The count to use."""
-        return reduced if self.reduced else full
+        return {"full": full, "quick": max(full // SHORTER, tiny), "tiny": tiny}[self.count]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Experiment:
     """An experiment: `run(settings)`; the choices the thesis leaves open are the docstring of the file of
-    `run`."""
+    `run`. `minutes` of one core at full counts, roughly, weigh the time that is left."""
 
     name: str
     title: str
     run: Callable[[Settings], Outcome]
     tables: tuple[int, ...] = ()
     figures: tuple[int, ...] = ()
+    minutes: float = 0.2
+
+    @property
+    def module(self) -> str:
+        """The module of `run`."""
+        return self.run.__module__
 
     @property
     def choices(self) -> str:
         """The text at the top of the experiment's file."""
-        return sys.modules[self.run.__module__].__doc__ or ""
+        return sys.modules[self.module].__doc__ or ""
 
 
 def curve(y: ArrayLike, x: ArrayLike | None = None, *, label: str = "", style: str = "-") -> Curve:
@@ -143,8 +180,17 @@ def curve(y: ArrayLike, x: ArrayLike | None = None, *, label: str = "", style: s
     return Curve(x=xs.tolist(), y=ys.tolist(), label=label, style=style)
 
 
+def band(histories: Sequence[ArrayLike], x: ArrayLike | None = None, *, label: str = "") -> list[Curve]:
+    """Median over seeds of histories of one length, and dotted its smallest and largest."""
+    values = np.array([np.asarray(h, dtype=float) for h in histories])
+    middle = curve(np.median(values, axis=0), x, label=label)
+    if len(values) == 1:
+        return [middle]
+    return [middle, curve(values.min(axis=0), x, style=":"), curve(values.max(axis=0), x, style=":")]
+
+
 def median_row(where: str, case: str, thesis: float | None, values: Sequence[float], **rest: object) -> Row:
-    """A row of the median over seeds; a run that diverged counts as infinite."""
+    """A row of the median over seeds, with its range; a run that diverged counts as infinite."""
     finite = np.where(np.isfinite(values), values, np.inf)
     median = float(np.median(finite))
     spread = (float(finite.min()), float(finite.max()))

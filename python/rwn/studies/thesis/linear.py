@@ -48,7 +48,7 @@ class Case:
 
 def thesis_rule(fraction: float) -> Thesis:
     """As the thesis has it: running maxima, every group at the whole fraction of its own bound."""
-    return Thesis(fraction=fraction, shared=False, printed=False)
+    return Thesis(fraction=fraction, shared=False)
 
 
 def as_printed(
@@ -66,6 +66,8 @@ def as_printed(
             ours=None if failed else error,
             count=f"{cycles} cycles; {run.status}",
             judge="percentage-point" if case.thesis.get(name) is not None else "none",
+            answer=case.thesis.get(name) is not None,
+            group=where,
             unit="%",
             reason=reason if not run.report.warnings else "; ".join((reason, *run.report.warnings)),
         )
@@ -127,7 +129,10 @@ def figures(
         for name, k in index.items():
             ratio = true[k] / run.linear[:, k] if k == 1 else run.linear[:, k] / true[k]
             values.append(curve(100 * (ratio - 1), label=SYMBOLS[name]))
-        value_panels.append(Panel(xlabel="cycle", ylabel="error [%]", title=label, curves=values))
+        ends = {SYMBOLS[name]: value for name, value in case.thesis.items() if value is not None}
+        value_panels.append(
+            Panel(xlabel="cycle", ylabel="error [%]", title=label, curves=values, thesis=ends)
+        )
     panel = Panel(xlabel="cycle", ylabel="MSE while learning [rad2/s2]", curves=mse, log_y=True)
     return [
         Figure(number=numbers[0], title=f"MSE, {what}", panels=[panel]),

@@ -1,11 +1,12 @@
 """Tables 11-12, figures 56-64: a recurrent network learns a measured friction torque (3.5.3).
 
 Open in the thesis, and chosen here: the levels of the friction; dyadic start over the speeds of the
-recording, a, b by least squares, w normal with deviation 1e-3, c = 0, 3 seeds; running maxima at 0.002
-of the bound of each group by itself: at larger fractions the bias follows the error sample by sample and
-the frozen network is worthless; 1 000 cycles for 100 000. The better fit trains the static network, its
-wavelets selected from a library, by variable projection on the same samples, in at most 1 % of the
-thesis's cycles.
+recording, a, b by least squares, w normal with deviation 1e-3, c = 0; running maxima at 0.1 of the bound of
+each group by itself, the fraction that brings both tables within 12 and in order ("Choices"); all 100 000
+cycles from one seed, and 1000 from 20. The thesis's training error is the one met while learning: the bias
+follows the error sample by sample, and the frozen network is a million times worse on the same signal, as
+Table 12 says too. The better fit trains the static network, its wavelets selected from a library, by variable
+projection on the same samples, in at most 1 % of the thesis's cycles.
 """
 
 from __future__ import annotations
@@ -20,13 +21,17 @@ from rwn.networks.trainers import VariableProjection
 from rwn.studies.thesis.drive import MOTOR, chirp, coulomb, dyadic_shapes, sine, speed_with_friction
 from rwn.studies.thesis.experiment import Curve, Experiment, Figure, Outcome, Panel, Row, Settings, curve, median_row
 from rwn.studies.thesis.linear import thesis_rule
-from rwn.studies.thesis.structured_friction import signal_panel
+from rwn.studies.thesis.panels import signal_panel
 from rwn.studies.thesis.within_cycle import SHAPES, first_cycle_panel, rates_figure
 
 Run = OnlineTraining[rwn.RecurrentNetwork]
 
 SIZES = {3: (8.2753e-10, 1.3724e-4), 7: (2.7731e-10, 1.4662e-5), 15: (3.7961e-11, 4.9190e-7)}
-REASON = "the thesis's training error is a tracking error; fewer cycles"
+FRACTION = 0.1
+REASON = (
+    "the level is that of the unstated fraction of the bound: the error met while learning falls with it, the tested "
+    "one rises, and no fraction brings both"
+)
 
 
 def torque(speed: Array) -> Array:
@@ -55,7 +60,7 @@ def first_cycle(wavelets: int, speed: Array) -> Panel:
 
     def train(samples: int) -> Array:
         x = speed[:samples]
-        rule = thesis_rule(0.002)
+        rule = thesis_rule(FRACTION)
         return rwn.train_recurrent(start(speed, wavelets, 0), x, torque(x), rates=rule).rates
 
     return first_cycle_panel(train, len(speed), SHAPES)
@@ -68,51 +73,63 @@ def run(settings: Settings) -> Outcome:
     rows: list[Row] = []
     runs: dict[int, Run] = {}
     for k, wavelets in enumerate(SIZES):
-        found = trained_runs(speed, wavelets, settings)
-        rows += size_rows(wavelets, found, speed, test, settings)
-        runs[wavelets] = found[0]
+        runs[wavelets] = trained(speed, wavelets, settings.pick(100_000, 3), 0)
+        settings.progress((k + 0.7) / len(SIZES))
+        short = [trained(speed, wavelets, settings.pick(1_000, 2), s) for s in range(settings.pick(20, 1))]
+        rows += size_rows(wavelets, runs[wavelets], short, speed, test, settings)
         settings.progress((k + 1) / len(SIZES))
     return Outcome(rows=rows, figures=figures(runs, (u, speed), (test_u, test)))
 
 
-def trained_runs(speed: Array, wavelets: int, settings: Settings) -> list[Run]:
-    """Online runs of one size, one a seed."""
-    cycles = settings.pick(1_000, 3)
-    return [
-        rwn.train_recurrent(
-            start(speed, wavelets, seed),
-            speed,
-            torque(speed),
-            rates=thesis_rule(0.002),
-            cycles=cycles,
-            frozen_every=max(cycles // 20, 1),
-        )
-        for seed in range(settings.pick(3, 1))
-    ]
+def trained(speed: Array, wavelets: int, cycles: int, seed: int) -> Run:
+    """One online run."""
+    return rwn.train_recurrent(
+        start(speed, wavelets, seed),
+        speed,
+        torque(speed),
+        rates=thesis_rule(FRACTION),
+        cycles=cycles,
+        frozen_every=max(cycles // 20, 1),
+    )
 
 
 def size_rows(
-    wavelets: int, found: list[Run], speed: Array, test: Array, settings: Settings
+    wavelets: int, full: Run, short: list[Run], speed: Array, test: Array, settings: Settings
 ) -> list[Row]:
-    """Tables 11 and 12 for one size."""
-    trained, tested = SIZES[wavelets]
-    case = f"Nw {wavelets}"
-    rest = {"count": f"{settings.pick(1_000, 3)} cycles, {len(found)} seeds", "reason": REASON}
-    learning, frozen = [r.mse_learning[-1] for r in found], [r.mse_frozen[-1] for r in found]
-    on_test = [r.network.mse(test, torque(test)) for r in found]
-    return [
-        median_row("Table 11", f"{case}, while learning", trained, learning, group="learning", **rest),
-        median_row("Table 11", f"{case}, frozen", trained, frozen, group="frozen", **rest),
-        median_row("Table 12", case, tested, on_test, group="test", **rest),
+    """Tables 11 and 12 for one size: the full run speaks for the thesis's numbers, the seeds stand beside it."""
+    rows = []
+    for runs, suffix in (([full], ""), (short, f", {len(short[0].mse_learning)} cycles")):
+        count = f"{len(runs[0].mse_learning)} cycles, {len(runs)} seed{'s' * (len(runs) > 1)}"
+        for where, what, thesis, values in (
+            ("Table 11", "while learning", SIZES[wavelets][0], [r.mse_learning[-1] for r in runs]),
+            ("Table 11", "frozen", None, [r.mse_frozen[-1] for r in runs]),
+            ("Table 12", "tested, frozen", SIZES[wavelets][1], [r.network.mse(test, torque(test)) for r in runs]),
+        ):
+            answer = runs[0] is full and thesis is not None
+            rows.append(
+                median_row(
+                    where,
+                    f"Nw {wavelets}, {what}{suffix}",
+                    thesis,
+                    values,
+                    count=count,
+                    answer=answer,
+                    judge="factor-2" if answer else "none",
+                    group=where if answer else "",
+                    reason=REASON,
+                )
+            )
+    rows.append(
         Row(
             where="Table 12",
-            case=f"{case}, selection + variable projection",
+            case=f"Nw {wavelets}, selection + variable projection",
             judge="wanted",
-            wanted=tested / 10,
+            wanted=SIZES[wavelets][1] / 10,
             ours=static_fit(speed, test, wavelets, settings.pick(200, 5)),
             count="at most 200 iterations",
-        ),
-    ]
+        )
+    )
+    return rows
 
 
 def figures(
@@ -128,7 +145,8 @@ def figures(
     def torques(*curves: Curve) -> list[Panel]:
         return [Panel(xlabel="speed [rad/s]", ylabel="torque [N m]", curves=list(curves))]
 
-    by_cycle = Panel(xlabel="cycle", ylabel="MSE while learning", curves=mse, log_y=True)
+    ends = {f"Nw {n}": SIZES[n][0] for n in runs}
+    by_cycle = Panel(xlabel="cycle", ylabel="MSE while learning", curves=mse, thesis=ends, log_x=True, log_y=True)
     return [
         Figure(number=56, title="Friction", panels=torques(true)),
         Figure(number=58, title="Training signal", panels=[signal_panel(*training)]),
@@ -148,4 +166,5 @@ EXPERIMENT = Experiment(
     run=run,
     tables=(11, 12),
     figures=(56, 58, 59, 60, 61, 62, 63, 64),
+    minutes=4.0,
 )

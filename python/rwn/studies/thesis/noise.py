@@ -122,4 +122,4 @@ def panel(title: str, by_level: dict[float, list[Estimate]]) -> Panel:
     )
 
 
-EXPERIMENT = Experiment(name="noise", title="Noise: Tables 17 to 20 at 60 to 10 dB", run=run)
+EXPERIMENT = Experiment(name="noise", title="Noise: Tables 17 to 20 at 60 to 10 dB", run=run, minutes=2.5)

@@ -13,7 +13,8 @@ from rwn.networks.initialisation import DyadicGrid, SmallRandom
 from rwn.networks.trainers import Trainer
 from rwn.networks.training import Training
 from rwn.networks.wavelets import Wavelet
-from rwn.studies.thesis.experiment import Figure, Panel, Row, curve, median_row
+from rwn.studies.thesis.experiment import Figure, Panel, Row, median_row
+from rwn.studies.thesis.offline import history
 
 START = DyadicGrid(linear=SmallRandom(scale=0.1))
 
@@ -75,9 +76,11 @@ def rows_of(
     *,
     learning: float | None,
     tested: float | None,
-    group: str = "",
+    answer: bool = False,
+    cause: str = "",
 ) -> list[Row]:
-    """Two rows, error while learning and tested with frozen weights, beside the thesis's if there is one."""
+    """Two rows, error while learning and tested with frozen weights, beside the thesis's if there is one, for which
+    they speak with `answer`."""
     rows = []
     for kind, thesis, values in (
         ("learning on", learning, online.tracking),
@@ -90,9 +93,10 @@ def rows_of(
                 thesis,
                 values,
                 count=online.count,
-                group=group if thesis is not None else "",
-                judge="none" if thesis is None else "factor-2",
-                reason=f"{where}, {case}: {online.reason()}.",
+                group=where if answer and thesis is not None else "",
+                judge="factor-2" if answer and thesis is not None else "none",
+                answer=answer and thesis is not None,
+                reason=cause,
             )
         )
     return rows
@@ -112,10 +116,15 @@ def wanted_row(where: str, case: str, thesis: float, wanted: float, online: Onli
     )
 
 
-def history_figure(number: int, title: str, runs: dict[str, Online]) -> Figure:
-    """Mean squared error of every sweep, learning on, of the median run of each setting."""
-    curves = [curve(o.trainings[o.median].mse, label=label) for label, o in runs.items()]
+def history_figure(number: int, title: str, runs: dict[str, Online], thesis: dict[str, float]) -> Figure:
+    """Mean squared error of every sweep, learning on, median and range over the seeds, beside the thesis's last."""
+    curves = [line for label, o in runs.items() for line in history([t.mse for t in o.trainings], label)]
     panel = Panel(
-        xlabel="iteration (sweep)", ylabel="MSE while learning", curves=curves, log_x=True, log_y=True
+        xlabel="iteration (sweep)",
+        ylabel="MSE while learning",
+        curves=curves,
+        thesis=thesis,
+        log_x=True,
+        log_y=True,
     )
     return Figure(number=number, title=title, panels=[panel])

@@ -45,12 +45,16 @@ def _fill(axes: Any, panel: Panel) -> None:
         _fill_surface(axes, panel.surface)
         return
     for line in panel.curves:
-        axes.plot(line.x, line.y, line.style, label=line.label or None, linewidth=1.3)
+        beside = line.style == ":" and not line.label and axes.lines  # the range of the curve before it
+        colour = {"color": axes.lines[-1].get_color(), "alpha": 0.6} if beside else {}
+        axes.plot(line.x, line.y, line.style, label=line.label or None, linewidth=1.3, **colour)
+    for k, (label, value) in enumerate(panel.thesis.items()):
+        axes.axhline(value, color=f"C{k}", linestyle=(0, (1, 3)), linewidth=1.6, label=f"thesis: {label}")
     if panel.log_x:
         axes.set_xscale("log")
     if panel.log_y:
         axes.set_yscale("log")
-    if any(line.label for line in panel.curves):
+    if panel.thesis or any(line.label for line in panel.curves):
         axes.legend(fontsize=8)
     axes.grid(alpha=0.3)
 

@@ -19,8 +19,12 @@ from rwn.studies.thesis import (
     miso_trainers,
     miso_wavelets,
     noise,
+    online_beyond,
     online_miso,
     online_siso,
+    search_friction,
+    search_linear,
+    search_offline,
     simultaneous,
     siso_rate,
     siso_size,
@@ -56,8 +60,12 @@ EXPERIMENTS: tuple[Experiment, ...] = tuple(
         simultaneous,
         claims_rates,
         convergence_map,
+        online_beyond,
         noise,
         electrical,
+        search_offline,
+        search_friction,
+        search_linear,
     )
 )
 

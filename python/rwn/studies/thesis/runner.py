@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import sys
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -12,33 +10,39 @@ from pathlib import Path
 
 import msgspec
 
-from rwn import _core
-from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Row, Settings
+from rwn.studies.thesis.dependencies import fingerprint
+from rwn.studies.thesis.experiment import Count, Experiment, Figure, Outcome, Row, Search, Settings
+from rwn.studies.thesis.made import Made, made
+
+SHORT = 0.3  # minutes of one core
 
 
 @dataclass(frozen=True, kw_only=True)
 class Finished:
-    """A finished experiment as kept on disk; `fingerprint` is of the code and settings that made it."""
+    """A finished experiment as kept on disk; `fingerprint` is of everything that it depends on."""
 
     name: str
     title: str
     choices: str
     rows: list[Row]
     figures: list[Figure]
+    searches: list[Search]
     seconds: float
-    reduced: bool
+    count: Count
     fingerprint: str
+    made: Made
 
 
 def run(
     experiments: Sequence[Experiment],
     out: Path,
     *,
-    reduced: bool = False,
+    count: Count = "full",
     jobs: int = 1,
     progress: Callable[[Experiment, float], None] = lambda *_: None,
 ) -> list[Finished]:
-    """Results of the experiments, in order; those finished in `out` with the same code are read, not run.
+    """Results of the experiments, in order; those finished in `out` with the same fingerprint (for a quick run: in
+    full, too) are read, not run.
 
     jobs: experiments at a time, in threads (the core releases the interpreter); results do not depend on it.
     progress(experiment, share done) is called now and then, with 1 at the end.
@@ -46,47 +50,51 @@ def run(
     out.mkdir(parents=True, exist_ok=True)
 
     def one(experiment: Experiment) -> Finished:
-        path = out / f"{experiment.name}.json"
-        done = _read(path, _fingerprint(experiment, reduced=reduced))
-        if done is None:
-            done = _run_one(experiment, reduced, progress)
+        path, used = out / f"{experiment.name}.json", _count(experiment, count)
+        good: tuple[Count, ...] = ("quick", "full") if used == "quick" else (used,)
+        done = read(path)
+        if done is None or done.fingerprint not in [fingerprint(experiment.module, c) for c in good]:
+            done = _run_one(experiment, used, progress)
             _write(path, done)
         progress(experiment, 1.0)
         return done
 
+    longest_first = sorted(experiments, key=lambda e: -e.minutes)
     with ThreadPoolExecutor(jobs) as pool:
-        return list(pool.map(one, experiments))
+        found = dict(zip([e.name for e in longest_first], pool.map(one, longest_first), strict=True))
+    return [found[e.name] for e in experiments]
+
+
+def _count(experiment: Experiment, count: Count) -> Count:
+    """What is short anyway is not shortened."""
+    return "full" if count == "quick" and experiment.minutes <= SHORT else count
 
 
 def _run_one(
-    experiment: Experiment, reduced: bool, progress: Callable[[Experiment, float], None]
+    experiment: Experiment, count: Count, progress: Callable[[Experiment, float], None]
 ) -> Finished:
     start = time.perf_counter()
-    outcome: Outcome = experiment.run(Settings(reduced, lambda share: progress(experiment, share)))
+    outcome: Outcome = experiment.run(Settings(count, lambda share: progress(experiment, share)))
     return Finished(
         name=experiment.name,
         title=experiment.title,
         choices=experiment.choices,
         rows=outcome.rows,
         figures=outcome.figures,
+        searches=outcome.searches,
         seconds=time.perf_counter() - start,
-        reduced=reduced,
-        fingerprint=_fingerprint(experiment, reduced=reduced),
+        count=count,
+        fingerprint=fingerprint(experiment.module, count),
+        made=made(),
     )
 
 
-def _fingerprint(experiment: Experiment, *, reduced: bool) -> str:
-    """Changes with the experiment's own file, the package's version and the count."""
-    source = Path(sys.modules[experiment.run.__module__].__file__ or "").read_bytes()
-    return hashlib.sha256(source + f"{_core.__version__} {reduced}".encode()).hexdigest()[:16]
-
-
-def _read(path: Path, fingerprint: str) -> Finished | None:
+def read(path: Path) -> Finished | None:
+    """The result in a file; None where there is none, or it is damaged."""
     try:
-        done = msgspec.json.decode(path.read_bytes(), type=Finished)
+        return msgspec.json.decode(path.read_bytes(), type=Finished)
     except (FileNotFoundError, msgspec.DecodeError):
         return None
-    return done if done.fingerprint == fingerprint else None
 
 
 def _write(path: Path, done: Finished) -> None:

@@ -1,10 +1,10 @@
 """Table 20, figures 98-106: inertia, viscous friction and the friction network together.
 
-Open in the thesis, and chosen here: 15 wavelets on a dyadic grid, w normal with deviation 1e-3, c = 0;
+Open in the thesis, and chosen here: 15 wavelets on a dyadic grid, w uniform in [-0.001, 0.001], c = 0;
 initialised by 300 cycles of the thesis's rule with the wrong J and B held (the thesis has 10 000
-iterations); then at 0.5 of the bound: 5 000 cycles with running maxima, which stand still long before,
-and the thesis's 200 000 with rates held from a pass over the first cycle ("did not change after the
-first"). B of the thesis is the raw v1, which this experiment cannot determine: v1 - B acts as an
+iterations); then the thesis's 200 000 at 0.5 of the bound, with rates held from a pass over the first cycle
+("did not change after the first"), which speak for the thesis's numbers, and with running maxima. B of the
+thesis is the raw v1, which this experiment cannot determine: v1 - B acts as an
 observer gain, since the network is fed with the measured speed. What is determined is the total viscous
 slope <tau_total, speed>/<speed, speed>. The batch fit selects its wavelets from a library by what they
 explain of the recording (the wrong motor given), since on the dyadic grid 60 iterations leave the curve
@@ -35,7 +35,7 @@ from rwn.studies.thesis.drive import (
 )
 from rwn.studies.thesis.experiment import Curve, Experiment, Figure, Outcome, Panel, Row, Settings, curve
 from rwn.studies.thesis.linear import thesis_rule
-from rwn.studies.thesis.structured_friction import signal_panel
+from rwn.studies.thesis.panels import signal_panel
 from rwn.studies.thesis.within_cycle import first_cycle_panel
 
 NETWORK = ("w", "m", "d", "c")
@@ -43,7 +43,8 @@ LEARN = ("v1", "v2", *NETWORK)
 WRONG = replace(MOTOR, inertia=2.16e-4, viscous_friction=0.048)
 
 
-CYCLES = {"running maxima": 5_000, "held rates": 200_000}
+CYCLES = 200_000
+SPEAKS = "held rates"
 
 
 def total_slope(torque: Array, speed: Array) -> float:
@@ -65,8 +66,10 @@ def online_rows(
     slope = 100 * (total_slope(torque, y) / total_slope(true_torque(y), y) - 1)
     rms = float(np.sqrt(np.mean((torque - true_torque(y)) ** 2)))
     count = f"{len(run.mse_learning)} cycles; {run.status}"
-    stuck = "" if not run.report.warnings else "; ".join(run.report.warnings)
-    reason = f"v1 shares its slope with the network, raw B is not determined. {stuck}".strip()
+    answer = how == SPEAKS
+    stuck = "; ".join(run.report.warnings)
+    passing = "J passes the thesis's +11 % on its way to the truth: it depends on the fraction and where one stops"
+    gain = "v1 shares its slope with the network and acts as an observer gain: raw B is not determined by the data"
     return [
         Row(
             where="Table 20",
@@ -74,9 +77,10 @@ def online_rows(
             thesis=11.0,
             ours=error_percent(net, "inertia"),
             count=count,
-            judge="percentage-point",
+            judge="percentage-point" if answer else "none",
+            answer=answer,
             unit="%",
-            reason=stuck or "depends on the fraction and the number of cycles",
+            reason="; ".join(text for text in (passing, stuck) if text),
         ),
         Row(
             where="Table 20",
@@ -84,9 +88,10 @@ def online_rows(
             thesis=22.5,
             ours=error_percent(net, "viscous_friction"),
             count=count,
-            judge="percentage-point",
+            judge="percentage-point" if answer else "none",
+            answer=answer,
             unit="%",
-            reason=reason,
+            reason=gain,
         ),
         Row(where="Table 20", case=f"total slope, {how}", ours=slope, count=count, judge="none", unit="%"),
         Row(where="Figure 106", case=f"friction rms [N m], {how}", ours=rms, count=count, judge="none"),
@@ -96,7 +101,9 @@ def online_rows(
             thesis=0.0017,
             ours=net.mse(*test),
             count=count,
-            reason="follows J and B: depends on the fraction and the number of cycles",
+            judge="factor-2" if answer else "none",
+            answer=answer,
+            reason="follows J and B, and so the fraction and the number of cycles",
         ),
     ]
 
@@ -134,7 +141,7 @@ def run(settings: Settings) -> Outcome:
     u, test_u = chirp(1.0, 0.0, 4.0), sine(1.0, 1.0)
     y, test = speed_with_friction(u), (test_u, speed_with_friction(test_u))
     begun = rwn.train_structured(
-        friction_network(y, 15, seed=0, motor=WRONG),
+        friction_network(y, 15, seed=0, motor=WRONG, size=1e-3),
         u,
         y,
         learn=NETWORK,
@@ -148,7 +155,7 @@ def run(settings: Settings) -> Outcome:
     rows, runs = [], {}
     for k, (how, rule) in enumerate(rules.items()):
         runs[how] = rwn.train_structured(
-            begun.network, u, y, learn=LEARN, rates=rule, cycles=settings.pick(CYCLES[how], 5)
+            begun.network, u, y, learn=LEARN, rates=rule, cycles=settings.pick(CYCLES, 5)
         )
         rows += online_rows(how, runs[how], y, test)
         settings.progress(0.3 * (k + 1))
@@ -215,7 +222,7 @@ def pictures(
         Figure(
             number=103,
             title="Convergence of B and J",
-            panels=[Panel(xlabel="cycle", ylabel="error [%]", curves=motion)],
+            panels=[Panel(xlabel="cycle", ylabel="error [%]", curves=motion, thesis={"raw B": 22.5, "J": 11.0})],
         ),
         Figure(number=104, title="Network's torque", panels=torques(true, alone)),
         Figure(number=105, title="Combined friction", panels=torques(both)),
@@ -229,4 +236,5 @@ EXPERIMENT = Experiment(
     run=run,
     tables=(20,),
     figures=(98, 99, 100, 101, 102, 103, 104, 105, 106),
+    minutes=6.0,
 )

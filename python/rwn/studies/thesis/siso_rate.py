@@ -15,7 +15,7 @@ CASES = [
     Case(label=f"mu {rate}", wavelets=15, rate=rate, momentum=0.6, heuristic=heuristic, dyadic=dyadic)
     for rate, (heuristic, dyadic) in THESIS.items()
 ]
-READINGS = (PRINTED, MATLAB)
+READINGS = (MATLAB, PRINTED)
 TITLE = "MSE for varying mu, one input"
 
 
@@ -25,5 +25,10 @@ def run(settings: Settings) -> Outcome:
 
 
 EXPERIMENT = Experiment(
-    name="siso-rate", title="Table 2: learning rate, one input", run=run, tables=(2,), figures=(15, 16)
+    name="siso-rate",
+    title="Table 2: learning rate, one input",
+    run=run,
+    tables=(2,),
+    figures=(15, 16),
+    minutes=1.5,
 )

@@ -11,9 +11,9 @@ import numpy as np
 from rwn.studies.thesis import walk_through as steps
 from rwn.studies.thesis.drive import T
 from rwn.studies.thesis.experiment import Curve, Figure, Panel, curve
+from rwn.studies.thesis.panels import signal_panel
 from rwn.studies.thesis.pictures import draw
 from rwn.studies.thesis.simultaneous import true_torque
-from rwn.studies.thesis.structured_friction import signal_panel
 from rwn.studies.thesis.walk_through import Found, WalkThrough, free_run_error, judge, walk
 
 

@@ -6,22 +6,29 @@ from collections.abc import Callable, Sequence
 
 from rwn.studies.thesis.experiment import Row
 
-REPRODUCED, TREND, NOT_REPRODUCIBLE = "reproduced", "trend", "not reproducible"
+REPRODUCED, BETTER = "reproduced", "better than printed"
+TREND, NOT_REPRODUCIBLE = "trend", "not reproducible"
+WORDS = (REPRODUCED, BETTER, TREND, NOT_REPRODUCIBLE)
 
 
 def factor_2(row: Row, group: Sequence[Row]) -> str:
-    """Reproduced within a factor of 2, else trend if the row's group keeps the thesis's order."""
+    """Reproduced within a factor of 2; better where ours is smaller still; else trend if the row's group keeps the
+    thesis's order."""
     if row.ours is None or row.thesis is None:
         return NOT_REPRODUCIBLE
-    near = row.ours > 0 and 0.5 <= row.ours / row.thesis <= 2.0
-    return REPRODUCED if near else _trend(row, group)
+    if 0 <= row.ours < 0.5 * row.thesis:
+        return BETTER
+    return REPRODUCED if 0 < row.ours <= 2.0 * row.thesis else _trend(row, group)
 
 
 def percentage_point(row: Row, group: Sequence[Row]) -> str:
-    """Reproduced within one percentage point, else trend if the row's group keeps the thesis's order."""
+    """Reproduced within one percentage point; better where our error is smaller still; else trend if the row's
+    group keeps the thesis's order."""
     if row.ours is None or row.thesis is None:
         return NOT_REPRODUCIBLE
-    return REPRODUCED if abs(row.ours - row.thesis) <= 1.0 else _trend(row, group)
+    if abs(row.ours - row.thesis) <= 1.0:
+        return REPRODUCED
+    return BETTER if abs(row.ours) < abs(row.thesis) else _trend(row, group)
 
 
 def wanted(row: Row, group: Sequence[Row]) -> str:  # noqa: ARG001

@@ -60,8 +60,9 @@ class RecurrentRates {
  public:
   virtual ~RecurrentRates() = default;
   virtual void prepare(RecurrentRun&, const RecurrentSignals&) {}
-  /// Rates for the correction of this sample, after RecurrentRun::advance(x).
-  virtual const double* rates(const RecurrentRun& run, const double* x) = 0;
+  /// One cycle of per-sample training (3.19) from its first sample; returns the sum of squared errors.
+  virtual double train(RecurrentRun& run, const RecurrentSignals& signals) = 0;
+  virtual RecurrentRateValues rates() const = 0;
   virtual RecurrentRateValues bounds() const { return {}; }
 
   RateReport report;
