@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from rwn.recording.noise import rough_noise
 from rwn.recording.quantisation import quantum
 
 Array = NDArray[np.float64]
+_NONE: Mapping[str, NDArray[np.bool_]] = MappingProxyType({})
 
 FIRST = 5  # samples that the start is read off
 CERTAIN = 5.0  # deviations of a first sample from rest that chance does not explain: 1 in 10^6
@@ -30,11 +32,15 @@ class Start:
     spread: Mapping[str, float] = field(default_factory=dict)
 
 
-def start_of(time: Array, signals: Mapping[str, Array], model: Model) -> Start:
+def start_of(
+    time: Array, signals: Mapping[str, Array], model: Model, *, missing: Mapping[str, NDArray[np.bool_]] = _NONE
+) -> Start:
     """The start of a recording (n,) each, SI, by what the model's [recording] table says of it or its first samples.
 
-    A position that was recorded starts within its noise or its steps of the first sample.
+    A position that was recorded starts within its noise or its steps of the first sample. `missing`: samples (n,) that
+    were not measured; of a signal that begins with one nothing is read.
     """
+    signals = {n: x for n, x in signals.items() if n == "position" or n not in missing or not missing[n][0]}
     position = signals.get("position", np.empty(0))
     first = model.recording.initial_samples
     resolution = {n: _resolution(signals[n], first) for n in signals if n != model.drive.input}

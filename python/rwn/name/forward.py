@@ -80,7 +80,11 @@ def rank(
         problem, nominal, fits = _under_own_noise(problem, nominal, fits)
     filters = _filters(problem, min([nominal, *fits], key=lambda f: f.cost))
     if filters:  # they are part of how it was measured, beside whatever is missing
-        return rank(filtered(as_prepared, filters), progress=progress, names=names, at_once=at_once)
+        measured = filtered(as_prepared, filters)
+        alone_again = rank(measured, progress=progress, at_once=1)
+        if names is None and at_once == 1:
+            return alone_again
+        return rank(measured, progress=progress, names=names, at_once=at_once, after=alone_again)
     fits = with_simpler(problem, nominal, fits) if names is None else fits
     at_a_limit = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, problem))]

@@ -138,7 +138,7 @@ def run_of(recording: Recording, model: Model) -> Run:
     given = signals[drive.input]
     time = recording.time - recording.time[0]
     speed, position = signals.get("speed", _NONE), signals.get("position", _NONE)
-    start = start_of(time, signals, model)
+    start = start_of(time, signals, model, missing=recording.missing)
     way = INSTANTANEOUS
     if not drive.coefficients:
         lost = [recording.missing[s] for s in ("speed", "position") if s in recording.missing]
