@@ -29,6 +29,12 @@ void bind_structured_network(py::module_& m) {
           return std::make_pair(g.spectral_radius, g.condition);
         },
         "a11"_a, "a12"_a, "a21"_a, "a22"_a, "rho(A) and cond(M) in closed form.");
+  m.def("plant_gain_by_eigen",
+        [](const Eigen::Matrix2d& a) {
+          const PlantGain g = plant_gain_by_eigen(a);
+          return std::make_pair(g.spectral_radius, g.condition);
+        },
+        "a"_a, "rho(A) and cond(M) from Eigen's eigendecomposition.");
   m.def("impulse_sums",
         [](const Eigen::Matrix2d& a) {
           const ImpulseSums s = impulse_sums(a);

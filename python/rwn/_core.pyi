@@ -270,6 +270,10 @@ def plant_gain(a11: typing.SupportsFloat | typing.SupportsIndex, a12: typing.Sup
     """
     rho(A) and cond(M) in closed form.
     """
+def plant_gain_by_eigen(a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 2]"]) -> tuple[float, float]:
+    """
+    rho(A) and cond(M) from Eigen's eigendecomposition.
+    """
 def rate_defaults() -> dict:
     ...
 def rate_rules() -> list[tuple[str, str]]:

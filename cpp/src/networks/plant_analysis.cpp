@@ -1,8 +1,19 @@
 #include "rwn/networks/plant_analysis.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <cmath>
 #include <limits>
 
 namespace rwn {
+
+PlantGain plant_gain_by_eigen(const Eigen::Matrix2d& a) {
+  const Eigen::EigenSolver<Eigen::Matrix2d> solver(a);
+  Eigen::Matrix2cd m = solver.eigenvectors();
+  m.colwise().normalize();
+  const auto singular = Eigen::JacobiSVD<Eigen::Matrix2cd>(m).singularValues();
+  return {solver.eigenvalues().cwiseAbs().maxCoeff(), singular[0] / singular[1]};
+}
 
 ImpulseSums impulse_sums(const Eigen::Matrix2d& a) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -102,6 +102,18 @@ TEST(StructuredNetwork, RefusesBadParameters) {
   EXPECT_THROW(StructuredNetwork(Vector::Zero(9), Wavelet()), std::invalid_argument);
 }
 
+TEST(PlantGain, ClosedFormEqualsEigen) {
+  std::mt19937 rng(0);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Matrix2d a{{u(rng), u(rng)}, {u(rng), u(rng)}};
+    const PlantGain closed = plant_gain(a(0, 0), a(0, 1), a(1, 0), a(1, 1));
+    const PlantGain eigen = plant_gain_by_eigen(a);
+    EXPECT_NEAR(closed.spectral_radius, eigen.spectral_radius, 1e-12);
+    EXPECT_NEAR(closed.condition / eigen.condition, 1.0, 1e-13 * eigen.condition * eigen.condition + 1e-12) << a;
+  }
+}
+
 TEST(PlantGain, RepeatedEigenvalues) {
   EXPECT_TRUE(std::isinf(plant_gain(0.5, 1.0, 0.0, 0.5).condition));
   EXPECT_EQ(plant_gain(0.5, 0.0, 0.0, 0.5).condition, 1.0);
