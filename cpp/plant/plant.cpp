@@ -38,6 +38,7 @@ Plant::Plant(const PlantParameters& parameters, double sample_time, double volta
   whole_delay_ = static_cast<std::size_t>(p_.delay / sample_time);
   fraction_delay_ = p_.delay - double(whole_delay_) * sample_time;
   commands_.resize(whole_delay_ + 2);
+  edges_.reserve(8);  // those of a step without samples between its ends
   reset();
 }
 
