@@ -109,6 +109,18 @@ def simulate(
 
 
 @app.command()
+def check(recordings: Recordings, model: ModelFile) -> None:
+    """What is odd in recordings, before any physics, and what a diagnosis does about it."""
+    from rwn.model.files import read_model
+    from rwn.model.recordings import read_recordings
+    from rwn.report.check import checked
+
+    drive = read_model(model)
+    for line in checked(read_recordings(recordings, drive), drive):
+        typer.echo(line)
+
+
+@app.command()
 def identify(
     recordings: Recordings,
     model: ModelFile,
@@ -221,6 +233,8 @@ def _print_verdict(found: Diagnosis, out: Path) -> None:
     from rwn.report import text as words
 
     typer.echo(words.verdict_sentence(found))
+    for finding in found.findings:
+        typer.echo(f"  {finding.recording}: {finding.words}; {finding.done}")
     for effect in found.effects:
         for name, value in effect.parameters.items():
             typer.echo(f"  {effect.name} {name} = {words.estimate(value)}")

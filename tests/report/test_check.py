@@ -1,0 +1,34 @@
+"""What a check of recordings says."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+import rwn
+from rwn.report.check import checked
+
+DEMO = Path(rwn.__file__).parent / "demo"
+MODEL = rwn.read_model(DEMO / "model.toml")
+
+
+def test_a_clean_recording_from_rest_is_said_to_be_one() -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
+    lines = list(checked([recording], MODEL))
+    assert lines[0].startswith("train.csv: 5000 samples of voltage, current, speed")
+    assert "  starts at rest" in lines
+    assert not any("missing" in line or "spike" in line or "jitter" in line for line in lines)
+
+
+def test_a_start_in_motion_lost_rows_and_spikes_are_said() -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
+    kept = np.ones(len(recording), dtype=bool)
+    kept[:1500] = kept[2000:2003] = False
+    signals = {s: np.array(x[kept]) for s, x in recording.signals.items()}
+    signals["speed"][[400, 900]] = 1e3
+    lines = list(checked([replace(recording, time=recording.time[kept], signals=signals)], MODEL))
+    assert any("starts in motion" in line for line in lines)
+    assert any("3 rows are missing" in line for line in lines)
+    assert any("2 single samples of the speed" in line and "left out" in line for line in lines)
