@@ -103,6 +103,40 @@ TEST(RecurrentRun, TrainingSampleBySampleEqualsTheCycleKernel) {
   }
 }
 
+TEST(RecurrentRun, AStepIsRateTimesErrorTimesDerivative) {
+  const RecurrentNetwork net = network(2, 5, Wavelet());
+  const RowMatrix x = inputs(40, 2);
+  const double rates[kRecurrentGroups] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+  RecurrentRun run(net);
+  run.restart();
+  for (Eigen::Index n = 0; n < x.rows(); ++n) {
+    run.advance(x.row(n).data());
+  }
+  const Vector before = run.theta();
+  run.correct(rates, -0.7);
+  for (int g = 0; g < kRecurrentGroups; ++g) {
+    const Vector step = run.parameters(g) - before.segment(net.offset(g), net.size(g));
+    EXPECT_LT((step + 0.7 * rates[g] * run.sensitivity(g)).cwiseAbs().maxCoeff(), 1e-15) << g;
+    EXPECT_GT(step.cwiseAbs().maxCoeff(), 1e-6) << g;
+  }
+}
+
+TEST(RecurrentRun, FeedbackThatIsTooStrongIsCountedAndDoesNotLearn) {
+  Vector theta = network(1, 5, Wavelet()).theta();
+  theta[theta.size() - 5] = 1.2 * theta[theta.size() - 10];  // c = 1.2 d, of one wavelet
+  const RecurrentNetwork net(theta, 1, Wavelet());
+  const RowMatrix x = inputs(50, 1);
+  const Vector y = Vector::Ones(50);
+  RecurrentRun run(net);
+  const auto rates = ThesisRates{1e-3}.on(net, {true, true, true, true, true, true});
+  rates->train(run, {x, y});
+  EXPECT_EQ(rates->report.recurrent, 50);
+  EXPECT_NEAR(rates->report.recurrence, 1.2, 1e-12);
+  EXPECT_NEAR(rates->report.smallest_dilation, theta.segment(theta.size() - 10, 5).cwiseAbs().minCoeff(), 1e-12);
+  EXPECT_EQ((run.theta() - theta).tail(15).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_GT((run.theta() - theta).head(7).cwiseAbs().minCoeff(), 0.0);
+}
+
 TEST(RecurrentNetwork, PerSampleLoopsDoNotAllocate) {
   const RecurrentNetwork net = network(2, 5, Wavelet());
   const RowMatrix x = inputs(300, 2);

@@ -80,6 +80,31 @@ TEST(StructuredRun, TrainingSampleBySampleEqualsTheCycleKernel) {
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-13);
 }
 
+TEST(StructuredRun, TheStateFollowsAStepAsItFollowsAShift) {
+  const Recording r(300);
+  const StructuredNetwork net = network(15, 2);
+  const double rates[kStructuredGroups] = {1e-3, 1e-3, 1e-4, 1e-5, 1e-5, 1e-3, 1e-2, 1e-2, 1e-2};
+  StructuredRun step(net), shift(net);
+  for (StructuredRun* run : {&step, &shift}) {
+    run->follow(true);
+    run->restart({0.0, 0.0});
+    for (Eigen::Index n = 1; n < r.speed.size(); ++n) {
+      run->advance(r.input[n - 1], r.speed[n - 1]);
+    }
+  }
+  Vector change(net.theta().size());
+  shift.speed_sensitivity(change.data());
+  for (int g = 0; g < kStructuredGroups; ++g) {
+    change.segment(net.offset(g), net.size(g)) *= 0.3 * rates[g];
+  }
+  const double before = step.linear(kX2);
+  step.correct(rates, 0.3);
+  shift.shift(change);
+  EXPECT_GT(std::abs(step.linear(kX2) - before), 1e-9);
+  EXPECT_NEAR(step.linear(kX1), shift.linear(kX1), 1e-14);
+  EXPECT_NEAR(step.linear(kX2), shift.linear(kX2), 1e-14);
+}
+
 TEST(StructuredRun, PerSampleLoopsDoNotAllocate) {
   const Recording r(500);
   const StructuredNetwork net = network(15, 1);

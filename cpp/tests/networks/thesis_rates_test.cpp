@@ -182,16 +182,18 @@ TEST(ThesisRates, EigensDecompositionLearnsTheSameAndDoesNotAllocate) {
   EXPECT_LT((theta[0] - theta[1]).norm(), 1e-10 * (theta[0] - net.theta()).norm());
 }
 
-TEST(ThesisRates, TheSmallestDilationIsNotThatOfThePadding) {
+TEST(ThesisRates, TheReportIsOfTheWaveletsAndNotOfThePadding) {
   const Recording r(50);
   for (Eigen::Index wavelets : {1, 8, 15}) {
     Vector theta = network(wavelets, 1).theta();
     theta.segment(StructuredNetwork::linear + 2 * wavelets, wavelets).setConstant(5.0);
+    theta.tail(wavelets).setConstant(1.0);
     const StructuredNetwork net(theta, Wavelet());
     StructuredRun run(net);
     const auto rates = ThesisRates{1e-9}.on(net, kAll);
     rates->train(run, r.signals());
     EXPECT_NEAR(rates->report.smallest_dilation, 5.0, 1e-6);
+    EXPECT_NEAR(rates->report.recurrence, 0.2, 1e-6);
   }
 }
 
