@@ -1,7 +1,6 @@
 #include "rwn/networks/plant_analysis.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
@@ -9,10 +8,10 @@ namespace rwn {
 
 PlantGain plant_gain_by_eigen(const Eigen::Matrix2d& a) {
   const Eigen::EigenSolver<Eigen::Matrix2d> solver(a);
-  Eigen::Matrix2cd m = solver.eigenvectors();
-  m.colwise().normalize();
-  const auto singular = Eigen::JacobiSVD<Eigen::Matrix2cd>(m).singularValues();
-  return {solver.eigenvalues().cwiseAbs().maxCoeff(), singular[0] / singular[1]};
+  const Eigen::Matrix2cd m = solver.eigenvectors();
+  // unit columns with the cosine g between them have singular values sqrt(1 +- |g|)
+  const double cosine = std::abs(m.col(0).dot(m.col(1))) / (m.col(0).norm() * m.col(1).norm());
+  return {solver.eigenvalues().cwiseAbs().maxCoeff(), std::sqrt((1.0 + cosine) / (1.0 - cosine))};
 }
 
 ImpulseSums impulse_sums(const Eigen::Matrix2d& a) {
