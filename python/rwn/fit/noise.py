@@ -61,7 +61,7 @@ def _coloured(
         if before.reflection and signal in noise:
             unit = Noise(level=1.0, reflection=before.reflection)
             fresh = [
-                unit.innovations(np.where(run.not_compared(signal), np.nan, left[signal]), restart=run.restart_every)
+                unit.innovations(run.masked(signal, left[signal]), restart=run.restart_every)
                 for run, left in zip(problem.runs, residuals, strict=True)
                 if signal in left
             ]

@@ -163,5 +163,5 @@ def join(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> dict[str
 
 
 def _innovations(problem: Problem, run: Run, signal: str, residual: Array) -> Array:
-    compared = np.where(np.isfinite(run.compared[signal]), residual, np.nan)
-    return problem.noise.get(signal, WHITE_NOISE).innovations(compared, restart=run.restart_every)
+    noise = problem.noise.get(signal, WHITE_NOISE)
+    return noise.innovations(run.masked(signal, residual), restart=run.restart_every)

@@ -44,7 +44,7 @@ def sensor_filters(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -
         parts = [(run, x) for run, x in parts if _tells(run, signal, x)]
         if not parts or lag in problem.prior.effects or lag not in problem.prior.table:
             continue
-        share = _share([_compared(run, signal, x) for run, x in parts])
+        share = _share([run.masked(signal, x) for run, x in parts])
         if LEAST < share < MOST:
             step = float(np.median([run.sample_time for run, _ in parts]))
             found.append(SensorFilter(signal=signal, share=share, time_constant=-step / float(np.log(share))))
@@ -70,10 +70,6 @@ def _tells(run: Run, signal: str, residual: Array) -> bool:
     if signal == "speed" and run.speed_measured.is_difference:
         return False
     return rough_noise(residual) > 2.0 * run.quantisation(signal)
-
-
-def _compared(run: Run, signal: str, residual: Array) -> Array:
-    return np.where(run.not_compared(signal), np.nan, residual)
 
 
 def _share(residuals: Sequence[Array]) -> float:

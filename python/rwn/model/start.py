@@ -14,9 +14,9 @@ from rwn.recording.noise import rough_noise
 from rwn.recording.quantisation import quantum
 
 Array = NDArray[np.float64]
+STATE = ("initial_current", "initial_speed", "initial_position")  # the parameters of a start
 _NONE: Mapping[str, NDArray[np.bool_]] = MappingProxyType({})
 
-FIRST = 5  # samples that the start is read off
 CERTAIN = 5.0  # deviations of a first sample from rest that chance does not explain: 1 in 10^6
 
 
@@ -50,8 +50,8 @@ def start_of(
         place = float(position[0])
         if resolution["position"] > 0.0:
             spread["initial_position"] = resolution["position"]
-    current, speed = _first_current(signals), _first_speed(time, signals)
-    moving = abs(speed) > CERTAIN * _speed_deviation(time, resolution)
+    current, speed = _first_current(signals), _first_speed(time, signals, first)
+    moving = abs(speed) > CERTAIN * _speed_deviation(time, resolution, first)
     flowing = abs(current) > CERTAIN * resolution.get("current", 0.0)
     initial = model.recording.initial
     if initial == "rest" or (initial == "auto" and not (moving or flowing)):
@@ -73,22 +73,22 @@ def _first_current(signals: Mapping[str, Array]) -> float:
     return float(signals["current"][0]) if "current" in signals else 0.0
 
 
-def _first_speed(time: Array, signals: Mapping[str, Array]) -> float:
+def _first_speed(time: Array, signals: Mapping[str, Array], first: int) -> float:
     """The first sample; of a position alone, the slope of a parabola through its first samples."""
     if "speed" in signals:
         return float(signals["speed"][0])
     position = signals.get("position", np.empty(0))
-    k = min(4 * FIRST, position.size - 1)
+    k = min(first, position.size - 1)
     return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if k > 1 else 0.0
 
 
-def _speed_deviation(time: Array, resolution: Mapping[str, float]) -> float:
+def _speed_deviation(time: Array, resolution: Mapping[str, float], first: int) -> float:
     """Standard deviation of the first speed where it stands still."""
     if "speed" in resolution:
         return resolution["speed"]
     if "position" not in resolution:
         return np.inf
-    k = min(4 * FIRST, time.size - 1)
+    k = min(first, time.size - 1)
     design = np.vander(time[:k] - time[0], min(2, k - 1) + 1)
     unit = float(np.sqrt(np.linalg.inv(design.T @ design)[-2, -2]))
     return unit * resolution["position"]

@@ -67,9 +67,13 @@ class Run:
         for name in SIGNALS:
             signal = self.signal(name)
             if signal.size:
-                signal = np.where(self.not_compared(name), np.nan, signal)
+                signal = self.masked(name, signal)
             signals[name] = signal
         return signals
+
+    def masked(self, name: str, values: Array) -> Array:
+        """Values (n,) that belong to a signal's samples, NaN where these are not compared."""
+        return np.where(self.not_compared(name), np.nan, values)
 
     def not_compared(self, name: str) -> Flags:
         """Samples that were not measured, or where a difference would reach outside the recording.

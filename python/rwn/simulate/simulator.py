@@ -10,14 +10,13 @@ from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.model.model import Model
+from rwn.model.start import STATE
 from rwn.model.vocabulary import motor_index
 from rwn.recording.noise import WHITE, Noise
 from rwn.recording.speed_measurement import difference
 from rwn.simulate.run import SIGNALS, Run
 
 Array = NDArray[np.float64]
-
-_START = ("initial_current", "initial_speed", "initial_position")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +67,7 @@ class Simulator:
         for place, parameter in run.own:
             if place < vector.size:  # else it was fitted to recordings of which nothing was unknown
                 own[parameter] += vector[place]
-        for name, value in zip(_START, run.start, strict=True):
+        for name, value in zip(STATE, run.start, strict=True):
             own[motor_index(name)] += value
         return own
 
