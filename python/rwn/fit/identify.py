@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
+from rwn.fit.intersample import with_intersample
 from rwn.fit.intervals import Estimate, deviations, estimates
 from rwn.fit.noise import noise_of
 from rwn.fit.preparation import prepare
@@ -35,6 +36,7 @@ def identify(recordings: Sequence[Recording], model: Model) -> Identification:
     Intervals are 95 %, widened for what the residual's variance and colour say; declared uncertainties are priors.
     Raises InputError where a recording does not fit the model.
     """
+    model = with_intersample(recordings, model)
     problem = prepare(recordings, model)
     this = fit_nominal(problem)
     problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))

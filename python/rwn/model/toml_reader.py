@@ -220,8 +220,9 @@ def _layout(given: RecordingTable, where: str) -> Layout:
             fix="write for instance 20",
         )
     return Layout(
-        columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples
-    )
+        columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples,
+        intersample=given.intersample,
+    )  # fmt: skip
 
 
 def _column(name: str, given: ColumnEntry, where: str) -> Column:

@@ -10,7 +10,7 @@ import msgspec
 
 from rwn.errors import InputError, closest, unknown
 from rwn.model.toml_own_effects import EffectEntry, ParameterEntry
-from rwn.recording.columns import Initial
+from rwn.recording.columns import Initial, Intersample
 
 Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 
@@ -26,6 +26,7 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     sample_time: Number | None = None
     initial: Initial = "auto"
     initial_samples: int = 20
+    intersample: Intersample = "auto"
 
 
 class LoadTable(msgspec.Struct, forbid_unknown_fields=True):

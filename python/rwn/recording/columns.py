@@ -15,6 +15,7 @@ from rwn.recording.formats import Table
 from rwn.recording.signals import COLUMNS, Signal, meant
 
 Initial = Literal["auto", "rest", "estimate"]
+Intersample = Literal["auto", "held", "bridged", "halves", "thirds", "line", "ticks"]
 Array = NDArray[np.float64]
 
 
@@ -38,13 +39,15 @@ class Layout:
     `sample_time` [s]: of files without a time column. `initial`: whether recordings start at rest (no speed,
     no current), from a state that has to be estimated, or as each one's first samples show ("auto"). `initial_samples`:
     from how many samples that is read, and the state of a transfer function estimated on recordings that are not fitted
-    (which they do not judge).
+    (which they do not judge). `intersample`: how the input acted between the rows, by a name of
+    `rwn.simulate.intersample`; "auto": as the recordings show where they are fitted, and held where one is simulated.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
     sample_time: float | None = None
     initial: Initial = "auto"
     initial_samples: int = 20
+    intersample: Intersample = "auto"
 
 
 def column_map(table: Table, layout: Layout, by_name: set[str]) -> dict[str, Column]:

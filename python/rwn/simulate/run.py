@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from rwn.model.model import Model
 from rwn.model.start import start_of
+from rwn.recording.columns import Intersample
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
 from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral, speed_measurement
+from rwn.simulate.intersample import INTERSAMPLE
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -44,6 +46,8 @@ class Run:
     in_motion: bool = False  # it does not start at rest
     own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
     input_before: float = 0.0
+    acting_from: Array = field(default_factory=lambda: _NONE)  # (m,) instants [s] from which the input has the values
+    acting: Array = field(default_factory=lambda: _NONE)  # (m,); empty: each row's own, from its time on
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
     angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
     follows: bool = True  # angle-dependent effects follow `angle`, else the simulated position
@@ -112,6 +116,11 @@ class Run:
         """The same, simulated from the input alone: angle-dependent effects follow the simulated position."""
         return replace(self, angle=np.empty(0))
 
+    def with_intersample(self, law: Intersample) -> Run:
+        """The same with the input acting between the rows by a law of `rwn.simulate.intersample`."""
+        acting_from, acting = INTERSAMPLE[law](self.time, self.input) or (_NONE, _NONE)
+        return replace(self, acting_from=acting_from, acting=acting)
+
     def quantisation(self, signal: str) -> float:
         """Standard deviation of the quantisation of a signal; 0 where its values are multiples of no step.
 
@@ -136,7 +145,7 @@ class Run:
 
 
 def run_of(recording: Recording, model: Model) -> Run:
-    """A recording as the core takes it; samples are at the rows' times, the input is held from its row on."""
+    """A recording as the core takes it; samples are at the rows' times, the input acts as the model's layout says."""
     drive = model.drive
     signals = {name: np.array(values) for name, values in recording.signals.items()}
     given = signals[drive.input]
@@ -148,7 +157,7 @@ def run_of(recording: Recording, model: Model) -> Run:
         lost = [recording.missing[s] for s in ("speed", "position") if s in recording.missing]
         known = ~np.any(lost, axis=0) if lost else np.full(time.size, True)
         way = speed_measurement(time[known], *(x[known] if x.size else x for x in (speed, position)))
-    return Run(
+    run = Run(
         name=recording.name,
         time=np.ascontiguousarray(time),
         input=np.ascontiguousarray(given),
@@ -164,6 +173,8 @@ def run_of(recording: Recording, model: Model) -> Run:
         angle=position if position.size else integral(way, time, speed),
         angle_from_speed=position.size == 0,
     )
+    law = model.recording.intersample
+    return run if law == "auto" else run.with_intersample(law)
 
 
 def judging_run(recording: Recording, model: Model) -> Run:

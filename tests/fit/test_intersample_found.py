@@ -1,0 +1,49 @@
+"""The law by which the input acted between the rows, read off recordings."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.fit.intersample import with_intersample
+from rwn.model.model import Model
+from rwn.recording.columns import Layout
+
+MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+         "viscous_friction": 2e-5}  # fmt: skip
+MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
+
+
+def _run(*, friction: float = 0.0) -> rwn.Recording:
+    """Noisy speed under a voltage that moves from row to row."""
+    rng, time = np.random.default_rng(5), 1e-3 * np.arange(3000)
+    voltage = 3.0 * np.sin(2 * np.pi * (2.0 * time + 4.0 * time**2))
+    truth = rwn.Model(kind="dc", parameters=MOTOR, effects={"coulomb-friction": {"coulomb_torque": friction}})
+    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    speed = rwn.simulate(truth, bare).signals["speed"] + 0.05 * rng.standard_normal(time.size)
+    return rwn.Recording(name="run", time=time, signals={"voltage": voltage, "speed": speed})
+
+
+def _kept(run: rwn.Recording, rows: np.ndarray | slice) -> rwn.Recording:
+    return rwn.Recording(name="run", time=run.time[rows], signals={n: x[rows] for n, x in run.signals.items()})
+
+
+@pytest.mark.parametrize("friction", [0.0, 5e-3])
+@pytest.mark.parametrize(("every", "law"), [(1, "held"), (2, "halves"), (3, "thirds")])
+def test_thinned_rows_are_told_from_whole_ones_also_beneath_missing_physics(
+    every: int, law: str, friction: float
+) -> None:
+    found = with_intersample([_kept(_run(friction=friction), slice(None, None, every))], MODEL)
+    assert found.recording.intersample == law
+
+
+def test_lost_rows_are_bridged_where_the_voltage_went_on_moving() -> None:
+    lost = np.random.default_rng(2).random(3000) < 0.05
+    lost[0] = False
+    assert with_intersample([_kept(_run(), np.flatnonzero(~lost))], MODEL).recording.intersample == "bridged"
+
+
+def test_what_a_layout_states_stands() -> None:
+    stated = Model(kind="dc", parameters=MOTOR, recording=Layout(intersample="line"))
+    assert with_intersample([_run()], stated) is stated

@@ -1,0 +1,33 @@
+"""The clock that rows were sampled by."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rwn.recording.clock import clock_of
+
+
+def test_jittered_rows_with_gaps_are_counted_by_their_clock() -> None:
+    rng = np.random.default_rng(3)
+    ticks = np.delete(np.arange(2000), [5, 6, 700])
+    off = rng.uniform(-0.25, 0.25, ticks.size)
+    clock = clock_of(10.0 + 2e-3 * (ticks + off))
+    assert clock.period == pytest.approx(2e-3, rel=1e-5)
+    assert clock.lost == 3
+    assert np.array_equal(clock.ticks, ticks)
+    assert clock.jitter == pytest.approx(np.std(off), rel=0.02)
+    assert clock.off - np.mean(clock.off) == pytest.approx(off - np.mean(off), abs=0.01)
+
+
+def test_a_perfect_clock_has_no_jitter() -> None:
+    clock = clock_of(0.5 + 1e-3 * np.arange(100))
+    assert clock.lost == 0
+    assert clock.jitter < 1e-9
+    assert clock.start == pytest.approx(0.5)
+
+
+def test_rows_without_a_clock_count_as_one_each() -> None:
+    clock = clock_of(np.cumsum(np.random.default_rng(4).exponential(1e-3, 200)))
+    assert clock.lost == 0
+    assert clock.jitter > 0.5

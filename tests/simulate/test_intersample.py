@@ -1,0 +1,62 @@
+"""How the input acted between the rows."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.model.model import Model
+from rwn.recording.columns import Intersample, Layout
+from rwn.simulate.intersample import INTERSAMPLE
+
+MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+         "viscous_friction": 2e-5}  # fmt: skip
+TIME = 1e-3 * np.arange(401)
+
+
+def _speed(time: np.ndarray, voltage: np.ndarray, law: Intersample = "held") -> np.ndarray:
+    model = Model(kind="dc", parameters=MOTOR, recording=Layout(initial="rest", intersample=law))
+    return rwn.simulate(model, rwn.Recording(name="run", time=time, signals={"voltage": voltage})).signals["speed"]
+
+
+def test_a_layout_may_state_every_law() -> None:
+    assert set(get_args(Intersample)) == {"auto", *INTERSAMPLE}
+
+
+@pytest.mark.parametrize(("law", "every"), [("halves", 2), ("thirds", 3), ("line", 8)])
+def test_kept_rows_of_a_ramp_give_the_motion_of_all_rows(law: Intersample, every: int) -> None:
+    time = 1e-3 * np.arange(24 * 20 + 1)
+    voltage = 0.01 * np.arange(time.size)
+    whole = _speed(time, voltage)[::every]
+    kept = time[::every], voltage[::every]
+    assert _speed(*kept, law) == pytest.approx(whole, abs=1e-9)
+    assert np.max(np.abs(_speed(*kept) - whole)) > 0.05
+
+
+def test_lost_rows_of_a_ramp_are_bridged() -> None:
+    voltage = 0.01 * np.arange(TIME.size)
+    kept = np.delete(np.arange(TIME.size), [50, 51, 200])
+    assert _speed(TIME[kept], voltage[kept], "bridged") == pytest.approx(_speed(TIME, voltage)[kept], abs=1e-9)
+
+
+def test_rows_beside_the_ticks_of_a_clock_show_the_voltage_of_the_last_tick() -> None:
+    rng = np.random.default_rng(1)
+    voltage = np.repeat(rng.uniform(-3.0, 3.0, 41), 10)[: TIME.size]  # changes at every tenth tick
+    off = rng.uniform(-0.3, 0.3, TIME.size)
+    off[4::10], off[5::10], off[9::10], off[10::10] = -0.1, -0.1, 0.1, 0.1  # both ticks about a change are seen
+    off[[0, -1]] = 0.0
+    when = TIME + 1e-3 * off
+    shown = voltage[np.floor(np.arange(TIME.size) + off).astype(int)]
+    fine = np.linspace(0.0, TIME[-1], 20 * (TIME.size - 1) + 1)
+    truth = np.interp(when, fine, _speed(fine, np.append(np.repeat(voltage[:-1], 20), voltage[-1])))
+    right, held = (np.max(np.abs(_speed(when, shown, law) - truth)) for law in ("ticks", "held"))
+    assert right < 0.2 * held
+
+
+def test_without_gaps_or_jitter_a_clock_says_what_rows_say() -> None:
+    voltage = np.sin(20.0 * TIME)
+    for law in ("bridged", "ticks"):
+        assert INTERSAMPLE[law](TIME, voltage) is None
