@@ -61,7 +61,9 @@ def test_the_verdict_follows_from_what_is_stated_and_what_is_left(ranking: Ranki
     leading = account(ranking, [], MODEL).leading
 
     def of(probability: float, left: Remainder) -> str:
-        acting = Acting(name="coulomb-friction", probability=probability, share=0.5, evidence=CERTAIN)
+        acting = Acting(
+            name="coulomb-friction", probability=probability, together=probability, share=0.5, evidence=CERTAIN
+        )
         return verdict_of(ranking, Account(effects=(acting,), leading=leading), left)
 
     noise, structure = Remainder(), Remainder(share=1.0, error=4.0, signals=("speed",))
@@ -72,10 +74,9 @@ def test_the_verdict_follows_from_what_is_stated_and_what_is_left(ranking: Ranki
 
 
 def test_names_not_told_apart_are_stated_together() -> None:
-    alone = Acting(name="a", probability=0.4, share=0.5, evidence=CERTAIN)
-    assert not alone.stated
-    assert replace(alone, rivals=("b",)).stated
-    assert replace(alone, rivals=("b", "c")).together <= 0.99
+    one = Acting(name="a", probability=0.4, together=0.8, share=0.5, evidence=CERTAIN, rivals=("b",))
+    assert one.stated
+    assert not replace(one, rivals=(), together=0.4).stated
 
 
 def test_the_calibration_tells_what_acts_from_a_mimic() -> None:

@@ -5,7 +5,7 @@ Whether an effect acts and whether that is all are two questions: what remains t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +13,6 @@ import numpy as np
 from rwn.decide.calibration import calibration
 from rwn.decide.evidence import Evidence, evidence
 from rwn.fit.fit import Fit
-from rwn.fit.problem import Problem
 from rwn.fit.residuals import join, structured, variance
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
@@ -31,14 +30,10 @@ class Acting:
 
     name: str
     probability: float  # that it acts
+    together: float  # that it or one of its rivals acts
     share: float  # of the removable squared error, that goes with it and not without it
     evidence: Evidence
     rivals: tuple[str, ...] = ()  # that may act in its place
-
-    @property
-    def together(self) -> float:
-        """Probability that it or one of its rivals acts."""
-        return min(self.probability * (1 + len(self.rivals)), max(self.probability, 0.99))
 
     @property
     def stated(self) -> bool:
@@ -69,34 +64,42 @@ class Account:
 
     def withdrawn(self) -> Account:
         """The account once recordings that were kept back have refused what it states."""
-        return replace(self, effects=tuple(replace(e, probability=0.0) if e.stated else e for e in self.effects))
+        refused = (replace(e, probability=0.0, together=0.0) if e.stated else e for e in self.effects)
+        return replace(self, effects=tuple(refused))
 
 
 def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     """What acts, of the best explanation that has effects at all; empty where none was found."""
     leading = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
-    found = evidence(ranking, leading, heldout, model)
-    rows = [
-        Acting(
-            name=name, probability=calibration().probability(e), share=float(np.clip(e.share, 0.0, 1.0)), evidence=e,
-            rivals=_rivals(ranking, leading, name),
-        )
-        for name, e in found.items()
-    ]  # fmt: skip
+    rivals = {name: _rivals(ranking, leading, name) for name in leading.added}
+    found = evidence(ranking, leading, heldout, model, rivals=rivals)
+    rows = [_acting(name, e, rivals[name]) for name, e in found.items()]
     return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading)
 
 
-def _rivals(ranking: Ranking, leading: RankedFit, name: str) -> tuple[str, ...]:
-    """The names that explain nearly as much in the place of this one."""
+def _acting(name: str, found: Evidence, rivals: Mapping[str, float]) -> Acting:
+    """`rivals` share the probability by the evidence for each against this one."""
+    together = calibration().probability(found)
+    return Acting(
+        name=name,
+        probability=together / (1.0 + sum(rivals.values())),
+        together=together,
+        share=float(np.clip(found.share, 0.0, 1.0)),
+        evidence=found,
+        rivals=tuple(rivals),
+    )
+
+
+def _rivals(ranking: Ranking, leading: RankedFit, name: str) -> dict[str, float]:
+    """The names that explain nearly as much in the place of this one, with the evidence for each against it."""
     others = set(leading.added) - {name}
-    return tuple(
-        next(iter(set(r.added) - others))
+    found = {
+        next(iter(set(r.added) - others)): float(np.exp(r.score - leading.score))
         for r in ranking.fits
-        if len(r.added) == len(leading.added)
-        and others < set(r.added)
-        and name not in r.added
-        and r.score > leading.score + np.log(RIVAL)
-    )[: LARGEST_SET - 1]
+        if len(r.added) == len(leading.added) and others < set(r.added) and name not in r.added
+    }
+    near = [(rival, odds) for rival, odds in found.items() if odds > RIVAL]
+    return dict(near[: LARGEST_SET - 1])
 
 
 def remainder(ranking: Ranking, this: Fit) -> Remainder:
@@ -104,8 +107,5 @@ def remainder(ranking: Ranking, this: Fit) -> Remainder:
     problem = ranking.weighted
     left, nothing = variance(problem, this), variance(problem, ranking.nothing_missing.final)
     share = (left - 1.0) / (nothing - 1.0) if left > 1.0 and nothing > left else float(left > 1.0)
-    return Remainder(share=share, error=left, signals=_structured(problem, this))
-
-
-def _structured(problem: Problem, this: Fit) -> tuple[str, ...]:
-    return structured(join(problem, problem.residuals(this.vector, this.active)))
+    errors = join(problem, problem.residuals(this.vector, this.active))
+    return Remainder(share=share, error=left, signals=structured(errors))

@@ -1,4 +1,4 @@
-"""From the evidence for an effect to the probability that it acts: a logistic regression fitted on development trials.
+"""From the evidence for an effect to the probability that it or a rival acts: logistic, fitted on development trials.
 
 `rwn trials calibrate` fits it and writes calibration.json beside this file, with what it was fitted on.
 """
@@ -32,7 +32,7 @@ class Calibration:
     fitted_on: str = ""  # the sets with their seeds, how many names of how many trials, and the commit
 
     def probability(self, found: Evidence) -> float:
-        """That the effect acts."""
+        """That the effect acts, or a rival in its place."""
         z = (features(found) - np.array(self.means)) / np.array(self.deviations)
         return float(1.0 / (1.0 + np.exp(-(self.intercept + float(np.array(self.weights) @ np.nan_to_num(z))))))
 

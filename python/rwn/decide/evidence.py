@@ -7,7 +7,7 @@ measured these features).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,6 +29,7 @@ from rwn.simulate.run import Run
 Array = NDArray[np.float64]
 
 ITERATIONS = 8  # of a fit that begins near its end
+UNSEEN = 1.96  # standard deviations from nothing, within which a half does not see an effect
 PARTS = 16  # of the work of a stage, for each of these fits
 
 
@@ -41,7 +42,7 @@ class Evidence:
     part: float  # of what the other effects leave above the noise, that goes with it; mean of signals
     drift: float | None  # relative difference of its strength from half to half
     certainty: float  # strength in units of its standard deviation
-    odds: float  # logarithm of the evidence for its explanation against the best without it
+    odds: float  # logarithm of the evidence for its explanation against the best without it and its rivals
     moved: float  # farthest move of a declared parameter, in declared deviations
     law: float  # what a curve over one state explains beside all effects, in units of what goes with this one
     left: float  # squared error that its explanation leaves, in units of the noise
@@ -56,9 +57,10 @@ class _Half:
 
 
 def evidence(
-    ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model
-) -> dict[str, Evidence]:
-    """Features of every effect of the leading explanation."""
+    ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model, *,
+    rivals: Mapping[str, Collection[str]],
+) -> dict[str, Evidence]:  # fmt: skip
+    """Features of every effect of the leading explanation; `rivals`: names by effect that may act in its place."""
     problem, this = ranking.weighted, leading.final
     after, nothing = variances(problem, this), variances(problem, ranking.nothing_missing.final)
     chance = float(np.sqrt(2.0 / max(statistics(problem, this).effective, 2.0)))  # deviation of a mean square
@@ -83,7 +85,7 @@ def evidence(
             part=_share(before, after, before, chance),
             drift=_drift(seen, name),
             certainty=abs(strength) / max(spread, 1e-12 * abs(strength), 1e-300),
-            odds=_odds(ranking, leading, name),
+            odds=_odds(ranking, leading, {name, *rivals[name]}),
             moved=this.farthest_move,
             law=max(curve.gained, 0.0) / alone if curve else 0.0,
             left=float(np.mean([max(v, 1.0) for v in after.values()])),
@@ -108,8 +110,8 @@ def _share(
     return float(np.mean([np.clip(x, -1.0, 1.0) if np.isfinite(x) else 1.0 for x in shares]))
 
 
-def _odds(ranking: Ranking, leading: RankedFit, name: str) -> float:
-    return leading.score - max(r.score for r in ranking.fits if name not in r.added)
+def _odds(ranking: Ranking, leading: RankedFit, names: set[str]) -> float:
+    return leading.score - max(r.score for r in ranking.fits if not names & set(r.added))
 
 
 def _without(ranking: Ranking, leading: RankedFit, name: str) -> Fit:
@@ -131,7 +133,7 @@ def _refit(this: Fit, half: Problem) -> Fit:
 def _drift(halves: Sequence[_Half], name: str) -> float | None:
     """Difference of the strength between halves, relative to their mean; None where one does not see the effect."""
     found = [_strength(half.fit, half.problem, name) for half in halves]
-    if any(spread > 0.5 * abs(strength) for strength, spread in found):
+    if any(UNSEEN * spread > abs(strength) for strength, spread in found):
         return None
     (a, _), (b, _) = found
     return float(2.0 * abs(a - b) / max(abs(a) + abs(b), 1e-300))

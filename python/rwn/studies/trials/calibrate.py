@@ -1,4 +1,4 @@
-"""Fits the probability that an effect acts to trials whose answers are known (rwn.decide.calibration)."""
+"""Fits the probability that an effect or a rival acts to trials whose answers are known (rwn.decide.calibration)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FOLDS = 10  # of the cross-validation; all names of a trial are in one
 
 @dataclass(frozen=True, kw_only=True)
 class Names:
-    """The effects of the leading explanations: features (n, 9), whether each acts (n,), and its trial (n,)."""
+    """The effects of the leading explanations: features (n, 9), whether each or a rival acts (n,), its trial (n,)."""
 
     features: Array
     acts: Array
@@ -58,7 +58,7 @@ def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
             true = {e["name"] for e in answer["effects"]} | set(answer.get("equivalent", ()))
             for e in Diagnosis.from_json(found.read_bytes()).account:
                 rows.append(features(e.evidence))
-                acts.append(float(answer["verdict"] == "missing-physics" and e.name in true))
+                acts.append(float(answer["verdict"] == "missing-physics" and bool(true & {e.name, *e.rivals})))
                 trials.append(count)
             count += 1
     return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
