@@ -13,12 +13,12 @@ from rwn.model.model import Model
 from rwn.model.start import start_of
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
+from rwn.recording.signals import MEASURED
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
 from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral, speed_measurement
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-SIGNALS = ("current", "speed", "position")
 WINDOW = 50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
 _NONE: Array = np.empty(0)
 
@@ -64,7 +64,7 @@ class Run:
     def compared(self) -> Mapping[str, Array]:
         """The signals, NaN where they are not compared."""
         signals = {}
-        for name in SIGNALS:
+        for name in MEASURED:
             signal = self.signal(name)
             if signal.size:
                 signal = np.where(self.not_compared(name), np.nan, signal)
@@ -91,7 +91,7 @@ class Run:
     @property
     def recorded(self) -> tuple[str, ...]:
         """Names of the signals that were recorded."""
-        return tuple(s for s in SIGNALS if self.signal(s).size)
+        return tuple(s for s in MEASURED if self.signal(s).size)
 
     @property
     def sample_time(self) -> float:
