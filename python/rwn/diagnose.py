@@ -19,7 +19,7 @@ from rwn.parallel import crew
 from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
 from rwn.report.assemble import assemble
-from rwn.report.diagnosis import Diagnosis, as_found
+from rwn.report.diagnosis import Diagnosis
 from rwn.simulate.run import judging_run
 
 
@@ -63,7 +63,7 @@ def diagnose(
         correction = correct(decision, unseen, model, seed=seed)
         say("drawing", 0.95)
         found = assemble(correction, faults, model, seed=seed, elapsed=time.perf_counter() - began)
-        return replace(found, findings=as_found((*findings, *unseen_findings)))
+        return replace(found, findings=(*findings, *unseen_findings))
 
 
 def _explained(

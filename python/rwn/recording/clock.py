@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+IRREGULAR = 1e-3  # jitter that is more than rounded timestamps
 FEW = 8  # rows over which the median step counts ticks well enough
 
 
@@ -30,6 +31,11 @@ class Clock:
     def jitter(self) -> float:
         """Standard deviation of the rows about their ticks, in periods."""
         return float(np.std(self.off))
+
+    @property
+    def irregular(self) -> bool:
+        """Whether the jitter is more than rounded timestamps."""
+        return self.jitter > IRREGULAR
 
 
 def clock_of(time: Array) -> Clock:

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from rwn.model.model import Model
+from rwn.recording.clock import clock_of
 from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
 from rwn.simulate.run import Run, run_of
-
-IRREGULAR = 1e-3  # relative deviation of the sample time that is more than rounded timestamps
 
 
 def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
@@ -26,12 +23,10 @@ def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
 
 
 def _sampling(run: Run) -> Iterator[str]:
-    steps, usual = np.diff(run.time), run.sample_time
-    lost = int(np.sum(np.round(steps[steps > 1.5 * usual] / usual) - 1))
-    spread = float(np.std(steps[steps < 1.5 * usual])) / usual
-    yield f"a sample every {usual:.4g} s" + (f", jitter {spread:.1%} of it" if spread > IRREGULAR else "")
-    if lost:
-        yield f"{lost} rows are missing: the input is taken as held over them"
+    at = clock_of(run.time)
+    yield f"a sample every {at.period:.4g} s" + (f", jitter {at.jitter:.1%} of it" if at.irregular else "")
+    if at.lost:
+        yield f"{at.lost} rows are missing: how the input acted meanwhile is read off the errors"
 
 
 def _start(run: Run, model: Model) -> str:

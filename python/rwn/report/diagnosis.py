@@ -93,18 +93,6 @@ class Source:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Found:
-    """What the check of the recordings found; see rwn.recording.inspection."""
-
-    kind: str
-    recording: str
-    signals: tuple[str, ...]
-    count: int
-    words: str
-    done: str
-
-
-@dataclass(frozen=True, kw_only=True)
 class Beneath:
     """What is said of the drive once the mistakes in its recordings are undone."""
 
@@ -122,7 +110,7 @@ class Diagnosis:
     set: tuple[str, ...] = ()  # names that these recordings cannot tell apart, the first is the first name
     beneath: Beneath | None = None  # where the verdict is recording-mistake
     alternatives: tuple[Alternative, ...] = ()
-    findings: tuple[Found, ...] = ()  # what the check of the recordings found
+    findings: tuple[Finding, ...] = ()  # what the check of the recordings found
     location: Location = field(default_factory=Location)
     nominal_fit: NominalFit = field(default_factory=NominalFit)
     heldout: tuple[HeldoutRow, ...] = ()
@@ -151,14 +139,6 @@ class Diagnosis:
     def from_json(cls, text: bytes | str) -> Diagnosis:
         """The inverse of `to_json`; raises `msgspec.ValidationError` with the path of what is wrong."""
         return msgspec.convert(msgspec.json.decode(text), cls, dec_hook=_decode_array)
-
-
-def as_found(findings: Sequence[Finding]) -> tuple[Found, ...]:
-    """The findings of a check as plain data."""
-    return tuple(
-        Found(kind=f.kind, recording=f.recording, signals=f.signals, count=f.count, words=f.words, done=f.done)
-        for f in findings
-    )
 
 
 def _without(diagnosis: Diagnosis, names: Sequence[str]) -> dict[str, Any]:

@@ -14,13 +14,13 @@ from rwn.model.start import start_of
 from rwn.recording.columns import Intersample
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
+from rwn.recording.signals import MEASURED
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
 from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral, speed_measurement
 from rwn.simulate.intersample import INTERSAMPLE
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-SIGNALS = ("current", "speed", "position")
 WINDOW = 50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
 _NONE: Array = np.empty(0)
 
@@ -68,7 +68,7 @@ class Run:
     def compared(self) -> Mapping[str, Array]:
         """The signals, NaN where they are not compared."""
         signals = {}
-        for name in SIGNALS:
+        for name in MEASURED:
             signal = self.signal(name)
             if signal.size:
                 signal = self.masked(name, signal)
@@ -99,7 +99,7 @@ class Run:
     @property
     def recorded(self) -> tuple[str, ...]:
         """Names of the signals that were recorded."""
-        return tuple(s for s in SIGNALS if self.signal(s).size)
+        return tuple(s for s in MEASURED if self.signal(s).size)
 
     @property
     def sample_time(self) -> float:

@@ -12,8 +12,9 @@ from rwn import _core
 from rwn.errors import InputError
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
+from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_state import nearest_state
-from rwn.simulate.run import SIGNALS, run_of
+from rwn.simulate.run import run_of
 from rwn.simulate.simulator import Simulator
 
 Array = NDArray[np.float64]
@@ -47,7 +48,7 @@ def simulate(model: Model, recording: Recording) -> Simulation:
     elif run.in_motion:
         vector = nearest_state(simulator, run, vector, active)
     output = simulator.simulate(run, vector, active)
-    wanted = [name for name in SIGNALS if name in model.drive.outputs]
+    wanted = [name for name in MEASURED if name in model.drive.outputs]
     return Simulation(
         time=recording.time,
         signals={name: output.signals[name] for name in wanted},

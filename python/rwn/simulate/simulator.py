@@ -13,8 +13,9 @@ from rwn.model.model import Model
 from rwn.model.start import STATE
 from rwn.model.vocabulary import motor_index
 from rwn.recording.noise import WHITE, Noise
+from rwn.recording.signals import MEASURED
 from rwn.recording.speed_measurement import difference
-from rwn.simulate.run import SIGNALS, Run
+from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
@@ -87,8 +88,8 @@ class Simulator:
         `vector` holds the start of the run (`started`); speed is as it was measured.
         """
         status, *arrays = _core.simulate(self.task(run), _of_core(vector), list(active), list(by), self.work)
-        signals = dict(zip(SIGNALS, arrays[:3], strict=True))
-        slopes = dict(zip(SIGNALS, arrays[3:], strict=True))
+        signals = dict(zip(MEASURED, arrays[:3], strict=True))
+        slopes = dict(zip(MEASURED, arrays[3:], strict=True))
         if run.speed_measured.is_difference:
             signals["speed"] = difference(run.speed_measured, run.time, signals["position"])
             slopes["speed"] = difference(run.speed_measured, run.time, slopes["position"])
@@ -101,7 +102,7 @@ class Simulator:
 
         An error counts as what is new in it.
         """
-        of_signal = [noise.get(s, WHITE) for s in SIGNALS]
+        of_signal = [noise.get(s, WHITE) for s in MEASURED]
         seen = run.compared
         measurements = _core.Measurements(
             current=seen["current"], speed=seen["speed"], position=seen["position"],

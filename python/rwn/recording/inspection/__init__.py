@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from rwn.recording.inspection import clipping, held, spikes
-from rwn.recording.inspection.finding import Finding
+from rwn.recording.inspection.clipping import CLIPPING
+from rwn.recording.inspection.finding import Check, Finding, Flags
+from rwn.recording.inspection.held import HELD
+from rwn.recording.inspection.spikes import SPIKES
 from rwn.recording.recording import Recording
 
-Check = Callable[[Recording], Iterable[Finding]]
+__all__ = ["CHECKS", "Check", "Finding", "Inspected", "inspected"]
 
-__all__ = ["CHECKS", "Finding", "Inspected", "inspected"]
-
-CHECKS: tuple[Check, ...] = (
-    held.find,
-    spikes.find,
-    clipping.find,
-)
+CHECKS: tuple[Check, ...] = (HELD, SPIKES, CLIPPING)
 
 
 class Inspected(NamedTuple):
@@ -35,22 +31,23 @@ def inspected(recordings: Sequence[Recording]) -> Inspected:
     made, found = [], []
     for recording in recordings:
         for check in CHECKS:
-            here = list(check(recording))
-            found += here
-            for finding in here:
-                recording = _without(recording, finding)
+            for signal in (s for s in check.signals if s in recording.signals):
+                flags = check.flags(recording, signal)
+                if flags.any():
+                    found.append(check.found(recording, signal, flags))
+                    recording = _without(recording, signal, flags, bridged=check.bridged)
         made.append(recording)
     return Inspected(made, tuple(found))
 
 
-def _without(recording: Recording, finding: Finding) -> Recording:
+def _without(recording: Recording, signal: str, lost: Flags, *, bridged: bool) -> Recording:
     """The recording with the lost samples marked, and bridged in a line for what follows the recorded motion."""
-    signals, missing = dict(recording.signals), dict(recording.missing)
-    for name, lost in finding.lost.items():
-        missing[name] = lost | missing.get(name, np.zeros(lost.size, dtype=bool))
-        known = ~missing[name]
-        values = np.array(signals[name])
-        if finding.kind != "held" and known.sum() > 1:
-            values[~known] = np.interp(recording.time[~known], recording.time[known], values[known])
-        signals[name] = values
-    return replace(recording, signals=signals, missing=missing)
+    missing = lost | recording.missing.get(signal, np.zeros(lost.size, dtype=bool))
+    known, values = ~missing, np.array(recording.signals[signal])
+    if bridged and known.sum() > 1:
+        values[missing] = np.interp(recording.time[missing], recording.time[known], values[known])
+    return replace(
+        recording,
+        signals={**recording.signals, signal: values},
+        missing={**recording.missing, signal: missing},
+    )

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.inspection.finding import Finding, Flags
+from rwn.recording.inspection.finding import Check, Flags
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 
@@ -17,24 +15,9 @@ OFTEN = 0.3  # share of the samples that have to repeat the last one
 AT_ONCE = 0.8  # share of the updates that come after the usual number of samples
 
 
-def find(recording: Recording) -> Iterator[Finding]:
-    """Signals that are updated every few samples only."""
-    for name in ("speed", "current", "position"):
-        if name not in recording.signals:
-            continue
-        repeated = _repeated(np.asarray(recording.signals[name]))
-        count = int(repeated.sum())
-        if count:
-            every = round(repeated.size / (repeated.size - count))
-            yield Finding(
-                kind="held", recording=recording.name, signals=(name,), count=count,
-                words=f"the {name} is updated every {every} samples and held between",
-                done="repeated samples left out", lost={name: repeated},
-            )  # fmt: skip
-
-
-def _repeated(x: Array) -> Flags:
+def _repeated(recording: Recording, signal: str) -> Flags:
     """Samples that only repeat the last; none where the signal has coarse steps, or stands still by itself."""
+    x = np.asarray(recording.signals[signal])
     repeats = np.append(False, np.diff(x) == 0.0)
     none = np.zeros(x.size, dtype=bool)
     if repeats.mean() < OFTEN or repeats.mean() > 0.99:
@@ -43,3 +26,11 @@ def _repeated(x: Array) -> Flags:
     usual = int(np.median(gaps))
     regular = usual >= 2 and float(np.mean(gaps == usual)) > AT_ONCE
     return repeats if regular or (quantum(x) == 0.0 and usual >= 2) else none
+
+
+def _words(signal: str, repeated: Flags) -> str:
+    every = round(repeated.size / float(np.sum(~repeated)))
+    return f"the {signal} is updated every {every} samples and held between"
+
+
+HELD = Check(kind="held", flags=_repeated, words=_words, done="repeated samples left out", bridged=False)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.inspection.finding import Finding, Flags
+from rwn.recording.inspection.finding import Check, Flags
 from rwn.recording.noise import rough_noise
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
+from rwn.recording.signals import MEASURED
 
 Array = NDArray[np.float64]
 
@@ -21,35 +20,19 @@ PASSES = 2  # so that one of two spikes side by side is found once the other is 
 SETTLING = 3  # samples after a step of the input in which a current may peak by itself
 
 
-def find(recording: Recording) -> Iterator[Finding]:
-    """Spikes of every measured signal; the input is what was commanded, and may jump as it likes."""
-    steps = _after_steps(recording)
-    for name in ("speed", "current", "position"):
-        if name not in recording.signals:
-            continue
-        spikes = _spikes(np.asarray(recording.signals[name]), steps)
-        count = int(spikes.sum())
-        if count:
-            yield Finding(
-                kind="spikes", recording=recording.name, signals=(name,), count=count,
-                words=f"{count} single samples of the {name} are far off those beside them",
-                done="left out", lost={name: spikes},
-            )  # fmt: skip
-
-
 def _after_steps(recording: Recording) -> Flags:
     """Samples at or shortly after a step of the input that stands out from its other changes."""
     flags = np.zeros(len(recording), dtype=bool)
-    for name in ("voltage", "force", "torque"):
-        if name in recording.signals:
-            change = np.abs(np.diff(recording.signals[name], prepend=recording.signals[name][0]))
-            stepped = change > BESIDE * float(np.max(change, initial=0.0))
-            for late in range(SETTLING + 1):
-                flags[late:] |= stepped[: flags.size - late]
+    for name in (s for s in recording.signals if s not in MEASURED):
+        change = np.abs(np.diff(recording.signals[name], prepend=recording.signals[name][0]))
+        stepped = change > BESIDE * float(np.max(change, initial=0.0))
+        for late in range(SETTLING + 1):
+            flags[late:] |= stepped[: flags.size - late]
     return flags
 
 
-def _spikes(x: Array, after_steps: Flags) -> Flags:
+def _spikes(recording: Recording, signal: str) -> Flags:
+    x, after_steps = np.asarray(recording.signals[signal]), _after_steps(recording)
     found = np.zeros(x.size, dtype=bool)
     bridged = x
     for _ in range(PASSES):
@@ -75,3 +58,12 @@ def _alone(x: Array, after_steps: Flags) -> Flags:
     beyond = np.abs(here) > float(np.max(np.abs(x[1:-1][~off]), initial=0.0))
     flags[1:-1] = off & ((here == 0.0) | (smooth & (beyond | ~after_steps[1:-1])))
     return flags
+
+
+# The input is what was commanded, and may jump as it likes.
+SPIKES = Check(
+    kind="spikes",
+    flags=_spikes,
+    words=lambda signal, flags: f"{int(flags.sum())} single samples of the {signal} are far off those beside them",
+    done="left out",
+)
