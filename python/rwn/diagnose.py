@@ -9,12 +9,11 @@ from dataclasses import replace
 
 from rwn.correct.correction import correct
 from rwn.decide.decision import decide
-from rwn.faults.fault import Fault, without
-from rwn.faults.resolve import resolved
-from rwn.fit.intersample import intersample_beside, stating, with_intersample
+from rwn.faults.explain import explained
+from rwn.faults.fault import without
+from rwn.fit.late_enable import late_enables, powered
 from rwn.model.model import Model
 from rwn.name.forward import Progress
-from rwn.name.ranking import Ranking
 from rwn.parallel import crew
 from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
@@ -53,31 +52,19 @@ def diagnose(
     recordings, findings = inspected(recordings)
     heldout, unseen_findings = inspected(heldout)
     with crew(jobs or os.cpu_count() or 1):
-        model, faults, ranking = _explained(recordings, model, say)
+        found = explained(recordings, model, say=say)
+        model = found.model
         say("proving it on data that were not fitted", 0.85)
-        for fault in faults:
+        for fault in found.faults:
             heldout = without(heldout, fault)
+        heldout = powered(heldout, late_enables(heldout, model), model)
         unseen = [judging_run(r, model) for r in heldout]
-        decision = decide(ranking, unseen, model, seed=seed)
+        decision = decide(found.ranking, unseen, model, seed=seed)
         say("correcting the model", 0.9)
         correction = correct(decision, unseen, model, seed=seed)
         say("drawing", 0.95)
-        found = assemble(correction, faults, model, seed=seed, elapsed=time.perf_counter() - began)
-        return replace(found, findings=(*findings, *unseen_findings))
-
-
-def _explained(
-    recordings: Sequence[Recording], model: Model, say: Progress
-) -> tuple[Model, list[Fault], Ranking]:
-    """How the input acted between the rows, faults and physics; once more where physics tells the first otherwise."""
-    stated = with_intersample(recordings, model)
-    faults, ranking = resolved(recordings, stated, say=say)
-    if stated is model:
-        return model, faults, ranking
-    again = stating(model, intersample_beside(ranking.problem, ranking.fits[0].fit))
-    if again != stated:
-        faults, ranking = resolved(recordings, again, say=say)
-    return again, faults, ranking
+        made = assemble(correction, found.faults, model, seed=seed, elapsed=time.perf_counter() - began)
+        return replace(made, findings=(*findings, *found.findings, *unseen_findings))
 
 
 def _silent(what: str, done: float) -> None:

@@ -43,28 +43,28 @@ def start_of(
     signals = {n: x for n, x in signals.items() if n == "position" or n not in missing or not missing[n][0]}
     position = signals.get("position", np.empty(0))
     first = model.recording.initial_samples
-    resolution = {n: _resolution(signals[n], first) for n in signals if n != model.drive.input}
+    known_to = {n: resolution(signals[n], first) for n in signals if n != model.drive.input}
     spread = {}
     place = 0.0
     if position.size:
         place = float(position[0])
-        if resolution["position"] > 0.0:
-            spread["initial_position"] = resolution["position"]
+        if known_to["position"] > 0.0:
+            spread["initial_position"] = known_to["position"]
     current, speed = _first_current(signals), _first_speed(time, signals, first)
-    moving = abs(speed) > CERTAIN * _speed_deviation(time, resolution, first)
-    flowing = abs(current) > CERTAIN * resolution.get("current", 0.0)
+    moving = abs(speed) > CERTAIN * _speed_deviation(time, known_to, first)
+    flowing = abs(current) > CERTAIN * known_to.get("current", 0.0)
     initial = model.recording.initial
     if initial == "rest" or (initial == "auto" and not (moving or flowing)):
         return Start(state=(0.0, 0.0, place), spread=spread)
-    spread["initial_speed"] = max(abs(speed), resolution.get("speed", 0.0), 1e-9)
+    spread["initial_speed"] = max(abs(speed), known_to.get("speed", 0.0), 1e-9)
     if model.drive.winding:
         if "current" not in signals:
             current = _steady_current(signals, speed, model)
-        spread["initial_current"] = max(abs(current), resolution.get("current", 0.0), 1e-9)
+        spread["initial_current"] = max(abs(current), known_to.get("current", 0.0), 1e-9)
     return Start(in_motion=True, state=(current if model.drive.winding else 0.0, speed, place), spread=spread)
 
 
-def _resolution(signal: Array, first: int) -> float:
+def resolution(signal: Array, first: int) -> float:
     """Standard deviation of one of the first samples: of their noise, or a step of the signal's values."""
     return max(rough_noise(signal[:first]), quantum(signal))
 
@@ -82,16 +82,16 @@ def _first_speed(time: Array, signals: Mapping[str, Array], first: int) -> float
     return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if k > 1 else 0.0
 
 
-def _speed_deviation(time: Array, resolution: Mapping[str, float], first: int) -> float:
+def _speed_deviation(time: Array, known_to: Mapping[str, float], first: int) -> float:
     """Standard deviation of the first speed where it stands still."""
-    if "speed" in resolution:
-        return resolution["speed"]
-    if "position" not in resolution:
+    if "speed" in known_to:
+        return known_to["speed"]
+    if "position" not in known_to:
         return np.inf
     k = min(first, time.size - 1)
     design = np.vander(time[:k] - time[0], min(2, k - 1) + 1)
     unit = float(np.sqrt(np.linalg.inv(design.T @ design)[-2, -2]))
-    return unit * resolution["position"]
+    return unit * known_to["position"]
 
 
 def _steady_current(signals: Mapping[str, Array], speed: float, model: Model) -> float:

@@ -1,0 +1,78 @@
+"""Recordings explained: how their input acted, the faults in them and physics, the first asked again of the last."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rwn.faults.fault import Fault
+from rwn.faults.resolve import resolved
+from rwn.fit.intersample import intersample_beside, stating, with_intersample
+from rwn.fit.late_enable import LateEnable, late_enables, needed, powered
+from rwn.model.model import Model
+from rwn.name.forward import Progress
+from rwn.name.ranking import Ranking
+from rwn.recording.inspection import Finding
+from rwn.recording.recording import Recording
+
+
+@dataclass(frozen=True, kw_only=True)
+class Explained:
+    """What recordings come to."""
+
+    model: Model  # states how the input acted between the rows
+    late: tuple[LateEnable, ...]
+    faults: tuple[Fault, ...]
+    ranking: Ranking
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """How the input acted, as a check of recordings says it."""
+        given = self.model.drive.input
+        found = [
+            Finding(
+                kind="late-enable", recording=late.recording, signals=(given,), count=late.samples,
+                words=f"it stands still under its {given} for the first {late.time:.3g} s, as before an enable",
+                done=f"the {given} is taken as 0 until then",
+            )
+            for late in self.late
+        ]  # fmt: skip
+        words = _BETWEEN.get(self.model.recording.intersample)
+        if words:
+            found.append(
+                Finding(
+                    kind="intersample",
+                    recording="all recordings",
+                    signals=(given,),
+                    count=0,
+                    words=f"the {given} acted otherwise than held from row to row: {words}",
+                    done="simulated so",
+                )
+            )
+        return tuple(found)
+
+
+_BETWEEN = {
+    "bridged": "it went on changing over the rows that are missing",
+    "halves": "it changed twice from row to row, as where every second row was kept",
+    "thirds": "it changed three times from row to row, as where every third row was kept",
+    "line": "it moved on a line from row to row",
+    "ticks": "it changed at the ticks of a clock beside which the rows were taken",
+}
+
+
+def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -> Explained:
+    """The explanation; found once more where the best one tells otherwise how the input acted.
+
+    Raises InputError where a recording does not fit the model.
+    """
+    late = late_enables(recordings, model)
+    on = powered(recordings, late, model)
+    stated = with_intersample(on, model)
+    faults, ranking = resolved(on, stated, say=say)
+    best = ranking.fits[0].fit
+    still = needed(late, recordings, stated, ranking.problem, best)
+    again = stated if stated is model else stating(model, intersample_beside(ranking.problem, best))
+    if (still, again) != (late, stated):
+        faults, ranking = resolved(powered(recordings, still, model), again, say=say)
+    return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)

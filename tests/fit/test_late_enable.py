@@ -1,0 +1,44 @@
+"""A power stage that was enabled after the recording began."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.fit.late_enable import late_enables, powered
+from rwn.model.model import Model
+
+MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+         "viscous_friction": 2e-5}  # fmt: skip
+MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
+STEPS = np.repeat(3.0 * np.random.default_rng(8).uniform(-1.0, 1.0, 60), 50)
+
+
+def _run(voltage: np.ndarray, off: int, *, friction: float = 0.0) -> rwn.Recording:
+    """Noisy speed of a drive whose power comes `off` samples after the recording begins."""
+    time = 1e-3 * np.arange(voltage.size)
+    truth = Model(kind="dc", parameters=MOTOR, effects={"coulomb-friction": {"coulomb_torque": friction}})
+    acting = np.where(np.arange(voltage.size) < off, 0.0, voltage)
+    speed = rwn.simulate(truth, rwn.Recording(name="run", time=time, signals={"voltage": acting})).signals["speed"]
+    noisy = speed + 0.1 * np.random.default_rng(9).standard_normal(time.size)
+    return rwn.Recording(name="run", time=time, signals={"voltage": voltage, "speed": noisy})
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.01])
+def test_a_late_enable_is_found_to_the_sample_or_two(friction: float) -> None:
+    recording = _run(STEPS, 130, friction=friction)
+    (late,) = late_enables([recording], MODEL)
+    assert abs(late.samples - 130) <= 2
+    (made,) = powered([recording], [late], MODEL)
+    assert not np.any(made.signals["voltage"][: late.samples])
+    assert np.array_equal(made.signals["voltage"][late.samples :], STEPS[late.samples :])
+
+
+def test_a_drive_that_is_on_from_the_beginning_has_none() -> None:
+    assert late_enables([_run(STEPS, 0)], MODEL) == ()
+
+
+def test_friction_that_holds_until_the_voltage_has_risen_is_no_late_enable() -> None:
+    ramp = np.linspace(0.0, 3.0, 3000)
+    assert late_enables([_run(ramp, 0, friction=0.02)], MODEL) == ()
