@@ -44,6 +44,12 @@ def test_differences_of_counts_are_told_from_a_coarse_converter(counts: int) -> 
     assert speed_measurement(TIME, coarse, NONE) is INSTANTANEOUS
 
 
+@pytest.mark.parametrize("window", [3, 4, 5, 8])
+def test_a_moving_average_of_differences_is_a_difference_over_more_samples(window: int) -> None:
+    over = SpeedMeasurement(window, 0)
+    assert speed_measurement(TIME, difference(over, TIME, counted(ANGLE, 1024)), NONE) == over
+
+
 def test_a_central_difference_is_known_through_a_gear() -> None:
     assert speed_measurement(TIME, 0.36612 * difference(CENTRAL, TIME, counted(ANGLE, 1024)), NONE) is CENTRAL
 

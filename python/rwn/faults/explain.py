@@ -72,7 +72,7 @@ def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -
     faults, ranking = resolved(on, stated, say=say)
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
-    again = stated if stated is model else stating(model, intersample_beside(ranking.problem, best))
+    again = stated if stated is model else stating(stated, intersample_beside(ranking.problem, best))
     if (still, again) != (late, stated):
         faults, ranking = resolved(powered(recordings, still, model), again, say=say)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)

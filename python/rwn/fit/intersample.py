@@ -1,18 +1,12 @@
-"""How the input acted between the rows, read off the recordings: the law under which what is left is likeliest.
-
-What a model leaves out moves slowly against the sample time and is the same under every law, so the errors are
-compared by what is new in them: their likelihood as autoregressions.
-"""
+"""How the input acted between the rows, read off the recordings: the law under which what is left is likeliest."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rwn.fit.fit import Fit, fit_nominal, refit
+from rwn.fit.likelihood import DECISIVE, log_likelihood
 from rwn.fit.noise import with_noise_of
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
@@ -22,10 +16,6 @@ from rwn.recording.columns import Intersample
 from rwn.recording.recording import Recording
 from rwn.simulate.intersample import HELD, INTERSAMPLE
 
-Array = NDArray[np.float64]
-
-ORDER = 8  # of the autoregressions
-DECISIVE = float(np.log(1000.0))  # how much likelier another law than "held" has to be: loggers hold
 ITERATIONS = 8  # of a fit that begins near its end
 
 
@@ -61,7 +51,7 @@ def _log_likelihoods(problem: Problem, this: Fit) -> Mapping[Intersample, float]
     """Of a fit repeated under every law that says something else than "held" of these recordings."""
     under = {law: _under(problem, law) for law in INTERSAMPLE}
     told = {law: p for law, p in under.items() if law == HELD or any(r.acting.size for r in p.runs)}
-    found = side_by_side(lambda p: _log_likelihood(p, refit(this, p, iterations=ITERATIONS)), told.values())
+    found = side_by_side(lambda p: log_likelihood(p, refit(this, p, iterations=ITERATIONS)), told.values())
     return dict(zip(told, found, strict=True))
 
 
@@ -71,26 +61,3 @@ def _under(problem: Problem, law: Intersample) -> Problem:
         runs=tuple(r.with_intersample(law) for r in problem.runs),
         whole=tuple(r.with_intersample(law) for r in problem.whole),
     )
-
-
-def _log_likelihood(problem: Problem, this: Fit) -> float:
-    """Of what a fit leaves, each signal an autoregression of its own; up to a constant."""
-    residuals = problem.residuals(this.vector, this.active)
-    likelihood = 0.0
-    for signal in dict.fromkeys(s for left in residuals for s in left):
-        masked = [
-            run.masked(signal, left[signal])
-            for run, left in zip(problem.runs, residuals, strict=True)
-            if signal in left
-        ]
-        rows = [
-            np.lib.stride_tricks.sliding_window_view(x[np.isfinite(x)], ORDER + 1)
-            for x in masked
-            if np.isfinite(x).sum() > ORDER
-        ]
-        if rows:
-            joined = np.concatenate(rows)
-            before, now = joined[:, :-1], joined[:, -1]
-            new = now - before @ np.linalg.lstsq(before, now)[0]
-            likelihood -= 0.5 * new.size * float(np.log(np.mean(new**2) + 1e-300))
-    return likelihood

@@ -1,4 +1,4 @@
-"""How a recorded speed was obtained: by a tachometer, or as a difference of the position over one sample or two."""
+"""How a recorded speed was obtained: by a tachometer, or as a difference of the position over some samples."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ SHORTEST = 20  # samples that say how a speed was obtained
 REPEATED = 0.05  # error of a difference of the recorded position, in units of the noise that it has
 # power near half the sampling rate in units of that near a quarter, where a rounded speed has 0.4 to 1
 VANISHING = 0.05  # central differences have 0.005
+MOTION = 0.2  # of the sampling rate: what moves a drive is slower
 RISING = 1.4  # differences over one sample have 2
 
 
@@ -35,7 +36,9 @@ INSTANTANEOUS = SpeedMeasurement()
 CENTRAL = SpeedMeasurement(1, 1)
 BACKWARD = SpeedMeasurement(1, 0)
 FORWARD = SpeedMeasurement(0, 1)
-DIFFERENCES = (CENTRAL, BACKWARD, FORWARD)
+LONGEST = 8  # samples of a difference: a moving average of so many differences over one
+AVERAGED = tuple(SpeedMeasurement(k, 0) for k in range(LONGEST, 2, -1))
+DIFFERENCES = (CENTRAL, BACKWARD, FORWARD, SpeedMeasurement(2, 0), *AVERAGED)
 
 
 def speed_measurement(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
@@ -52,6 +55,10 @@ def speed_measurement(time: Array, speed: Array, position: Array) -> SpeedMeasur
         best = min(errors, key=lambda way: errors[way])
         if errors[best] < REPEATED:
             return best
+    else:
+        averaged = next((way for way in AVERAGED if _vanishes(speed, way.before)), None)
+        if averaged:
+            return averaged
     return _of_counts(time, speed)
 
 
@@ -104,6 +111,15 @@ def _of_counts(time: Array, speed: Array) -> SpeedMeasurement:
     if _whole(counts) and _power(speed, 0.4, 0.5) > RISING * quarter:
         return BACKWARD
     return INSTANTANEOUS
+
+
+def _vanishes(speed: Array, samples: int) -> bool:
+    """Whether a speed of counts has no power at the multiples of 1/samples beyond its motion, but some between them."""
+    if speed.size < samples * SHORTEST or quantum(speed) == 0.0:
+        return False
+    zeros = [k / samples for k in range(1, samples // 2 + 1) if k / samples > MOTION]
+    between = min(_power(speed, z - 0.6 / samples, z - 0.4 / samples) for z in zeros)
+    return all(_power(speed, z - 0.01, min(z + 0.01, 0.5)) < VANISHING * between for z in zeros)
 
 
 def _whole(counts: float) -> bool:

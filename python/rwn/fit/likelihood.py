@@ -1,0 +1,31 @@
+"""How likely what a fit leaves is, for choosing how recordings were made before it is known what physics is missing.
+
+What a model leaves out moves slowly against the sample time and is the same under every choice, so the errors are
+compared by what is new in them: their likelihood as autoregressions.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rwn.fit.fit import Fit
+from rwn.fit.problem import Problem
+
+ORDER = 8  # of the autoregressions
+DECISIVE = float(np.log(1000.0))  # how much likelier another choice has to be than what is usual
+
+
+def log_likelihood(problem: Problem, this: Fit) -> float:
+    """Of what a fit leaves, each signal an autoregression of its own; up to a constant."""
+    residuals = problem.residuals(this.vector, this.active)
+    likelihood = 0.0
+    for signal in dict.fromkeys(s for left in residuals for s in left):
+        pairs = [(r, left[signal]) for r, left in zip(problem.runs, residuals, strict=True) if signal in left]
+        compared = [x[np.isfinite(x)] for x in (r.masked(signal, left) for r, left in pairs)]
+        windows = [np.lib.stride_tricks.sliding_window_view(x, ORDER + 1) for x in compared if x.size > ORDER]
+        if windows:
+            joined = np.concatenate(windows)
+            before, now = joined[:, :-1], joined[:, -1]
+            new = now - before @ np.linalg.lstsq(before, now)[0]
+            likelihood -= 0.5 * sum(r.time.size for r, _ in pairs) * float(np.log(np.mean(new**2) + 1e-300))
+    return likelihood
