@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.intersample import with_intersample
+from rwn.fit.intersample import stating, with_intersample, without_unknown
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 
@@ -47,3 +47,17 @@ def test_lost_rows_are_bridged_where_the_voltage_went_on_moving() -> None:
 def test_what_a_layout_states_stands() -> None:
     stated = Model(kind="dc", parameters=MOTOR, recording=Layout(intersample="line"))
     assert with_intersample([_run()], stated) is stated
+
+
+def test_currents_beside_a_step_between_the_rows_are_not_compared() -> None:
+    rng, time = np.random.default_rng(6), 1e-3 * np.arange(4000)
+    voltage = np.repeat(rng.uniform(-3.0, 3.0, 80), 50)
+    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    clean = rwn.simulate(MODEL, bare).signals
+    noisy = {s: clean[s] + 0.01 * rng.standard_normal(time.size) for s in ("speed", "current")}
+    kept = _kept(rwn.Recording(name="run", time=time, signals={"voltage": voltage, **noisy}), slice(1, None, 2))
+    (found,) = without_unknown([kept], stating(MODEL, "halves"))
+    steps = np.flatnonzero(np.abs(np.diff(kept.signals["voltage"], prepend=kept.signals["voltage"][0])) > 0.5)
+    assert set(steps) <= set(np.flatnonzero(found.missing["current"]))
+    assert found.missing["current"].mean() < 0.05
+    assert without_unknown([kept], stating(MODEL, "held")) == [kept]

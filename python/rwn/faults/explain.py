@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rwn.faults.fault import Fault
 from rwn.faults.resolve import resolved
-from rwn.fit.intersample import intersample_beside, stating, with_intersample
+from rwn.fit.intersample import intersample_beside, stating, with_intersample, without_unknown
 from rwn.fit.late_enable import LateEnable, late_enables, needed, powered
 from rwn.model.model import Model
 from rwn.name.forward import Progress
@@ -69,10 +69,11 @@ def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -
     late = late_enables(recordings, model)
     on = powered(recordings, late, model)
     stated = with_intersample(on, model)
-    faults, ranking = resolved(on, stated, say=say)
+    faults, ranking = resolved(without_unknown(on, stated), stated, say=say)
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
     again = stated if stated is model else stating(stated, intersample_beside(ranking.problem, best))
     if (still, again) != (late, stated):
-        faults, ranking = resolved(powered(recordings, still, model), again, say=say)
+        on = without_unknown(powered(recordings, still, model), again)
+        faults, ranking = resolved(on, again, say=say)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)

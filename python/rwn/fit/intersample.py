@@ -5,17 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from rwn.fit.fit import Fit, fit_nominal, refit
 from rwn.fit.likelihood import DECISIVE, log_likelihood
 from rwn.fit.noise import with_noise_of
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
+from rwn.model.start import CERTAIN
 from rwn.parallel import side_by_side
+from rwn.recording.clock import clock_of
 from rwn.recording.columns import Intersample
 from rwn.recording.recording import Recording
 from rwn.simulate.intersample import HELD, INTERSAMPLE
 
+MOST_OFF = 0.5  # share of the rows: where more are off, that is the noise of the current
 ITERATIONS = 8  # of a fit that begins near its end
 
 
@@ -34,6 +39,28 @@ def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
 def intersample_beside(problem: Problem, this: Fit) -> Intersample:
     """The law that is likeliest under a fit; that of the problem where none is by far."""
     return _likeliest(problem, this)
+
+
+def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recording]:
+    """The recordings without the currents that hang on when the input changed since the row before, which none knows.
+
+    A winding follows its voltage within a row or two: where that stepped, evenly spread over the step, the current is
+    known to a twelfth of the square of what it will become.
+    """
+    recordings, law = list(recordings), model.recording.intersample
+    if law in ("auto", HELD, "ticks") or not model.drive.winding or any("current" not in r.signals for r in recordings):
+        return recordings
+    problem = prepare(recordings, model)
+    problem = with_noise_of(problem, fit_nominal(problem))
+    known_to = CERTAIN * problem.noise["current"].deviation * model.motor["resistance"]  # [V]
+    for k, run in enumerate(problem.runs):
+        after = np.diff(clock_of(run.time).ticks, prepend=0) > 1 if law == "bridged" else np.full(run.time.size, True)
+        off = after & (np.abs(np.diff(run.input, prepend=run.input[:1])) / np.sqrt(12.0) > known_to)
+        if off.mean() < MOST_OFF:
+            missing = recordings[k].missing
+            lost = {"current": off | missing.get("current", np.zeros(off.size, dtype=bool))}
+            recordings[k] = replace(recordings[k], missing={**missing, **lost})
+    return recordings
 
 
 def stating(model: Model, law: Intersample) -> Model:
