@@ -58,6 +58,11 @@ class Account:
     leading: RankedFit
 
     @property
+    def birge(self) -> float:
+        """How much wider than its own the intervals of the leading explanation are."""
+        return max((e.evidence.birge for e in self.effects), default=1.0)
+
+    @property
     def stated(self) -> tuple[Acting, ...]:
         """The effects that are stated."""
         return tuple(e for e in self.effects if e.stated)

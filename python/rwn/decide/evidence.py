@@ -46,6 +46,7 @@ class Evidence:
     moved: float  # farthest move of a declared parameter, in declared deviations
     law: float  # what a curve over one state explains beside all effects, in units of what goes with this one
     left: float  # squared error that its explanation leaves, in units of the noise
+    birge: float = 1.0  # how much farther than its deviations the halves' values of its explanation lie apart
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,6 +69,7 @@ def evidence(
     whole = variance(problem, this)
     halves = _halves(problem)
     seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(this, half)), halves)
+    birge = _birge(seen)
     judges = [replace(problem, runs=tuple(r.following_nothing() for r in heldout))] if heldout else []
 
     def one(name: str) -> Evidence:
@@ -89,6 +91,7 @@ def evidence(
             moved=this.farthest_move,
             law=max(curve.gained, 0.0) / alone if curve else 0.0,
             left=float(np.mean([max(v, 1.0) for v in after.values()])),
+            birge=birge,
         )
 
     return {name: one(name) for name in leading.added}
@@ -137,6 +140,18 @@ def _drift(halves: Sequence[_Half], name: str) -> float | None:
         return None
     (a, _), (b, _) = found
     return float(2.0 * abs(a - b) / max(abs(a) + abs(b), 1e-300))
+
+
+def _birge(halves: Sequence[_Half]) -> float:
+    """Rms difference of the unknowns from half to half in units of its standard deviation (Birge 1932), at least 1."""
+    a, b = (half.fit.minimum.values for half in halves)
+    of_a, of_b = (deviations(half.fit, statistics(half.problem, half.fit)) for half in halves)
+    told = [
+        not u.nuisance and 0.0 < spread < abs(value)
+        for u, value, spread in zip(halves[0].fit.hypothesis.unknowns, a, np.maximum(of_a, of_b), strict=True)
+    ]
+    apart = ((a - b) / np.hypot(of_a, of_b))[told]
+    return max(float(np.sqrt(np.mean(apart**2))), 1.0) if apart.size else 1.0
 
 
 def _strength(this: Fit, problem: Problem, name: str) -> tuple[float, float]:

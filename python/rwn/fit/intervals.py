@@ -37,10 +37,13 @@ def deviations(this: Fit, left: Statistics) -> Array:
     return result
 
 
-def estimates(this: Fit, left: Statistics) -> dict[str, Estimate]:
-    """Value and 95 % interval of every unknown on which something depends, cut at its bounds."""
+def estimates(this: Fit, left: Statistics, *, widened: float = 1.0) -> dict[str, Estimate]:
+    """Value and 95 % interval of every unknown on which something depends, cut at its bounds.
+
+    `widened`: how much farther apart than their deviations values lie that were fitted to parts of the recordings.
+    """
     seen = np.diag(this.minimum.information) > 0.0
-    spread = np.hypot(deviations(this, left), _systematic(this))
+    spread = np.hypot(widened * deviations(this, left), _systematic(this))
     found = {}
     for u, value, std, known in zip(this.hypothesis.unknowns, this.minimum.values, spread, seen, strict=True):
         if u.nuisance or not known:

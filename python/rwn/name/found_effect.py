@@ -30,11 +30,14 @@ class FoundEffect:
 
 
 def found_effects(
-    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float]
+    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float], *, widened: float = 1.0
 ) -> tuple[FoundEffect, ...]:
-    """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts)."""
+    """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts).
+
+    `widened`: see `estimates`.
+    """
     final = chosen.final
-    numbers, known = estimates(final, ranking.counted), final.hypothesis.table
+    numbers, known = estimates(final, ranking.counted, widened=widened), final.hypothesis.table
     if ranking.problem.simulator.angle_per_position != 1.0:
         numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
     rows = []

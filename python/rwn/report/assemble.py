@@ -43,8 +43,8 @@ def assemble(
         for r in problem.runs
     ]
     named = verdict == "missing-physics"
-    stated = decision.account.stated
-    physics = found_effects(ranking, chosen, {e.name: e.probability for e in stated}) if named else ()
+    stated, birge = decision.account.stated, decision.account.birge
+    physics = found_effects(ranking, chosen, {e.name: e.probability for e in stated}, widened=birge) if named else ()
     steps = coarse_speed(ranking)
     if steps and verdict in ("adequate", "missing-physics"):
         physics, verdict = (*physics, steps), "missing-physics"
@@ -75,7 +75,7 @@ def assemble(
             if r is not chosen and r.added and r.probability > 1e-3
         ),
         location=Location(equation=equation, regions=where, description=place),
-        nominal_fit=nominal_fit(ranking, chosen, model),
+        nominal_fit=nominal_fit(ranking, chosen, model, widened=birge),
         heldout=rows,
         curves=(*figures.plots(ranking, chosen, unknown, depends, linear=model.linear), *drawn),
         warnings=(*_warnings(ranking, chosen, rows), *correction.warnings),

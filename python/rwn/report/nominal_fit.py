@@ -39,10 +39,10 @@ class NominalFit:
     advice: str = ""
 
 
-def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model) -> NominalFit:
-    """Nominal parameters: as given, refitted alone, and together with the found effects."""
+def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, widened: float = 1.0) -> NominalFit:
+    """Nominal parameters: as given, refitted alone, and together with the found effects, with intervals `widened`."""
     alone = estimates(ranking.nominal, ranking.before)
-    together = estimates(chosen.final, ranking.counted) if chosen.added else {}
+    together = estimates(chosen.final, ranking.counted, widened=widened) if chosen.added else {}
     rows = {}
     given = dict(model.parameters) or dict(ranking.problem.prior.free)
     for name, value in given.items():
