@@ -146,11 +146,10 @@ def _birge(halves: Sequence[_Half]) -> float:
     """Rms difference of the unknowns from half to half in units of its standard deviation (Birge 1932), at least 1."""
     a, b = (half.fit.minimum.values for half in halves)
     of_a, of_b = (deviations(half.fit, statistics(half.problem, half.fit)) for half in halves)
-    told = [
-        not u.nuisance and 0.0 < spread < abs(value)
-        for u, value, spread in zip(halves[0].fit.hypothesis.unknowns, a, np.maximum(of_a, of_b), strict=True)
-    ]
-    apart = ((a - b) / np.hypot(of_a, of_b))[told]
+    spread = np.hypot(of_a, of_b)
+    physics = [not u.nuisance for u in halves[0].fit.hypothesis.unknowns]
+    told = physics & (spread > 0.0) & (spread < np.abs(a) + np.abs(b))
+    apart = (a - b)[told] / spread[told]
     return max(float(np.sqrt(np.mean(apart**2))), 1.0) if apart.size else 1.0
 
 

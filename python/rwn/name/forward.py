@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -40,6 +41,16 @@ ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 BRIEF = 10  # fewest samples that a load disturbance lasts
 
 
+class _Grown(NamedTuple):
+    """Explanations by more and more effects."""
+
+    fits: list[Fit]
+    pairs: Pairs
+    paired: bool  # some have several effects
+    complete: bool  # more effects at once would not help
+    cut_short: bool  # more would have been tried, but for what that costs
+
+
 def rank(
     problem: Problem, *, progress: Progress, names: Sequence[str] | None = None, at_once: int = MOST_EFFECTS,
     after: Ranking | None = None,
@@ -54,29 +65,9 @@ def rank(
     alone = after.alone if after else _each_alone(problem, wanted, progress)
     problem, nominal, fits = alone.problem, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
     before = statistics(problem, nominal)
-    _, left = _best_of(problem, [nominal, *fits])
-    bases = _varied(fits)
-    complete, paired, cut_short = left.at_the_floor or not bases, False, False
-    pairs = after.pairs if after else NO_PAIRS
-    for size in range(2, at_once + 1):
-        if complete:
-            break
-        known = pairs if size == 2 else NO_PAIRS
-        cut_short = not affords_more(problem.work)
-        if cut_short and not known.fits:
-            break
-        progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
-        found = _beside(problem, bases, wanted, fits, known)
-        more, pairs = found.fits, found if size == 2 else pairs
-        gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
-        complete = gained < WORTH * left.variance
-        if complete:
-            break
-        fits, paired = [*fits, *more], True
-        best, left = _best_of(problem, fits)
-        bases = sorted(more, key=lambda f: f.cost)[:2]
-        complete = left.at_the_floor or _at_its_floor(problem, best)
-    if paired:
+    grown = _grown(alone, fits, wanted, after.pairs if after else NO_PAIRS, at_once=at_once, progress=progress)
+    fits = grown.fits
+    if grown.paired:
         problem, nominal, fits = _under_own_noise(problem, nominal, fits)
     filters = _filters(problem, min([nominal, *fits], key=lambda f: f.cost))
     if filters:  # they are part of how it was measured, beside whatever is missing
@@ -102,12 +93,41 @@ def rank(
         weighted=weighted,
         counted=counted,
         alone=alone,
-        pairs=pairs,
+        pairs=grown.pairs,
         speed_steps=steps_shown(problem, best),
-        complete=names is None and (complete or at_once >= MOST_EFFECTS),
-        cut_short=cut_short and not left.at_the_floor,
+        complete=names is None and (grown.complete or at_once >= MOST_EFFECTS),
+        cut_short=grown.cut_short and not left.at_the_floor,
         at_a_limit=tuple(f for f in at_a_limit if f.cost < best.cost),
     )
+
+
+def _grown(
+    alone: SameNoise, fits: list[Fit], wanted: Sequence[str], pairs: Pairs, *, at_once: int, progress: Progress
+) -> _Grown:
+    """Single effects, then the best of them with more beside, as long as that helps; `pairs` are known already."""
+    problem = alone.problem
+    _, left = _best_of(problem, [alone.nominal, *fits])
+    bases = _varied(fits)
+    complete, paired, cut_short = left.at_the_floor or not bases, False, False
+    for size in range(2, at_once + 1):
+        if complete:
+            break
+        known = pairs if size == 2 else NO_PAIRS
+        cut_short = not affords_more(problem.work)
+        if cut_short and not known.fits:
+            break
+        progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
+        found = _beside(problem, bases, wanted, fits, known)
+        more, pairs = found.fits, found if size == 2 else pairs
+        gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
+        complete = gained < WORTH * left.variance
+        if complete:
+            break
+        fits, paired = [*fits, *more], True
+        best, left = _best_of(problem, fits)
+        bases = sorted(more, key=lambda f: f.cost)[:2]
+        complete = left.at_the_floor or _at_its_floor(problem, best)
+    return _Grown(fits, pairs, paired, complete, cut_short)
 
 
 def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:
