@@ -175,6 +175,19 @@ TEST(Simulate, LinearMotorIsExactAtAnySampleTime) {
   for (std::size_t k = 0; k < b.size(); ++k) EXPECT_NEAR(a[20 * k], b[k], 1e-10);
 }
 
+TEST(Simulate, AnInputActsFromItsOwnInstantsWhereRowsWereLeftOut) {
+  const Case whole = motor();
+  const std::vector<double> expected = speed_of(whole);
+  Case kept = whole;
+  kept.time.clear();
+  for (std::size_t k = 0; k < whole.time.size(); k += 3) kept.time.push_back(whole.time[k]);
+  rwn::SimulationTask task = kept.task();
+  task.input_time = whole.time;
+  std::vector<double> speed(kept.time.size());
+  ASSERT_EQ(rwn::simulate(task, {{}, speed, {}, {}, {}, {}}), rwn::SimulationStatus::ok);
+  for (std::size_t k = 0; k < speed.size(); ++k) EXPECT_NEAR(speed[k], expected[3 * k], 1e-9) << k;
+}
+
 TEST(Simulate, FrictionHoldsAtStandstill) {
   Case c = motor();
   for (double& v : c.input) v = 0.1;  // 0.0125 N m at stall, below 0.02

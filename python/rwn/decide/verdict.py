@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from typing import Literal
 
+import numpy as np
+
 from rwn.decide import excitation
 from rwn.decide.account import Account, Remainder
 from rwn.fit.intervals import deviations
 from rwn.name.ranking import Ranking
+from rwn.name.weights import EXACT
 
 Verdict = Literal[
     "missing-physics", "adequate", "unexplained", "insufficient-excitation", "recording-mistake"
 ]
 
-MATERIAL = 0.03  # squared error above the noise, in units of it, from which structure in what is left is of any size
+# squared error above the noise, in units of it, from which structure in what is left is of any size: what chance makes
+# of as many independent samples as a residual that is noise alone counts for
+MATERIAL = float(np.sqrt(2.0 / EXACT))
 
 
 def verdict_of(ranking: Ranking, found: Account, left: Remainder) -> Verdict:
