@@ -52,7 +52,7 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
         if samples and _moves(problem, nominal, recording, model, place, samples):
             enabled = _enabled(problem, nominal, recording, model, place, samples)
             time = float(recording.time[enabled] - recording.time[0])
-            found.append(LateEnable(recording=recording.name, samples=enabled, time=time))
+            found += [LateEnable(recording=recording.name, samples=enabled, time=time)] if enabled >= FEWEST else []
     return tuple(found)
 
 
