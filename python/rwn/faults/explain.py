@@ -9,6 +9,7 @@ from rwn.faults.fault import Fault
 from rwn.faults.resolve import resolved
 from rwn.fit.intersample import intersample_beside, stating, with_intersample, without_unknown
 from rwn.fit.late_enable import LateEnable, late_enables, needed, powered
+from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.name.forward import Progress
 from rwn.name.ranking import Ranking
@@ -69,11 +70,14 @@ def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -
     late = late_enables(recordings, model)
     on = powered(recordings, late, model)
     stated = with_intersample(on, model)
-    faults, ranking = resolved(without_unknown(on, stated), stated, say=say)
+    faults, ranking = resolved(_as_acted(on, stated), stated, say=say)
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
     again = stated if stated is model else stating(stated, intersample_beside(ranking.problem, best))
     if (still, again) != (late, stated):
-        on = without_unknown(powered(recordings, still, model), again)
-        faults, ranking = resolved(on, again, say=say)
+        faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)
+
+
+def _as_acted(recordings: Sequence[Recording], model: Model) -> list[Recording]:
+    return without_unknown(with_unrecorded_input(recordings, model), model)

@@ -12,6 +12,7 @@ from rwn.fit.intervals import Estimate
 from rwn.name.found_effect import FoundEffect
 from rwn.recording.noise import Noise
 from rwn.recording.recording import Recording
+from rwn.recording.signals import MEASURED
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -54,7 +55,8 @@ class Fault:
             lost = _moved(recording.missing.get(name, np.zeros(len(recording), dtype=bool)), self.delay)[:n]
             if lost.any():
                 missing[name] = lost
-        return replace(recording, time=recording.time[:n], signals=signals, missing=missing)
+        acting = recording.acting if set(moved) <= set(MEASURED) else None  # what was read off the input as it stood
+        return replace(recording, time=recording.time[:n], signals=signals, missing=missing, acting=acting)
 
     def noise_without(self, noise: Mapping[str, Noise]) -> dict[str, Noise]:
         """The noise of the signals once it is undone."""

@@ -17,8 +17,8 @@ from rwn.model.start import CERTAIN
 from rwn.parallel import side_by_side
 from rwn.recording.clock import clock_of
 from rwn.recording.columns import Intersample
+from rwn.recording.intersample import HELD, INTERSAMPLE
 from rwn.recording.recording import Recording
-from rwn.simulate.intersample import HELD, INTERSAMPLE
 
 MOST_OFF = 0.5  # share of the rows: where more are off, that is the noise of the current
 ITERATIONS = 8  # of a fit that begins near its end
@@ -48,7 +48,7 @@ def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recor
     known to a twelfth of the square of what it will become.
     """
     recordings, law = list(recordings), model.recording.intersample
-    if law in ("auto", HELD, "ticks") or not model.drive.winding or any("current" not in r.signals for r in recordings):
+    if law in ("auto", HELD) or not model.drive.winding or any("current" not in r.signals for r in recordings):
         return recordings
     problem = prepare(recordings, model)
     problem = with_noise_of(problem, fit_nominal(problem))

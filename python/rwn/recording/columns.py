@@ -40,7 +40,7 @@ class Layout:
     no current), from a state that has to be estimated, or as each one's first samples show ("auto"). `initial_samples`:
     from how many samples that is read, and the state of a transfer function estimated on recordings that are not fitted
     (which they do not judge). `intersample`: how the input acted between the rows, by a name of
-    `rwn.simulate.intersample`; "auto": as the recordings show where they are fitted, and held where one is simulated.
+    `rwn.recording.intersample`; "auto": as the recordings show where they are fitted, and held where one is simulated.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)

@@ -15,6 +15,7 @@ from rwn.errors import InputError
 from rwn.recording.check import check_samples
 from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit
 from rwn.recording.formats import FORMATS, MAX_BYTES, Table
+from rwn.recording.intersample import Acting
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
 
 Array = NDArray[np.float64]
@@ -26,7 +27,8 @@ class Recording:
     """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in SI units (see docs/recordings.md).
 
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
-    stands there is a guess that nothing is compared with. Arrays are made float64, contiguous and read-only.
+    stands there is a guess that nothing is compared with. `acting`: the input as it acted, where more is known of it
+    than its samples. Arrays are made float64, contiguous and read-only.
 
     Raises InputError when lengths differ, an array is not a real vector or a signal's name is unknown.
     """
@@ -38,6 +40,7 @@ class Recording:
     linear: bool = False
     warnings: tuple[str, ...] = ()
     missing: Mapping[str, Flags] = field(default_factory=dict)
+    acting: Acting | None = None
 
     def __post_init__(self) -> None:
         time = _vector(self.name, "time", self.time)

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from rwn.model.model import Model
 from rwn.model.start import start_of
 from rwn.recording.columns import Intersample
+from rwn.recording.intersample import INTERSAMPLE, Acting
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
 from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral, speed_measurement
-from rwn.simulate.intersample import INTERSAMPLE
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -117,9 +117,14 @@ class Run:
         return replace(self, angle=np.empty(0))
 
     def with_intersample(self, law: Intersample) -> Run:
-        """The same with the input acting between the rows by a law of `rwn.simulate.intersample`."""
-        acting_from, acting = INTERSAMPLE[law](self.time, self.input) or (_NONE, _NONE)
-        return replace(self, acting_from=acting_from, acting=acting)
+        """The same with the input acting between the rows by a law of `rwn.recording.intersample`."""
+        return self.driven(INTERSAMPLE[law](self.time, self.input))
+
+    def driven(self, acting: Acting | None) -> Run:
+        """The same under an input as it acted; None: from each row's time on the row's own."""
+        if acting is None:
+            return replace(self, acting_from=_NONE, acting=_NONE)
+        return replace(self, acting_from=acting.instants, acting=acting.values)
 
     def quantisation(self, signal: str) -> float:
         """Standard deviation of the quantisation of a signal; 0 where its values are multiples of no step.
@@ -174,6 +179,8 @@ def run_of(recording: Recording, model: Model) -> Run:
         angle_from_speed=position.size == 0,
     )
     law = model.recording.intersample
+    if recording.acting is not None:
+        return run.driven(recording.acting)
     return run if law == "auto" else run.with_intersample(law)
 
 

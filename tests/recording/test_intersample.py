@@ -10,7 +10,7 @@ import pytest
 import rwn
 from rwn.model.model import Model
 from rwn.recording.columns import Intersample, Layout
-from rwn.simulate.intersample import INTERSAMPLE
+from rwn.recording.intersample import INTERSAMPLE
 
 MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
          "viscous_friction": 2e-5}  # fmt: skip

@@ -1,0 +1,123 @@
+"""The input where no row shows it: between its neighbours, as the motion that followed tells.
+
+Each unknown value adds the response of the linear drive to a pulse. They are fitted together to the errors of the
+refitted nominal model, each with the deviation of what may lie anywhere between two neighbours, and kept between them.
+The errors and responses are those of a high-pass filter: what else is missing moves slowly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+from scipy.sparse import csr_array, diags_array, vstack
+from scipy.sparse.linalg import spsolve
+
+from rwn.fit.fit import Fit, fit_nominal
+from rwn.fit.intersample import stating
+from rwn.fit.noise import with_noise_of
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
+from rwn.model.model import Model
+from rwn.model.vocabulary import motor_index
+from rwn.recording.intersample import HELD, INTERSAMPLE, Acting
+from rwn.recording.recording import Recording
+from rwn.recording.speed_measurement import SpeedMeasurement
+from rwn.simulate.run import Run
+
+Array = NDArray[np.float64]
+
+SLOW = 0.9  # pole of the high-pass filter: it forgets within tens of rows
+LASTS = 60  # rows after which nothing is left of a response in the filter
+FINE = 8  # steps of a response per row
+ROUNDS = 2  # of fitting the model and the input
+
+
+def with_unrecorded_input(recordings: Sequence[Recording], model: Model) -> list[Recording]:
+    """The recordings with their input as it acted by the model's law and the motion.
+
+    Raises InputError where a recording does not fit the model.
+    """
+    law = model.recording.intersample
+    if law in ("auto", HELD) or model.drive.coefficients:
+        return list(recordings)
+    acting = [INTERSAMPLE[law](r.time - r.time[0], np.asarray(r.signals[model.drive.input])) for r in recordings]
+    made = [replace(r, acting=a) for r, a in zip(recordings, acting, strict=True)]
+    for _ in range(ROUNDS):
+        problem = prepare(made, stating(model, law))
+        problem = with_noise_of(problem, fit_nominal(problem))
+        this = fit_nominal(problem)
+        left = problem.residuals(this.vector, this.active)
+        for k, (run, given) in enumerate(zip(problem.runs, acting, strict=True)):
+            if given is not None and given.spread.any():
+                made[k] = replace(made[k], acting=_told(problem, this, run, left[k], given))
+    return made
+
+
+def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], given: Acting) -> Acting:
+    """`given` with its unknown values as the errors `left` of a simulation under those of `run` tell."""
+    group = _groups(given)
+    ends = np.append(given.instants, run.time[-1])
+    known = group < 0
+    count = int(group.max()) + 1
+    first = np.array([np.argmax(group == j) for j in range(count)])
+    last = given.spread.size - 1 - np.array([np.argmax(group[::-1] == j) for j in range(count)])
+    before = (run.acting - given.values)[first]  # what the errors have been told already
+    responses, errors = [], []
+    for signal, error in left.items():
+        level = problem.noise[signal].deviation
+        response = _pulses(problem, this, run, signal, given.instants[first], ends[last + 1]) / level
+        masked = run.masked(signal, error) / level
+        compared = np.isfinite(masked)
+        filled = np.interp(run.time, run.time[compared], masked[compared])
+        weight = diags_array(compared.astype(np.float64))
+        responses.append(weight @ response)
+        errors.append(compared * lfilter([1.0, -1.0], [1.0, -SLOW], filled))
+    joined = vstack(responses).tocsr()
+    spread = given.spread[first]
+    target = np.concatenate(errors) + joined @ before
+    found = spsolve((joined.T @ joined + diags_array(1.0 / spread**2)).tocsc(), joined.T @ target)
+    limit = np.sqrt(3.0) * spread  # half the way from neighbour to neighbour
+    moved = np.clip(found, -limit, limit)
+    values = given.values.copy()
+    values[~known] += moved[group[~known]]
+    return replace(given, values=values)
+
+
+def _groups(given: Acting) -> NDArray[np.int64]:
+    """Which unknown each value belongs to: neighbours that no row shows are one; -1 where a row does."""
+    unknown = given.spread > 0.0
+    begins = unknown & ~np.concatenate([[False], unknown[:-1]])
+    return np.where(unknown, np.cumsum(begins) - 1, -1)
+
+
+def _pulses(problem: Problem, this: Fit, run: Run, signal: str, begin: Array, end: Array) -> csr_array:
+    """What an input of 1 from `begin` to `end` (m,) adds to the rows of a signal, (n, m), in the filter."""
+    step = run.sample_time / FINE
+    table = _step_response(problem, this, run, signal, step)
+    rows = np.searchsorted(run.time, begin, side="right")[:, None] + np.arange(LASTS)
+    inside = rows < run.time.size
+    at = run.time[np.minimum(rows, run.time.size - 1)]
+    grid = step * np.arange(table.size)
+    pulse = np.interp(at - begin[:, None], grid, table) - np.interp(at - end[:, None], grid, table)
+    filtered = lfilter([1.0, -1.0], [1.0, -SLOW], pulse, axis=1)
+    columns = np.broadcast_to(np.arange(begin.size)[:, None], rows.shape)
+    return csr_array((filtered[inside], (rows[inside], columns[inside])), shape=(run.time.size, begin.size))
+
+
+def _step_response(problem: Problem, this: Fit, run: Run, signal: str, step: float) -> Array:
+    """Of a signal, as it is measured, to an input of 1 from 0 on at multiples of `step` [s], without friction."""
+    way = run.speed_measured
+    time: Array = step * np.arange((LASTS + 2.0) * FINE)
+    fine = SpeedMeasurement(FINE * way.before, FINE * way.after)
+    at_rest = Run(name=run.name, time=time, input=np.zeros(time.size), speed_measured=fine)
+    vector = this.vector.copy()
+    vector[motor_index("coulomb_friction")] = 0.0  # it holds what is at rest, not what moves
+    on, off = (
+        problem.simulator.simulate(replace(at_rest, input=given), vector, []).signals[signal]
+        for given in (np.ones(time.size), np.zeros(time.size))
+    )
+    return on - off
