@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import reduce
 
 from rwn.correct.correction import correct
 from rwn.decide.decision import decide
@@ -64,6 +65,8 @@ def diagnose(
         correction = correct(decision, unseen, model, seed=seed)
         say("drawing", 0.95)
         made = assemble(correction, found.faults, model, seed=seed, elapsed=time.perf_counter() - began)
+        layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
+        made = replace(made, corrected=replace(made.corrected, recording=layout))
         return replace(made, findings=(*findings, *found.findings, *unseen_findings))
 
 

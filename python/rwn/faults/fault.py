@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.intervals import Estimate
 from rwn.name.found_effect import FoundEffect
+from rwn.recording.columns import Layout
 from rwn.recording.noise import Noise
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -57,6 +58,12 @@ class Fault:
                 missing[name] = lost
         acting = recording.acting if set(moved) <= set(MEASURED) else None  # what was read off the input as it stood
         return replace(recording, time=recording.time[:n], signals=signals, missing=missing, acting=acting)
+
+    def in_layout(self, layout: Layout) -> Layout:
+        """The layout of recordings that have it, where it is a delay."""
+        late = [s for s in self.signals if self.delay and s in MEASURED]
+        delays = {s: layout.delays.get(s, 0.0) + self.delay * self.step for s in late}
+        return replace(layout, delays={**layout.delays, **delays})
 
     def noise_without(self, noise: Mapping[str, Noise]) -> dict[str, Noise]:
         """The noise of the signals once it is undone."""

@@ -15,7 +15,7 @@ from rwn.model.toml_own_effects import from_entry
 from rwn.model.toml_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
 from rwn.recording import units
 from rwn.recording.columns import Column, Layout
-from rwn.recording.signals import COLUMNS, TIME
+from rwn.recording.signals import COLUMNS, MEASURED, TIME
 
 _PENDULUM = (
     NominalParameter(name="mass", unit="kg", meaning="mass of the pendulum", positive=True),
@@ -221,8 +221,15 @@ def _layout(given: RecordingTable, where: str) -> Layout:
         )
     return Layout(
         columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples,
-        intersample=given.intersample,
+        intersample=given.intersample, delays=_delays(given.delays, f"{where} delays"),
     )  # fmt: skip
+
+
+def _delays(given: dict[str, Number], where: str) -> dict[str, float]:
+    unknown_ones = [name for name in given if name not in MEASURED]
+    if unknown_ones:
+        raise unknown("measured signal", unknown_ones[0], MEASURED, where=where)
+    return {name: _number(delay, TIME.unit, f"{where}.{name}") for name, delay in given.items()}
 
 
 def _column(name: str, given: ColumnEntry, where: str) -> Column:

@@ -27,6 +27,7 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     initial: Initial = "auto"
     initial_samples: int = 20
     intersample: Intersample = "auto"
+    delays: dict[str, Number] = {}
 
 
 class LoadTable(msgspec.Struct, forbid_unknown_fields=True):

@@ -60,6 +60,7 @@ def _layout_lines(layout: Layout) -> list[str]:
     lines += [] if layout.sample_time is None else [f"sample_time = {layout.sample_time!r}  # s"]
     lines += [] if layout.initial_samples == 20 else [f"initial_samples = {layout.initial_samples}"]
     lines += [] if layout.intersample == "auto" else [f'intersample = "{layout.intersample}"']
+    lines += [f"delays.{name} = {delay!r}  # s" for name, delay in layout.delays.items()]
     for name, column in layout.columns.items():
         items = [f"source = {_quoted(column.source)}"]
         items += [] if column.unit is None else [f"unit = {_quoted(column.unit)}"]

@@ -41,6 +41,7 @@ class Layout:
     from how many samples that is read, and the state of a transfer function estimated on recordings that are not fitted
     (which they do not judge). `intersample`: how the input acted between the rows, by a name of
     `rwn.recording.intersample`; "auto": as the recordings show where they are fitted, and held where one is simulated.
+    `delays` [s]: by which measured signals come late.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
@@ -48,6 +49,7 @@ class Layout:
     initial: Initial = "auto"
     initial_samples: int = 20
     intersample: Intersample = "auto"
+    delays: Mapping[str, float] = field(default_factory=dict)
 
 
 def column_map(table: Table, layout: Layout, by_name: set[str]) -> dict[str, Column]:

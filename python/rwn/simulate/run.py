@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rwn.model.model import Model
 from rwn.model.start import start_of
 from rwn.recording.columns import Intersample
+from rwn.recording.delays import in_time
 from rwn.recording.intersample import INTERSAMPLE, Acting
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
@@ -151,7 +152,7 @@ class Run:
 
 def run_of(recording: Recording, model: Model) -> Run:
     """A recording as the core takes it; samples are at the rows' times, the input acts as the model's layout says."""
-    drive = model.drive
+    drive, recording = model.drive, in_time(recording, model.recording.delays)
     signals = {name: np.array(values) for name, values in recording.signals.items()}
     given = signals[drive.input]
     time = recording.time - recording.time[0]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rwn import _core
 from rwn.errors import InputError
 from rwn.model.model import Model
+from rwn.recording.delays import as_shown
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_state import nearest_state
@@ -48,10 +49,11 @@ def simulate(model: Model, recording: Recording) -> Simulation:
     elif run.in_motion:
         vector = nearest_state(simulator, run, vector, active)
     output = simulator.simulate(run, vector, active)
+    late = model.recording.delays
     wanted = [name for name in MEASURED if name in model.drive.outputs]
     return Simulation(
         time=recording.time,
-        signals={name: output.signals[name] for name in wanted},
+        signals={name: as_shown(run.time, output.signals[name], late.get(name, 0.0)) for name in wanted},
         status=output.status,
         advice=_core.simulation_advice(output.status),
     )

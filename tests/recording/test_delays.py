@@ -1,0 +1,51 @@
+"""Signals that a logger shows late."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.faults.fault import SHIFT, Fault
+from rwn.model.files import write_model
+from rwn.model.model import Model
+from rwn.recording.columns import Layout
+from rwn.recording.delays import as_shown, in_time
+
+MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+         "viscous_friction": 2e-5}  # fmt: skip
+TIME = 1e-3 * np.arange(500)
+RUN = rwn.Recording(name="run", time=TIME, signals={"voltage": np.sin(30.0 * TIME), "speed": np.cos(30.0 * TIME)})
+
+
+@pytest.mark.parametrize("delay", [4e-3, -3e-3])
+def test_a_late_signal_is_put_in_time_and_shown_late_again(delay: float) -> None:
+    shown = replace(RUN, signals={**RUN.signals, "speed": as_shown(TIME, RUN.signals["speed"], delay)})
+    made = in_time(shown, {"speed": delay})
+    lost = made.missing["speed"]
+    assert lost.sum() == round(abs(delay) / 1e-3)
+    assert made.signals["speed"][~lost] == pytest.approx(RUN.signals["speed"][~lost], abs=1e-12)
+    assert in_time(RUN, {}) is RUN
+
+
+def test_a_delay_that_was_found_is_in_the_simulation_against_the_file(tmp_path: Path) -> None:
+    fault = Fault(name=SHIFT, signals=("speed",), meaning="", delay=4, step=1e-3)
+    model = Model(kind="dc", parameters=MOTOR)
+    found = replace(model, recording=fault.in_layout(Layout()))
+    write_model(found, tmp_path / "corrected.toml")
+    read = rwn.read_model(tmp_path / "corrected.toml")
+    assert read.recording.delays == {"speed": pytest.approx(4e-3)}
+    bare = replace(RUN, signals={"voltage": RUN.signals["voltage"]})
+    plain, late = (rwn.simulate(m, bare).signals["speed"] for m in (model, read))
+    assert late[4:] == pytest.approx(plain[:-4], abs=1e-9)
+
+
+def test_what_is_not_measured_has_no_delay(tmp_path: Path) -> None:
+    path = tmp_path / "model.toml"
+    write_model(Model(kind="dc", parameters=MOTOR, recording=Layout(delays={"speed": 1e-3})), path)
+    path.write_text(path.read_text().replace("delays.speed", "delays.voltage"))
+    with pytest.raises(rwn.InputError, match="voltage"):
+        rwn.read_model(path)
