@@ -7,7 +7,10 @@ from pathlib import Path
 
 from rwn.errors import InputError
 from rwn.recording.formats.csv import read_csv
+from rwn.recording.formats.excel import read_excel
 from rwn.recording.formats.mat import read_mat
+from rwn.recording.formats.npz import read_npz
+from rwn.recording.formats.parquet import read_parquet
 from rwn.recording.formats.table import MAX_SAMPLES, Table
 
 Reader = Callable[[Path, Collection[str]], Table]
@@ -15,6 +18,9 @@ Reader = Callable[[Path, Collection[str]], Table]
 FORMATS: dict[str, Reader] = {
     **dict.fromkeys((".csv", ".txt", ".tsv", ".dat"), read_csv),
     ".mat": read_mat,
+    **dict.fromkeys((".npz", ".npy"), read_npz),
+    ".parquet": read_parquet,
+    **dict.fromkeys((".xlsx", ".xlsm", ".xls", ".ods"), read_excel),
 }
 
 __all__ = ["FORMATS", "MAX_SAMPLES", "Table", "read_table"]
