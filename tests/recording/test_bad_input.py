@@ -358,7 +358,7 @@ def test_a_folder_that_takes_no_files(refuse: Callable[..., str], monkeypatch: p
     def deny(**_: object) -> None:
         raise OSError(30, "Read-only file system")
 
-    monkeypatch.setattr("rwn.report.files.tempfile.TemporaryFile", deny)
+    monkeypatch.setattr("rwn.report.files.tempfile.mkdtemp", deny)
     line = refuse(_csv())
     assert "cannot be written" in line
     assert "choose another --out" in line

@@ -100,7 +100,7 @@ REFUSED: dict[str, tuple[str, tuple[str, ...]]] = {
     "a cut last line": (HEADER + _rows() + "0.120,1.", ("line 122", "2 values in 3 columns", "complete the line")),
     "a quote left open": (HEADER + _rows().replace("0.100,", '"0.100,', 1), ("line 102", "a quote is left open")),
     "a unit in parentheses that there is not": (HEADER.replace("[rpm]", "(bogus)") + _rows(), ("'bogus'",)),
-    "a longer line in between": (HEADER + _rows().replace("0.100,", "0.1,7,", 1), ("line 102", "4 values in 3 columns")),
+    "a longer line in between": (HEADER + _rows().replace("0.100,", "0.1,7,", 1), ("line 102", "4 values in 3 ")),
     "a name of a million letters": ("x" * 10**6 + "," + HEADER + _rows(last=",1"), ("fix:",)),
 }  # fmt: skip
 

@@ -59,6 +59,9 @@ def _layout_lines(layout: Layout) -> list[str]:
     lines = ["", "[recording]", f'initial = "{layout.initial}"']
     lines += [] if layout.sample_time is None else [f"sample_time = {layout.sample_time!r}  # s"]
     lines += [] if layout.initial_samples == 20 else [f"initial_samples = {layout.initial_samples}"]
+    for key, seconds in (("from", layout.start), ("to", layout.end)):
+        lines += [] if seconds is None else [f"{key} = {seconds!r}  # s"]
+    lines += [] if layout.decimate == 1 else [f"decimate = {layout.decimate}"]
     for name, column in layout.columns.items():
         items = [f"source = {_quoted(column.source)}"]
         items += [] if column.unit is None else [f"unit = {_quoted(column.unit)}"]

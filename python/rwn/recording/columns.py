@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.errors import InputError, closest
+from rwn.errors import InputError, closest, plain
 from rwn.recording import units
 from rwn.recording.formats import Table
 from rwn.recording.signals import COLUMNS, Signal, meant
@@ -38,13 +38,17 @@ class Layout:
     `sample_time` [s]: of files without a time column. `initial`: whether recordings start at rest (no speed,
     no current), from a state that has to be estimated, or as each one's first samples show ("auto"). `initial_samples`:
     from how many samples that is read, and the state of a transfer function estimated on recordings that are not fitted
-    (which they do not judge).
+    (which they do not judge). `start`, `end` [s], in the file's own time: rows outside are left out; of the rest every
+    `decimate`-th row is kept.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
     sample_time: float | None = None
     initial: Initial = "auto"
     initial_samples: int = 20
+    start: float | None = None
+    end: float | None = None
+    decimate: int = 1
 
 
 def column_map(table: Table, layout: Layout) -> dict[str, Column]:
@@ -81,7 +85,7 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
 def unused(table: Table, mapping: Mapping[str, Column]) -> tuple[str, ...]:
     """A note on the columns that are no signal, if there are any."""
     used = {column.source for column in mapping.values()}
-    extra = [name for name in table.units if name not in used]
+    extra = [plain(name, longest=40) for name in table.units if name not in used]
     if not extra:
         return ()
     shown = ", ".join(extra[:8]) + (f" and {len(extra) - 8} more" if len(extra) > 8 else "")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError
-from rwn.recording.check import check_samples
+from rwn.recording.check import check_lengths, check_samples
 from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit, unused
 from rwn.recording.formats import Table, read_table
 from rwn.recording.formats.frame import table_of_object
+from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
 
 Array = NDArray[np.float64]
@@ -65,6 +67,15 @@ class Recording:
         return len(self.time)
 
     @property
+    def content(self) -> str:
+        """What tells its samples from those of any other recording, whatever its name."""
+        digest = hashlib.sha256()
+        for name, values in sorted({"time": self.time, **self.signals}.items()):
+            digest.update(name.encode())
+            digest.update(values.data)
+        return digest.hexdigest()
+
+    @property
     def duration(self) -> float:
         """From the first to the last sample [s]."""
         return float(self.time[-1] - self.time[0]) if len(self) else 0.0
@@ -101,7 +112,9 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
     time = values.pop(TIME.name, None)
     time = _counted_time(table, layout) if time is None else time
     ordered = {name: values[name] for name in SIGNALS if name in values}
-    warnings = check_samples(time, ordered, where=table.where, row=lambda k: f"{table.where}, {table.row(k)}")
+    check_lengths(time, ordered, where=table.where)
+    time, ordered, row = selected(time, ordered, layout, where=table.where, row=table.row)
+    warnings = check_samples(time, ordered, where=table.where, row=lambda k: f"{table.where}, {row(k)}")
     return Recording(
         name=Path(source).name if is_path else table.where,
         time=time,
