@@ -19,10 +19,10 @@ class InputError(ValueError):
         super().__init__(" ".join("; ".join(part for part in parts if part).split()))
 
 
-def plain(text: str) -> str:
+def plain(text: str, *, longest: int = LONGEST) -> str:
     """A text for a terminal: control characters escaped (a file may hold such), cut where it is very long."""
-    shown = "".join(c if c.isprintable() or c in "\n\t\r" else repr(c)[1:-1] for c in text[: LONGEST + 1])
-    return shown if len(shown) <= LONGEST else shown[:LONGEST] + " .."
+    shown = "".join(c if c.isprintable() or c in "\n\t\r" else repr(c)[1:-1] for c in text[: longest + 1])
+    return shown if len(shown) <= longest else shown[:longest] + " .."
 
 
 def closest(name: str, names: Iterable[str]) -> str | None:
