@@ -7,13 +7,14 @@ import importlib.util
 import os
 import shlex
 import sys
+import threading
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, plain, unknown
 
 if TYPE_CHECKING:
     from rwn.report.diagnosis import Diagnosis
@@ -44,7 +45,7 @@ def diagnose(
     heldout: Annotated[
         list[Path] | None, typer.Option("--heldout", help="A file to judge by, never fitted to; repeatable.")
     ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of everything random.")] = 0,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processors to use (default: all).")] = None,
     overwrite: Overwrite = False,
 ) -> None:
@@ -55,7 +56,7 @@ def diagnose(
     from rwn.report.provenance import source
 
     _refuse_strays(sys.argv)
-    with output_folder(out, overwrite=overwrite) as aside:
+    with output_folder(out, overwrite=overwrite, inputs=[model, *recordings, *(heldout or [])]) as aside:
         nominal = read_model(model)
         files = read_recordings([*recordings, *(heldout or [])], nominal)
         fitted, judged = files[: len(recordings)], files[len(recordings) :]
@@ -73,7 +74,8 @@ def diagnose(
 
 def _refuse_strays(arguments: list[str]) -> None:
     """A file after `--heldout FILE` would be fitted to, which is hardly what is meant."""
-    for flag, kept, stray in zip(arguments, arguments[1:], arguments[2:], strict=False):
+    apart = [part for text in arguments for part in (text.split("=", 1) if text.startswith("--heldout=") else [text])]
+    for flag, kept, stray in zip(apart, apart[1:], apart[2:], strict=False):
         if flag == "--heldout" and not stray.startswith("-"):
             raise InputError(
                 f"'{stray}' follows --heldout {kept}",
@@ -91,21 +93,25 @@ def simulate(
     ],
     out: Annotated[Path, typer.Option("--out", help="CSV to write.")],
     overwrite: Overwrite = False,
+    partial: Annotated[bool, typer.Option("--partial", help="Write a run that did not reach its end too.")] = False,
 ) -> None:
-    """Run a model freely from the input signal of a recording."""
+    """Run a model freely from the input signal of a recording; exit code 3 where the run does not reach its end."""
     from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.recording.recording import write_csv
     from rwn.report.files import output_file
 
-    with output_file(out, overwrite=overwrite) as aside:
+    with output_file(out, overwrite=overwrite, inputs=[model, recording]) as aside:
         drive = read_model(model)
         (source,) = read_recordings([recording], drive, compared=False)
         run = _rwn().simulate(drive, source)
-        write_csv(aside, run.time, run.signals, linear=drive.linear)
-    typer.echo(f"{len(run.time)} samples of {', '.join(run.signals)} in {out}")
+        if run.status == "ok" or partial:
+            write_csv(aside, run.time, run.signals, linear=drive.linear)
     if run.status != "ok":
-        typer.echo(f"warning: {run.status}: {run.advice} The signals are held from there on.", err=True)
+        done = f"The signals in {out} are held from there on." if partial else "Nothing was written."
+        typer.echo(f"rwn: {run.status}: {run.advice} {done}", err=True)
+        raise typer.Exit(3)
+    typer.echo(f"{len(run.time)} samples of {', '.join(run.signals)} in {out}")
 
 
 @app.command()
@@ -135,7 +141,8 @@ def identify(
     from rwn.report import text as words
     from rwn.report.files import output_file
 
-    with output_file(out, overwrite=overwrite) if out else nullcontext() as aside:
+    inputs = [model, *recordings]
+    with output_file(out, overwrite=overwrite, inputs=inputs) if out else nullcontext() as aside:
         nominal = read_model(model)
         fit = _rwn().identify(read_recordings(recordings, nominal), nominal)
         if aside is not None:
@@ -264,6 +271,9 @@ def main() -> None:
     except (ValueError, OSError) as error:
         _refuse(error)
     except typer.Abort:
+        print("rwn: stopped", file=sys.stderr, flush=True)
+        if threading.active_count() > 1:
+            os._exit(130)  # what still computes in threads would be waited for
         sys.exit(130)
     except Exception as error:
         if not hasattr(error, "format_message"):  # what typer raises for wrong usage has it
@@ -285,5 +295,5 @@ def _refuse(error: Exception) -> None:
         text = f"{error.filename}: {error.strerror}; expected a file in reach; fix: check path, permissions, disk space"
     else:
         text = str(error)
-    print("rwn: " + " ".join(text.split()), file=sys.stderr)
+    print("rwn: " + plain(" ".join(text.split()), longest=4000), file=sys.stderr)
     sys.exit(2)

@@ -4,30 +4,33 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import reduce
+from pathlib import Path
+from typing import Any
 
 from rwn.correct.correction import correct
 from rwn.decide.decision import decide
+from rwn.errors import InputError
 from rwn.faults.explain import explained
 from rwn.faults.fault import without
 from rwn.fit.late_enable import late_enables, powered
+from rwn.model.files import model_of
 from rwn.model.model import Model
+from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
 from rwn.name.forward import Progress
 from rwn.parallel import crew
 from rwn.recording.inspection import inspected
-from rwn.recording.recording import Recording
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
 from rwn.simulate.run import judging_run
 
 
 def diagnose(
-    recordings: Sequence[Recording],
-    model: Model,
+    recordings: Any,
+    model: Model | str | Path,
     *,
-    heldout: Sequence[Recording] = (),
+    heldout: Any = (),
     seed: int = 0,
     jobs: int | None = None,
     progress: Progress | None = None,
@@ -35,8 +38,8 @@ def diagnose(
     """What physics the model leaves out of these recordings, proved on recordings that were not fitted.
 
     Args:
-        recordings: runs to judge the model from, SI, time first.
-        model: the nominal model with its declared uncertainty.
+        recordings: runs to judge the model from: one or several of paths, tables in Python and recordings.
+        model: the nominal model with its declared uncertainty, or its file.
         heldout: runs used for proof alone; without them every recording is judged by fits that did not see it.
         seed: of the block bootstrap; the result depends on input and seed alone.
         jobs: threads (default: all processors); the result does not depend on it.
@@ -46,12 +49,16 @@ def diagnose(
         The verdict, located region, named effects with intervals, corrected model and the curves that show it.
 
     Raises:
-        InputError: where a recording does not fit the model.
+        InputError: where a recording is not usable, does not fit the model, or is given twice.
     """
     began = time.perf_counter()
     say = progress or _silent
-    recordings, findings = inspected(recordings)
-    heldout, unseen_findings = inspected(heldout)
+    _check_options(seed, jobs)
+    model = model_of(model)
+    fitted, judged = recordings_to_fit(recordings, model), read_recordings(heldout, model)
+    refuse_doubles([*fitted, *judged])
+    recordings, findings = inspected(fitted)
+    heldout, unseen_findings = inspected(judged)
     with crew(jobs or os.cpu_count() or 1):
         found = explained(recordings, model, say=say)
         model = found.model
@@ -68,6 +75,17 @@ def diagnose(
         layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
         made = replace(made, corrected=replace(made.corrected, recording=layout))
         return replace(made, findings=(*findings, *found.findings, *unseen_findings))
+
+
+def _check_options(seed: int, jobs: int | None) -> None:
+    for name, value, least in (("seed", seed, 0), ("jobs", 1 if jobs is None else jobs, 1)):
+        if isinstance(value, bool) or not isinstance(value, int) or value < least:
+            raise InputError(
+                f"{name} is {value!r}",
+                where="diagnose",
+                expected=f"a whole number from {least}",
+                fix=f"pass {name}={least}",
+            )
 
 
 def _silent(what: str, done: float) -> None:

@@ -5,15 +5,24 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+LONGEST = 500  # characters of one part of a message
+
 
 class InputError(ValueError):
     """Input that cannot be used. `str()` is one line: `where: what; expected ...; fix: ...`."""
 
     def __init__(self, what: str, *, where: object = "", expected: str = "", fix: str = "") -> None:
-        self.what, self.where, self.expected, self.fix = what, str(where), expected, fix
+        self.what, self.where, self.expected, self.fix = (plain(text) for text in (what, str(where), expected, fix))
+        what = self.what
         head = f"{self.where}: {what}" if self.where else what
         parts = [head, f"expected {expected}" if expected else "", f"fix: {fix}" if fix else ""]
         super().__init__(" ".join("; ".join(part for part in parts if part).split()))
+
+
+def plain(text: str, *, longest: int = LONGEST) -> str:
+    """A text for a terminal: control characters escaped (a file may hold such), cut where it is very long."""
+    shown = "".join(c if c.isprintable() or c in "\n\t\r" else repr(c)[1:-1] for c in text[: longest + 1])
+    return shown if len(shown) <= longest else shown[:longest] + " .."
 
 
 def closest(name: str, names: Iterable[str]) -> str | None:

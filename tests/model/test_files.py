@@ -18,10 +18,16 @@ from rwn.fit.preparation import prepare
 from rwn.model.drives import KINDS
 from rwn.model.files import read_model, write_model
 from rwn.model.model import Model
-from rwn.model.vocabulary import table
+from rwn.model.vocabulary import Parameter, table
 
 POSITIVE = st.floats(1e-9, 1e6)
-SIZES = st.floats(-1e6, 1e6)
+
+
+def sizes(parameter: Parameter) -> st.SearchStrategy[float]:
+    """Values that a parameter can have: within its bounds, of any size where these depend on the recording."""
+    if not parameter.scale.powers:
+        return st.floats(parameter.scale.factor * parameter.lower, parameter.scale.factor * parameter.upper)
+    return st.floats(0.0 if parameter.lower >= 0.0 else -1e6, 1e6)
 
 
 @st.composite
@@ -41,7 +47,7 @@ def models(draw: st.DrawFn) -> Model:
         if takes_over & replaced:
             continue
         replaced |= takes_over
-        effects[name] = {p.name: draw(SIZES) for p in table()[name].parameters}
+        effects[name] = {p.name: draw(sizes(p)) for p in table()[name].parameters}
     parameters = {n: v for n, v in parameters.items() if n not in replaced}
     uncertainty = {n: v for n, v in uncertainty.items() if n in parameters}
     return Model(kind=kind, parameters=parameters, uncertainty=uncertainty, effects=effects, linear=linear)

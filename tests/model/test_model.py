@@ -119,9 +119,9 @@ def test_a_model_cannot_be_changed_from_outside() -> None:
     [
         ({"kind": "DC"}, "unknown kind 'DC'.*did you mean 'dc'"),
         ({"parameters": {"resistence": 1.0}}, "unknown parameter 'resistence'.*did you mean 'resistance'"),
-        ({"uncertainty": {"inertias": 0.1}}, "uncertainty: unknown parameter 'inertias'"),
+        ({"uncertainty": {"inertias": 0.1}}, r"\[uncertainty\]: unknown parameter 'inertias'"),
         ({"effects": {"quadratic_drag": {}}}, "unknown effect.*did you mean 'quadratic-drag'"),
-        ({"effects": {"quadratic-drag": {"coefficient": 1e-6}}}, "effects.quadratic-drag: unknown parameter"),
+        ({"effects": {"quadratic-drag": {"coefficient": 1e-6}}}, r"\[effects.quadratic-drag\]: unknown parameter"),
     ],
 )
 def test_a_name_that_nobody_knows_is_refused(wrong: dict[str, Any], said: str) -> None:

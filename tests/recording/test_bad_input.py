@@ -11,7 +11,7 @@ import pytest
 import scipy.io
 
 from rwn import cli
-from rwn.recording.formats import MAX_BYTES
+from rwn.recording.formats.csv import BLOCK
 
 MODEL = """
 [motor]
@@ -294,23 +294,27 @@ def test_folder_instead_of_a_recording(refuse: Callable[..., str], tmp_path: Pat
 
 
 def test_unknown_kind_of_file(refuse: Callable[..., str]) -> None:
-    assert "'.xlsx'" in refuse(_csv(), name="run.xlsx")
+    assert "'.pdf'" in refuse(_csv(), name="run.pdf")
+
+
+def test_no_spreadsheet(refuse: Callable[..., str]) -> None:
+    pytest.importorskip("python_calamine")
+    assert "the spreadsheet cannot be read" in refuse(_csv(), name="run.xlsx")
 
 
 def test_unreadable_file(refuse: Callable[..., str], monkeypatch: pytest.MonkeyPatch) -> None:
-    def deny(_: Path) -> bytes:
+    def deny(*_: object) -> str:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "read_bytes", deny)
+    monkeypatch.setattr("rwn.recording.formats.csv.encoding_of", deny)
     assert "permission denied" in refuse(_csv())
 
 
-def test_enormous_file(refuse: Callable[..., str], tmp_path: Path) -> None:
+def test_a_line_that_does_not_end(refuse: Callable[..., str], tmp_path: Path) -> None:
     with (tmp_path / "run.csv").open("wb") as file:
-        file.truncate(MAX_BYTES + 2**20)
+        file.write(b"1,2,3,4," * (BLOCK // 8 + 1))
     line = refuse()
-    assert "257 MB" in line
-    assert "at most 256 MB" in line
+    assert "line 1: the line is longer" in line
 
 
 def test_mat_without_a_column_map(refuse: Callable[..., str], tmp_path: Path) -> None:
@@ -323,7 +327,7 @@ def test_mat_without_a_column_map(refuse: Callable[..., str], tmp_path: Path) ->
 def test_mat_with_a_wrong_map(refuse: Callable[..., str], tmp_path: Path) -> None:
     scipy.io.savemat(tmp_path / "run.mat", {"RawData": {"Velo": np.zeros(9), "Time": np.zeros(9)}})
     model = MODEL + '[recording]\ncolumns.speed = { source = "RawData.Vello", unit = "rad/s" }\n'
-    assert "did you mean 'Velo'" in refuse(None, model, name="run.mat")
+    assert "did you mean 'RawData.Velo'" in refuse(None, model, name="run.mat")
 
 
 def test_no_mat_file(refuse: Callable[..., str]) -> None:
@@ -354,7 +358,7 @@ def test_a_folder_that_takes_no_files(refuse: Callable[..., str], monkeypatch: p
     def deny(**_: object) -> None:
         raise OSError(30, "Read-only file system")
 
-    monkeypatch.setattr("rwn.report.files.tempfile.TemporaryFile", deny)
+    monkeypatch.setattr("rwn.report.files.tempfile.mkdtemp", deny)
     line = refuse(_csv())
     assert "cannot be written" in line
     assert "choose another --out" in line

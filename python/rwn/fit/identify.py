@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
@@ -12,8 +14,9 @@ from rwn.fit.intervals import Estimate, deviations, estimates
 from rwn.fit.noise import noise_of
 from rwn.fit.preparation import prepare
 from rwn.fit.residuals import Statistics, statistics
+from rwn.model.files import model_of
 from rwn.model.model import Model
-from rwn.recording.recording import Recording
+from rwn.model.recordings import recordings_to_fit
 
 LEARNED = 0.9  # standard deviation after the fit over the declared one, above which recordings say nothing
 
@@ -30,14 +33,18 @@ class Identification:
     residual_over_noise: float  # rms, 1: nothing but noise is left
 
 
-def identify(recordings: Sequence[Recording], model: Model) -> Identification:
+def identify(recordings: Any, model: Model | str | Path) -> Identification:
     """Fits the uncertain parameters of `model` to the free run over all recordings.
+
+    `recordings`: one or several of paths, tables in Python and recordings; `model`: a model or its file.
 
     Intervals are 95 %, widened for what the residual's variance and colour say; declared uncertainties are priors.
     Raises InputError where a recording does not fit the model.
     """
-    model = with_intersample(recordings, model)
-    problem = prepare(recordings, model)
+    model = model_of(model)
+    runs = recordings_to_fit(recordings, model)
+    model = with_intersample(runs, model)
+    problem = prepare(runs, model)
     this = fit_nominal(problem)
     problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))
     this = fit_nominal(problem)

@@ -18,6 +18,20 @@ def read_model(path: str | Path, *, effects: EffectTable | None = None) -> Model
     return parse_model(_read_text(Path(path)), where=str(path), effects=effects)
 
 
+def model_of(source: Model | str | Path) -> Model:
+    """A model, or the one that a file describes. Raises InputError."""
+    if isinstance(source, Model):
+        return source
+    if isinstance(source, str | Path):
+        return read_model(source)
+    raise InputError(
+        f"a model cannot be read from the {type(source).__name__}",
+        where="model",
+        expected="a path, or a rwn.Model",
+        fix='pass for instance "motor.toml"',
+    )
+
+
 def write_model(model: Model, path: str | Path) -> None:
     """Write a model file that `read_model` reads back as an equal model."""
     Path(path).write_text(format_model(model), encoding="utf-8")
@@ -29,6 +43,14 @@ def _read_text(path: Path) -> str:
             "this is a folder", where=path, expected="a model file (TOML)", fix="name the file in it"
         )
     try:
+        if not path.is_file():
+            path.stat()  # says why, where there is nothing
+            raise InputError(
+                "this is not a regular file",
+                where=path,
+                expected="a model file (TOML)",
+                fix="save the model to a file first",
+            )
         if path.stat().st_size > 2**20:
             raise InputError(
                 "the model file is larger than 1 MB",

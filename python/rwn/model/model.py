@@ -13,7 +13,15 @@ from numpy.typing import NDArray
 
 from rwn.errors import unknown
 from rwn.model import drives, vocabulary
-from rwn.model.drives.drive import Drive, NominalParameter
+from rwn.model.checks import (
+    LARGEST,
+    LARGEST_COEFFICIENT,
+    check_effect,
+    check_nominal,
+    check_numbers,
+    check_uncertainty,
+)
+from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
 from rwn.model.own_effects import OwnEffect, check_constants, check_own_effects, with_own
 from rwn.model.vocabulary import Effect
 from rwn.recording.columns import Layout
@@ -40,6 +48,12 @@ class EffectEntry(Protocol):
 EffectTable = Mapping[str, EffectEntry]
 
 GRAVITY = 9.80665  # standard gravity [m/s^2]
+LOADS = {
+    "pendulum": (
+        NominalParameter(name="mass", unit="kg", meaning="mass of the pendulum", positive=True),
+        NominalParameter(name="length", unit="m", meaning="from the axis to its centre of mass", positive=True),
+    )
+}
 NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
 
 
@@ -68,6 +82,9 @@ class Model:
     def __post_init__(self) -> None:
         if self.kind not in drives.KINDS:
             raise unknown("kind", self.kind, drives.KINDS, where=self.source or "model")
+        if self.linear and drives.KINDS[self.kind].on_a_line is None:
+            on_a_line = [kind for kind, drive in drives.KINDS.items() if drive.on_a_line]
+            raise refused_linear(self.linear, self.source or "model", on_a_line)
         for name in ("parameters", "uncertainty"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
         for name in ("effects", "load"):
@@ -76,23 +93,34 @@ class Model:
         if self.own_effects:
             where = self.source or "model"
             check_own_effects(self.own_effects, self.drive, where=f"{where}, [own_effects]")
-            check_constants(self.own_effects, self.effects, where=where)
             own = tuple(e if e.drive == self.drive else replace(e, drive=self.drive) for e in self.own_effects)
             object.__setattr__(self, "own_effects", own)
-        self._check_names()
+        self._check()
 
-    def _check_names(self) -> None:
-        """A name that nobody knows would be left out of the simulation without a word."""
+    def _check(self) -> None:
+        """A name that nobody knows would be left out of the simulation without a word, a value taken as it is."""
         where = self.source or "model"
-        _require(self.parameters, "parameter", [p.name for p in self.nominal], where=where)
-        _require(self.uncertainty, "parameter", [p.name for p in self.nominal], where=f"{where}, uncertainty")
-        if not self.effects:
-            return
-        table = self.effect_table
-        _require(self.effects, "effect", table, where=f"{where}, effects")
+        motor, doubt = f"{where}, [motor]", f"{where}, [uncertainty]"
+        table = self.effect_table if self.effects else {}
+        places = {name: f"{where}, [effects.{name}]" for name in self.effects}
+        _require(self.parameters, "parameter", [p.name for p in self.nominal], where=motor)
+        _require(self.uncertainty, "parameter", [p.name for p in self.nominal], where=doubt)
+        _require(self.effects, "effect", table, where=f"{where}, [effects]")
         for name, values in self.effects.items():
-            known = [p.name for p in table[name].parameters]
-            _require(values, "parameter", known, where=f"{where}, effects.{name}")
+            _require(values, "parameter", [p.name for p in table[name].parameters], where=places[name])
+        _require(self.load, "load", LOADS, where=f"{where}, [load]")
+
+        check_numbers(self.parameters, where=motor, largest=LARGEST_COEFFICIENT if self.drive.coefficients else LARGEST)
+        check_nominal(self.parameters, self.nominal, linear=self.linear, where=motor)
+        check_numbers(self.uncertainty, where=doubt)
+        check_uncertainty(self.uncertainty, self.parameters, where=doubt)
+        for name, values in self.effects.items():
+            check_numbers(values, where=places[name])
+            check_effect(table[name], values, where=places[name])
+        for name, values in self.load.items():
+            check_numbers(values, where=f"{where}, [load.{name}]")
+            check_nominal(values, LOADS[name], linear=False, where=f"{where}, [load.{name}]")
+        check_constants(self.own_effects, self.effects, where=where)
 
     @cached_property
     def effect_table(self) -> Mapping[str, Effect]:

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from rwn.errors import InputError
 from rwn.model.model import Model
 from rwn.model.start import start_of
+from rwn.recording.check import MIN_SAMPLES, check_samples
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import SIGNALS
 
 
 def check_recording(recording: Recording, model: Model, *, compared: bool = True) -> Recording:
-    """It has the signals that the model needs, in its kind of units, and they move. Raises InputError.
+    """Its samples are usable, it has the signals that the model needs, in its units, and they move. Raises InputError.
 
     `compared`: with something measured to compare a simulation with; its input alone will do otherwise.
     """
     where = recording.source or recording.name
     drive = model.drive
+    check_samples(
+        recording.time, recording.signals, where=where, row=lambda k: f"{where}, sample {k + 1}",
+        fewest=MIN_SAMPLES if compared else 2,
+    )  # fmt: skip
     if drive.input not in recording.signals:
         raise _missing(recording, drive.input, f"the input of a drive of kind '{model.kind}'")
     if compared and not any(name in recording.signals for name in drive.outputs):
@@ -34,7 +39,8 @@ def check_recording(recording: Recording, model: Model, *, compared: bool = True
             expected="rad and rad/s" if wants == "rotary" else "m and m/s",
             fix="set linear in [motor], or map the column with a scale such as 0.01 m/rad",
         )
-    return replace(recording, warnings=recording.warnings + _check_movement(recording, model, where))
+    warnings = (*recording.warnings, *_check_movement(recording, model, where))
+    return replace(recording, warnings=tuple(dict.fromkeys(warnings)))
 
 
 def _missing(recording: Recording, name: str, why: str) -> InputError:
@@ -71,21 +77,48 @@ def _check_movement(recording: Recording, model: Model, where: str) -> tuple[str
     return (f"{where}: '{drive.input}' is constant: a single step says little about what is missing",)
 
 
-def read_recordings(paths: Iterable[str | Path], model: Model, *, compared: bool = True) -> list[Recording]:
-    """Read and check every file against the model. Raises InputError, also for a file given twice.
+def read_recordings(sources: Any, model: Model, *, compared: bool = True) -> list[Recording]:
+    """Read and check every recording against the model.
 
-    `compared`: see `check_recording`.
+    `sources`: one or several of paths, tables in Python (see `read_recording`) and recordings. `compared`: see
+    `check_recording`. Raises InputError, also for a recording that is given twice.
     """
-    recordings: list[Recording] = []
-    seen: set[Path] = set()
-    for path in map(Path, paths):
-        if path.resolve() in seen:
+    recordings = [
+        check_recording(
+            one if isinstance(one, Recording) else read_recording(one, layout=model.recording), model, compared=compared
+        )
+        for one in _listed(sources)
+    ]
+    refuse_doubles(recordings)
+    return recordings
+
+
+def recordings_to_fit(sources: Any, model: Model) -> list[Recording]:
+    """As `read_recordings`, at least one. Raises InputError."""
+    recordings = read_recordings(sources, model)
+    if not recordings:
+        raise InputError(
+            "no recording is given", where="recordings", expected="at least one", fix="pass the recordings to fit to"
+        )
+    return recordings
+
+
+def refuse_doubles(recordings: Sequence[Recording]) -> None:
+    """Raises InputError where two recordings hold the same samples, whatever they are called and wherever they are."""
+    seen: dict[str, Recording] = {}
+    for recording in recordings:
+        other = seen.setdefault(recording.content, recording)
+        if other is not recording:
             raise InputError(
-                "the file is given twice",
-                where=path,
+                f"the same recording is given twice, as {other.source or other.name} too",
+                where=recording.source or recording.name,
                 expected="each recording once",
                 fix="remove one of them: a recording cannot judge itself",
             )
-        seen.add(path.resolve())
-        recordings.append(check_recording(read_recording(path, layout=model.recording), model, compared=compared))
-    return recordings
+
+
+def _listed(sources: Any) -> list[Any]:
+    """The sources one by one: a path, a table or a recording stands for itself."""
+    if isinstance(sources, list | tuple) or hasattr(sources, "__next__"):
+        return list(sources)
+    return [sources]

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rwn.errors import InputError, unknown
+from rwn.model.checks import check_numbers
 from rwn.model.drives import KINDS
 from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
-from rwn.model.model import EffectTable, Model, effect_table
+from rwn.model.model import LOADS, EffectTable, Model, effect_table
 from rwn.model.own_effects import OwnEffect, check_own_effects
 from rwn.model.toml_own_effects import from_entry
 from rwn.model.toml_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
 from rwn.recording import units
 from rwn.recording.columns import Column, Layout
 from rwn.recording.signals import COLUMNS, MEASURED, TIME
-
-_PENDULUM = (
-    NominalParameter(name="mass", unit="kg", meaning="mass of the pendulum", positive=True),
-    NominalParameter(name="length", unit="m", meaning="distance from the axis to its centre of mass", positive=True),
-)
 
 
 def parse_model(text: str, *, where: str, effects: EffectTable | None = None) -> Model:
@@ -36,7 +33,7 @@ def parse_model(text: str, *, where: str, effects: EffectTable | None = None) ->
     return Model(
         kind=drive.kind,
         parameters=parameters,
-        uncertainty=_uncertainty(file.uncertainty, parameters, f"{where}, [uncertainty]"),
+        uncertainty=_uncertainty(file.uncertainty, drive.nominal(order), f"{where}, [uncertainty]"),
         effects=_effects(file.effects, own, effects, where) if file.effects else {},
         own_effects=tuple(own.values()),
         load=_load(file.load, drive, where),
@@ -75,24 +72,8 @@ def _values(
     values: dict[str, float] = {}
     for name, entry in entries.items():
         unit = (entry.linear_unit if linear else entry.unit) or entry.unit
-        if name not in given:
-            if entry.required:
-                raise InputError(
-                    f"there is no {name} ({entry.meaning})",
-                    where=where,
-                    expected=f"a number in {unit}",
-                    fix=f"add {name} = ... from the data sheet, and its doubt under [uncertainty]",
-                )
-            continue
-        values[name] = value = _number(given[name], unit, f"{where} {name}")
-        signed = name[0] in "ab" and name[1:].isdigit()  # coefficients of a transfer function
-        if (value < 0 and not signed) or (entry.positive and value == 0):
-            raise InputError(
-                f"{name} is {value:g} {unit}",
-                where=where,
-                expected="a positive number" if entry.positive else "a number that is not negative",
-                fix="correct the value or its unit",
-            )
+        if name in given:
+            values[name] = _number(given[name], unit, f"{where} {name}")
     return values
 
 
@@ -108,40 +89,18 @@ def _number(value: Any, unit: str, where: str) -> float:
             fix=f'write for instance 0.4 or "0.4 {unit}"',
         )
     else:
-        number = float(value)
-    if not math.isfinite(number):
-        raise InputError(
-            f"the value is {number}",
-            where=where,
-            expected=f"a finite number in {unit}",
-            fix="write the number; where it is unknown, a guess with a large uncertainty",
-        )
-    return number
+        number = value
+    return math.inf if abs(number) > sys.float_info.max else float(number)  # a whole number may be too long for one
 
 
 def _uncertainty(
-    given: Mapping[str, Number], parameters: Mapping[str, float], where: str
+    given: Mapping[str, Number], known: Iterable[NominalParameter], where: str
 ) -> dict[str, float]:
-    values: dict[str, float] = {}
-    for name, value in given.items():
-        if name not in parameters:
-            raise unknown("parameter", name, parameters, where=where)
-        values[name] = number = _number(value, "dimensionless", f"{where} {name}")
-        if number < 0:
-            raise InputError(
-                f"{name} is {number:g}",
-                where=where,
-                expected="a relative standard deviation, 0.1 = 10 %",
-                fix="write it without a sign",
-            )
-        if number > 0 and parameters[name] == 0:
-            raise InputError(
-                f"{name} is relative to a nominal value of 0",
-                where=where,
-                expected="a nominal value that is not 0",
-                fix="give a guess in [motor]",
-            )
-    return values
+    names = [entry.name for entry in known]
+    for name in given:
+        if name not in names:
+            raise unknown("parameter", name, names, where=where)
+    return {name: _number(value, "dimensionless", f"{where} {name}") for name, value in given.items()}
 
 
 def _effects(
@@ -160,14 +119,6 @@ def _effects(
         for key in values:
             if key not in entries:
                 raise unknown("parameter", key, entries, where=place)
-        for key, entry in entries.items():
-            if key not in values and not entry.fixed:
-                raise InputError(
-                    f"there is no {key}",
-                    where=place,
-                    expected=f"a number in {entry.unit}",
-                    fix=f"add {key} = ...",
-                )
         found[name] = {k: _number(v, _si(entries[k].unit), f"{place} {k}") for k, v in values.items()}
     second = [name for name in found if getattr(table[name], "second_mass", False)]
     if len(second) > 1:
@@ -195,16 +146,23 @@ def _load(load: LoadTable, drive: Drive, where: str) -> dict[str, dict[str, floa
             expected="a rotary drive of kind dc or axis",
             fix="remove [load.pendulum]",
         )
-    return {"pendulum": _values(load.pendulum, _PENDULUM, linear=False, where=place)}
+    return {"pendulum": _values(load.pendulum, LOADS["pendulum"], linear=False, where=place)}
 
 
 def _layout(given: RecordingTable, where: str) -> Layout:
     columns = {
         name: _column(name, column, f"{where} columns.{name}") for name, column in given.columns.items()
     }
-    time = (
-        None if given.sample_time is None else _number(given.sample_time, TIME.unit, f"{where} sample_time")
-    )
+    for source, name in given.rename.items():
+        if name in columns:
+            raise InputError(
+                f"'{name}' is mapped and renamed to",
+                where=f"{where} rename",
+                expected="one source for each signal",
+                fix=f"remove columns.{name}, or the renaming",
+            )
+        columns[name] = _column(name, ColumnEntry(source=source), f"{where} rename")
+    time = None if given.sample_time is None else _seconds(given.sample_time, f"{where} sample_time")
     if time is not None and time <= 0:
         raise InputError(
             f"sample_time is {time:g} s",
@@ -212,15 +170,22 @@ def _layout(given: RecordingTable, where: str) -> Layout:
             expected="a positive time",
             fix="write for instance 0.001",
         )
-    if given.initial_samples < 1:
+    for name, count in (("initial_samples", given.initial_samples), ("decimate", given.decimate)):
+        if count < 1:
+            raise InputError(
+                f"{name} is {count}", where=where, expected="a positive whole number", fix="write for instance 20"
+            )
+    start, end = (
+        None if value is None else _seconds(value, f"{where} {name}")
+        for name, value in (("from", given.start), ("to", given.end))
+    )
+    if start is not None and end is not None and not start < end:
         raise InputError(
-            f"initial_samples is {given.initial_samples}",
-            where=where,
-            expected="a positive whole number",
-            fix="write for instance 20",
+            f"from is {start:g} s, to is {end:g} s", where=where, expected="from before to", fix="exchange them"
         )
     return Layout(
         columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples,
+        start=start, end=end, decimate=given.decimate,
         intersample=given.intersample, delays=_delays(given.delays, f"{where} delays"),
     )  # fmt: skip
 
@@ -232,17 +197,23 @@ def _delays(given: dict[str, Number], where: str) -> dict[str, float]:
     return {name: _number(delay, TIME.unit, f"{where}.{name}") for name, delay in given.items()}
 
 
+def _seconds(value: Number, where: str) -> float:
+    seconds = _number(value, TIME.unit, where)
+    check_numbers({"": seconds}, where=where)
+    return seconds
+
+
 def _column(name: str, given: ColumnEntry, where: str) -> Column:
     if name not in COLUMNS:
         raise unknown("signal", name, COLUMNS, where=where)
     scale, unit = (
         (given.scale, "") if isinstance(given.scale, float | int) else units.split(given.scale, where=where)
     )
-    if not math.isfinite(scale) or scale == 0:
+    if not 1e-15 <= abs(scale) <= 1e15:
         raise InputError(
-            f"scale is {scale:g}",
+            f"scale is {scale}",
             where=where,
-            expected="a finite number that is not 0",
+            expected="a number that is not 0, from 1e-15 to 1e15 in size",
             fix="write 1, a gear ratio, -1 for a wrong sign, or text with a unit",
         )
     return Column(source=given.source, unit=given.unit, scale=float(scale), scale_unit=unit)

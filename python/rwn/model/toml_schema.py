@@ -28,6 +28,10 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     initial_samples: int = 20
     intersample: Intersample = "auto"
     delays: dict[str, Number] = {}
+    start: Number | None = msgspec.field(default=None, name="from")
+    end: Number | None = msgspec.field(default=None, name="to")
+    decimate: int = 1
+    rename: dict[str, str] = {}
 
 
 class LoadTable(msgspec.Struct, forbid_unknown_fields=True):
@@ -53,6 +57,13 @@ def decode(text: str, where: str) -> File:
             expected="lines such as inertia = 1.8e-4",
             fix="correct that line; text needs quotes, numbers a decimal point",
         ) from error
+    except (RecursionError, ValueError) as error:  # tables within tables, numbers of thousands of digits
+        raise InputError(
+            "the file nests too deep" if isinstance(error, RecursionError) else "a number has too many digits",
+            where=where,
+            expected="lines such as inertia = 1.8e-4",
+            fix="write the model as docs/models.md shows",
+        ) from error
     if "motor" not in plain:
         meant = closest("motor", plain)
         raise InputError(
@@ -65,6 +76,13 @@ def decode(text: str, where: str) -> File:
         return msgspec.convert(plain, File)
     except msgspec.ValidationError as error:
         raise _worded(str(error), where) from error
+    except (RecursionError, OverflowError) as error:
+        raise InputError(
+            "a value nests too deep, or is too large",
+            where=where,
+            expected="lines such as inertia = 1.8e-4",
+            fix="write the model as docs/models.md shows",
+        ) from error
 
 
 def _worded(message: str, where: str) -> InputError:
@@ -74,7 +92,7 @@ def _worded(message: str, where: str) -> InputError:
     place = f"{where}, [{'.'.join(keys)}]" if keys else where
     found = re.search(r"unknown field `(.+)`", what)
     if found:
-        return unknown("key", found[1], _table_at(keys).__struct_fields__, where=place)
+        return unknown("key", found[1], _table_at(keys).__struct_encode_fields__, where=place)
     wrong = re.search(r"[Ee]xpected `(.+?)`, got `(.+?)`", what)
     if wrong:
         names = {"float | str": "a number, or text with a unit", "str": "text in quotes", "object": "a table"}

@@ -10,18 +10,36 @@ from numpy.typing import NDArray
 from rwn.errors import InputError
 
 MIN_SAMPLES = 50
+SMALLEST, LARGEST = 1e-12, 1e12  # of the largest value of a signal in SI: no drive comes near either
 GAP_WARNED, GAP_REFUSED = 3.0, 20.0  # times the median sample time
 
 Row = Callable[[int], str]
 Array = NDArray[np.float64]
 
 
-def check_samples(time: Array, signals: Mapping[str, Array], *, where: str, row: Row) -> tuple[str, ...]:
+def check_samples(
+    time: Array, signals: Mapping[str, Array], *, where: str, row: Row, fewest: int = MIN_SAMPLES
+) -> tuple[str, ...]:
     """Finite values, time that runs forward without gaps, one length, enough samples. Returns warnings.
 
     A step in time above 20 median steps is refused (the input in between is unknown), above 3 warned of.
     `row` words the place of sample k. Raises InputError.
     """
+    check_lengths(time, signals, where=where)
+    if len(time) < fewest:
+        raise InputError(
+            f"{len(time)} samples are too few",
+            where=where,
+            expected=f"at least {fewest} samples",
+            fix="record longer or sample faster",
+        )
+    for name, values in {"time": time, **signals}.items():
+        _check_finite(name, values, row)
+    return _check_time(time, row)
+
+
+def check_lengths(time: Array, signals: Mapping[str, Array], *, where: str) -> None:
+    """Every signal has one value per instant. Raises InputError."""
     for name, values in signals.items():
         if len(values) != len(time):
             raise InputError(
@@ -30,16 +48,6 @@ def check_samples(time: Array, signals: Mapping[str, Array], *, where: str, row:
                 expected="one value per instant",
                 fix="cut them to the same instants",
             )
-    if len(time) < MIN_SAMPLES:
-        raise InputError(
-            f"{len(time)} samples are too few",
-            where=where,
-            expected=f"at least {MIN_SAMPLES} samples",
-            fix="record longer or sample faster",
-        )
-    for name, values in {"time": time, **signals}.items():
-        _check_finite(name, values, row)
-    return _check_time(time, row)
 
 
 def _check_finite(name: str, values: Array, row: Row) -> None:
@@ -50,7 +58,15 @@ def _check_finite(name: str, values: Array, row: Row) -> None:
             f"{name} is {values[bad[0]]}{others}",
             where=row(int(bad[0])),
             expected="finite numbers",
-            fix="remove the row, or cut the recording there",
+            fix="remove the row, or cut the recording there (from, to under [recording])",
+        )
+    peak = float(np.max(np.abs(values)))
+    if peak > LARGEST or 0.0 < peak < SMALLEST:
+        raise InputError(
+            f"{name} goes to {peak:g} in SI",
+            where=row(int(np.argmax(np.abs(values)))),
+            expected=f"a signal between {SMALLEST:g} and {LARGEST:g}",
+            fix="correct its unit or scale",
         )
 
 

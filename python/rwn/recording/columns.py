@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.errors import InputError, closest
+from rwn.errors import InputError, closest, plain
 from rwn.recording import units
 from rwn.recording.formats import Table
 from rwn.recording.signals import COLUMNS, Signal, meant
@@ -42,6 +42,8 @@ class Layout:
     (which they do not judge). `intersample`: how the input acted between the rows, by a name of
     `rwn.recording.intersample`; "auto": as the recordings show where they are fitted, and held where one is simulated.
     `delays` [s]: by which measured signals come late.
+    `start`, `end` [s], in the file's own time: rows outside are left out; of the rest every
+    `decimate`-th row is kept.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
@@ -50,33 +52,57 @@ class Layout:
     initial_samples: int = 20
     intersample: Intersample = "auto"
     delays: Mapping[str, float] = field(default_factory=dict)
+    start: float | None = None
+    end: float | None = None
+    decimate: int = 1
 
 
-def column_map(table: Table, layout: Layout, by_name: set[str]) -> dict[str, Column]:
+def column_map(table: Table, layout: Layout) -> dict[str, Column]:
     """Every signal's column: those of the layout, and those that the file calls by the signal's name.
 
-    Raises InputError where a column is nearly called like a signal: that is a slip, not an extra column.
+    A file without any unit is read by the map alone, where there is one. Raises InputError where a column is nearly
+    called like a signal (that is a slip, not an extra column), or none is called like one.
     """
+    by_name = set(COLUMNS) - set(layout.columns)
+    if layout.columns and not any(table.units.values()):
+        by_name = set()
     mapping = {name: Column(source=name) for name in by_name if name in table.units}
     mapping |= layout.columns
     used = {column.source for column in mapping.values()}
     for name in table.units:
-        signal = None if name in used else meant(name)
+        signal = meant(name) if by_name and name not in used else None
         if signal is not None and signal not in mapping:
             raise InputError(
                 f"column '{name}' is no known signal",
-                where=table.path,
+                where=table.where,
                 expected=", ".join(COLUMNS),
-                fix=f"did you mean '{signal}'? rename it, or map it under [recording.columns]",
+                fix=f"did you mean '{signal}'? rename it, or add to [recording]: rename = {{ '{name}' = '{signal}' }}",
             )
+    if not mapping:
+        raise InputError(
+            f"no column is called like a signal; there are {', '.join(table.units) or 'none'}",
+            where=table.where,
+            expected="a column map, [recording.columns] in the model file",
+            fix=f'write for instance: columns.speed = {{ source = "{next(iter(table.units), "w")}", unit = "rad/s" }}',
+        )
     return mapping
+
+
+def unused(table: Table, mapping: Mapping[str, Column]) -> tuple[str, ...]:
+    """A note on the columns that are no signal, if there are any."""
+    used = {column.source for column in mapping.values()}
+    extra = [plain(name, longest=40) for name in table.units if name not in used]
+    if not extra:
+        return ()
+    shown = ", ".join(extra[:8]) + (f" and {len(extra) - 8} more" if len(extra) > 8 else "")
+    return (f"{table.where}: not used: {shown}",)
 
 
 def is_linear(table: Table, mapping: Mapping[str, Column]) -> bool:
     """Whether the recording is of a linear axis: the units of position or speed say so, or a force."""
     for name in ("position", "speed"):
         if name in mapping:
-            where = f"{table.path}, column '{mapping[name].source}'"
+            where = f"{table.where}, column '{mapping[name].source}'"
             return units.has_dimension(
                 _unit(table, name, mapping[name]), COLUMNS[name].linear_unit, where=where
             )
@@ -87,7 +113,7 @@ def in_si(table: Table, name: str, column: Column, *, linear: bool) -> Array:
     """The values of signal `name` in SI."""
     signal = COLUMNS[name]
     unit = _unit(table, name, column)
-    scale = units.factor(unit, si_unit(signal, linear), where=f"{table.path}, column '{column.source}'")
+    scale = units.factor(unit, si_unit(signal, linear), where=f"{table.where}, column '{column.source}'")
     values: Array = table.columns[column.source] * (column.scale * scale)
     return values
 
@@ -97,16 +123,25 @@ def _unit(table: Table, name: str, column: Column) -> str:
         near = closest(column.source, table.units)
         raise InputError(
             f"there is no column '{column.source}' (mapped to {name})",
-            where=table.path,
+            where=table.where,
             expected="one of " + ", ".join(table.units),
             fix=f"did you mean '{near}'?" if near else "correct [recording.columns]",
         )
-    unit = column.unit if column.unit is not None else table.units[column.source]
+    written = table.units[column.source]
+    unit = column.unit if column.unit is not None else written
+    where = f"{table.where}, column '{column.source}'"
+    if unit and written and unit != written and not units.same(unit, written, where=where):
+        raise InputError(
+            f"the column is in [{written}], the map says '{unit}'",
+            where=where,
+            expected="the same unit in both",
+            fix="leave the unit out of [recording.columns], or correct the header",
+        )
     if not unit:
         shown = f"{column.source} [{si_unit(COLUMNS[name], False)}]"
         raise InputError(
             f"column '{column.source}' has no unit",
-            where=table.path,
+            where=table.where,
             expected="name [unit]",
             fix=f"write '{shown}', or give its unit under [recording.columns]",
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,10 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError
-from rwn.recording.check import check_samples
-from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit
-from rwn.recording.formats import FORMATS, MAX_BYTES, Table
+from rwn.recording.check import check_lengths, check_samples
+from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit, unused
+from rwn.recording.formats import Table, read_table
+from rwn.recording.formats.frame import table_of_object
 from rwn.recording.intersample import Acting
+from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
 
 Array = NDArray[np.float64]
@@ -67,6 +70,15 @@ class Recording:
         return len(self.time)
 
     @property
+    def content(self) -> str:
+        """What tells its samples from those of any other recording, whatever its name."""
+        digest = hashlib.sha256()
+        for name, values in sorted({"time": self.time, **self.signals}.items()):
+            digest.update(name.encode())
+            digest.update(values.data)
+        return digest.hexdigest()
+
+    @property
     def duration(self) -> float:
         """From the first to the last sample [s]."""
         return float(self.time[-1] - self.time[0]) if len(self) else 0.0
@@ -86,76 +98,33 @@ def _vector(name: str, signal: str, values: Any) -> Array:
     return copy
 
 
-def read_recording(path: str | Path, *, layout: Layout | None = None) -> Recording:
-    """Read a CSV with `name [unit]` headers, or a .mat file by the column map of `layout`.
+def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
+    """Read a file or a table in Python whose columns are called `name [unit]`, or by the column map of `layout`.
 
-    See docs/recordings.md. Raises InputError (file, line, what was expected, how to fix it) for anything that
-    is not a clean recording.
+    `source`: a path, a frame of pandas, polars or pyarrow, an xarray.Dataset or a dictionary of arrays. See
+    docs/recordings.md. Raises InputError (where, what, what was expected, how to fix it) for anything that is not a
+    clean recording.
     """
-    path, layout = Path(path), layout or Layout()
-    reader = FORMATS[_known_suffix(path)]
-    _check_size(path)
-    mapped = {column.source for column in layout.columns.values()}
-    by_name = set() if path.suffix.lower() == ".mat" else set(COLUMNS) - set(layout.columns)
-    try:
-        table = reader(path, mapped | by_name)
-    except OSError as error:
-        raise _unreadable(path, error) from error
-    mapping = column_map(table, layout, by_name)
+    layout = layout or Layout()
+    wanted = {column.source for column in layout.columns.values()} | set(COLUMNS)
+    is_path = isinstance(source, str | Path)
+    table = read_table(Path(source), wanted) if is_path else table_of_object(source, wanted)
+    mapping = column_map(table, layout)
     linear = is_linear(table, mapping)
     values = {name: in_si(table, name, column, linear=linear) for name, column in mapping.items()}
     time = values.pop(TIME.name, None)
     time = _counted_time(table, layout) if time is None else time
     ordered = {name: values[name] for name in SIGNALS if name in values}
-    warnings = check_samples(time, ordered, where=str(path), row=lambda k: f"{path}, {table.row(k)}")
+    check_lengths(time, ordered, where=table.where)
+    time, ordered, row = selected(time, ordered, layout, where=table.where, row=table.row)
+    warnings = check_samples(time, ordered, where=table.where, row=lambda k: f"{table.where}, {row(k)}")
     return Recording(
-        name=path.name, time=time, signals=ordered, source=str(path), linear=linear, warnings=warnings
-    )
-
-
-def _known_suffix(path: Path) -> str:
-    if path.suffix.lower() in FORMATS:
-        return path.suffix.lower()
-    raise InputError(
-        f"unknown kind of file '{path.suffix}'",
-        where=path,
-        expected=" or ".join(FORMATS),
-        fix="export the recording as CSV",
-    )
-
-
-def _check_size(path: Path) -> None:
-    try:
-        size = path.stat().st_size
-    except OSError as error:
-        raise _unreadable(path, error) from error
-    if path.is_dir():
-        raise InputError(
-            "this is a folder", where=path, expected="a recording file", fix="name the files in it"
-        )
-    if not path.is_file():
-        raise InputError(
-            "this is not a regular file",
-            where=path,
-            expected="a recording file",
-            fix="save the recording to a file first",
-        )
-    if size > MAX_BYTES:
-        raise InputError(
-            f"the file has {size / 2**20:.0f} MB",
-            where=path,
-            expected=f"at most {MAX_BYTES >> 20} MB",
-            fix="cut out the part to be judged, or keep every k-th row",
-        )
-
-
-def _unreadable(path: Path, error: OSError) -> InputError:
-    reason = (error.strerror or str(error)).lower()
-    return InputError(
-        f"cannot read the file ({reason})",
-        where=path,
-        expected="a readable file",
-        fix="check the path and its permissions",
+        name=Path(source).name if is_path else table.where,
+        time=time,
+        signals=ordered,
+        source=table.where,
+        linear=linear,
+        warnings=(*warnings, *unused(table, mapping)),
     )
 
 
@@ -163,7 +132,7 @@ def _counted_time(table: Table, layout: Layout) -> Array:
     if layout.sample_time is None:
         raise InputError(
             "there is no column 'time'",
-            where=table.path,
+            where=table.where,
             expected="time [s]",
             fix="add it, or give sample_time under [recording] in the model file",
         )

@@ -118,6 +118,21 @@ def has_dimension(unit: str, si_unit: str, *, where: object) -> bool:
     return bool(given.dimensionality == wanted.dimensionality)
 
 
+def same(one: str, other: str, *, where: object) -> bool:
+    """Whether numbers in both units mean the same. Raises InputError where one of them is unknown."""
+    first, second = (_registry().Quantity(1.0, _parse(unit, where=where)).to_base_units() for unit in (one, other))
+    return bool(first.units == second.units and abs(first.magnitude / second.magnitude - 1.0) < 1e-9)
+
+
+def is_unit(text: str) -> bool:
+    """Whether `text` can be read as a unit."""
+    try:
+        _parse(text, where="")
+    except InputError:
+        return False
+    return True
+
+
 def sample(unit: str, value: float) -> Any:
     """`value` of `unit` as a quantity that refuses sums of unlike kinds; for checking formulas."""
     return _registry().Quantity(

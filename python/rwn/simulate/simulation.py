@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.errors import InputError
+from rwn.model.files import model_of
 from rwn.model.model import Model
+from rwn.model.recordings import read_recordings
 from rwn.recording.delays import as_shown
-from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import run_of
@@ -31,12 +34,16 @@ class Simulation:
     advice: str
 
 
-def simulate(model: Model, recording: Recording) -> Simulation:
+def simulate(model: Model | str | Path, recording: Any) -> Simulation:
     """Simulates `model` in free run: from the input signal of `recording` and the state at its first sample alone.
+
+    Either may be a path; `recording` may be a table in Python too.
 
     That state is rest or what the first samples show, as the model's `[recording]` table says; no measured signal is
     used beyond these. Raises InputError where the model has no values to simulate with.
     """
+    model = model_of(model)
+    (recording,) = read_recordings([recording], model, compared=False)
     if not model.parameters:
         raise InputError(
             "the model has no values", where=model.source or "model", expected="numerator and denominator",

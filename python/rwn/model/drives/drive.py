@@ -14,7 +14,10 @@ SITES = frozenset({"torque", "load", "voltage", "flux", "actuator", "sensor"})
 
 @dataclass(frozen=True, kw_only=True)
 class NominalParameter:
-    """A parameter of the nominal model. `positive`: zero is refused too; `linear_unit`: on a linear axis."""
+    """A parameter of the nominal model. `positive`: zero is refused too; `signed`: may be negative.
+
+    `linear_unit`: on a linear axis.
+    """
 
     name: str
     unit: str
@@ -22,6 +25,7 @@ class NominalParameter:
     linear_unit: str = ""
     positive: bool = False
     required: bool = True
+    signed: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -57,7 +57,7 @@ LTI = TransferFunction(
 def _coefficient(name: str, power: int, unit: str, meaning: str) -> NominalParameter:
     per = f"1/s^{power}"
     return NominalParameter(
-        name=name, unit=f"{unit}*{per}" if unit else per, meaning=meaning, required=False
+        name=name, unit=f"{unit}*{per}" if unit else per, meaning=meaning, required=False, signed=True
     )
 
 

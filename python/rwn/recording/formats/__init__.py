@@ -5,12 +5,55 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from pathlib import Path
 
+from rwn.errors import InputError
 from rwn.recording.formats.csv import read_csv
+from rwn.recording.formats.excel import read_excel
 from rwn.recording.formats.mat import read_mat
-from rwn.recording.formats.table import MAX_BYTES, MAX_SAMPLES, Table
+from rwn.recording.formats.npz import read_npz
+from rwn.recording.formats.parquet import read_parquet
+from rwn.recording.formats.table import MAX_SAMPLES, Table
 
 Reader = Callable[[Path, Collection[str]], Table]
 
-FORMATS: dict[str, Reader] = {".csv": read_csv, ".txt": read_csv, ".tsv": read_csv, ".mat": read_mat}
+FORMATS: dict[str, Reader] = {
+    **dict.fromkeys((".csv", ".txt", ".tsv", ".dat"), read_csv),
+    ".mat": read_mat,
+    **dict.fromkeys((".npz", ".npy"), read_npz),
+    ".parquet": read_parquet,
+    **dict.fromkeys((".xlsx", ".xlsm", ".xls", ".ods"), read_excel),
+}
 
-__all__ = ["FORMATS", "MAX_BYTES", "MAX_SAMPLES", "Table"]
+__all__ = ["FORMATS", "MAX_SAMPLES", "Table", "read_table"]
+
+
+def read_table(path: Path, wanted: Collection[str]) -> Table:
+    """The `wanted` columns of a file, by the format of its ending. Raises InputError."""
+    reader = FORMATS.get(path.suffix.lower())
+    if reader is None:
+        raise InputError(
+            f"unknown kind of file '{path.suffix}'",
+            where=path,
+            expected=" or ".join(FORMATS),
+            fix="export the recording as CSV",
+        )
+    try:
+        if path.is_dir():
+            raise InputError(
+                "this is a folder", where=path, expected="a recording file", fix="name the files in it"
+            )
+        if not path.is_file():
+            path.stat()  # says why, where there is nothing
+            raise InputError(
+                "this is not a regular file",
+                where=path,
+                expected="a recording file",
+                fix="save the recording to a file first",
+            )
+        return reader(path, wanted)
+    except OSError as error:
+        raise InputError(
+            f"cannot read the file ({(error.strerror or str(error)).lower()})",
+            where=path,
+            expected="a readable file",
+            fix="check the path and its permissions",
+        ) from error

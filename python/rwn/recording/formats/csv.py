@@ -1,57 +1,38 @@
-"""CSV with one header row of `name [unit]`; comma, or semicolon or tab and then decimal comma too."""
+"""CSV as instruments and spreadsheets write it, read in blocks so that length costs little memory."""
 
 from __future__ import annotations
 
 import csv
-import re
-from collections.abc import Collection, Sequence
+from bisect import bisect_right
+from collections.abc import Collection, Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError
+from rwn.recording.formats.csv_dialect import HOW, Dialect, dialect_of, encoding_of, is_number
 from rwn.recording.formats.table import MAX_SAMPLES, Table, too_long
 
-_HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
-_HOW = "write a first row such as: time [s],voltage [V],speed [rad/s]"
+BLOCK = 2**20  # characters that are read at once, and the longest line
+_QUOTE = '"'
+_SAMPLE = 2**18  # characters that the dialect is told from
+
+Array = NDArray[np.float64]
+Block = tuple[int, list[str]]  # number of its first line from 0, its lines
 
 
 def read_csv(path: Path, wanted: Collection[str] = ()) -> Table:
-    """The `wanted` columns that exist; `units` names all. Raises InputError with the line that is wrong."""
-    lines = _decode(path).splitlines()
-    first = next((k for k, line in enumerate(lines) if line.strip() and not line.startswith("#")), None)
-    if first is None:
-        raise InputError(
-            "the file is empty", where=path, expected="a header row and rows of numbers", fix=_HOW
-        )
-    delimiter = max(",;\t", key=re.sub(r"\[[^\]]*\]", "", lines[first]).count)
-    names, units = _header(
-        next(csv.reader([lines[first]], delimiter=delimiter)), where=f"{path}, line {first + 1}"
-    )
-    rows = [(k + 1, line) for k, line in enumerate(lines[first + 1 :], first + 1) if line.strip()]
-    if len(rows) > MAX_SAMPLES:
-        raise too_long(path, len(rows))
-    if delimiter != ",":
-        rows = [(k, line.replace(",", ".")) for k, line in rows]
-    used = [j for j, name in enumerate(names) if name in wanted]
-    values = _numbers(path, rows, names, used, delimiter)
-    columns = {names[j]: np.ascontiguousarray(values[:, k]) for k, j in enumerate(used)}
-    return Table(path=path, columns=columns, units=units, row=lambda k: f"line {rows[k][0]}")
+    """The `wanted` columns that exist; `units` names all. Raises InputError with the line that is wrong.
 
-
-def _decode(path: Path) -> str:
-    raw = path.read_bytes()
-    if b"\0" in raw[:65536]:
-        raise InputError(
-            "this is not a text file",
-            where=path,
-            expected="CSV text",
-            fix="export the recording as CSV, or give it its own ending (.mat)",
-        )
-    for encoding in ("utf-8-sig", "cp1252"):
+    Memory: the wanted columns twice (8 bytes a number), and a block of text.
+    """
+    with path.open("rb") as file:
+        encoding = encoding_of(file.read(2**16), path)
+    for tried in (encoding, "cp1252"):
         try:
-            return raw.decode(encoding)
+            return read_lines(str(path), _blocks(path, tried), wanted)
         except UnicodeDecodeError:
             continue
     raise InputError(
@@ -59,79 +40,154 @@ def _decode(path: Path) -> str:
     )
 
 
-def _header(cells: Sequence[str], *, where: str) -> tuple[list[str], dict[str, str | None]]:
-    units: dict[str, str | None] = {}
-    for cell in cells:
-        match = _HEADER.fullmatch(cell)
-        if match is None:
-            raise InputError(
-                f"cannot read the column name '{cell}'", where=where, expected="name [unit]", fix=_HOW
-            )
-        name = match["name"]
-        if _is_number(name):
-            raise InputError(
-                f"the first row holds the number {name}, not a name",
-                where=where,
-                expected="a header row of name [unit]",
-                fix=_HOW,
-            )
-        if name in units:
+def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, line: str = "line") -> Table:
+    """The `wanted` columns of lines of text in blocks; `line`: what messages call one. Raises InputError."""
+    first = next(blocks, (0, []))
+    dialect = dialect_of(_sample(first[1]), wanted, where)
+    names = dialect.names
+    used = [j for j, name in enumerate(names) if name in wanted]
+    _refuse_doubles([names[j] for j in used], where)
+    parts: list[list[Array]] = [[] for _ in used]
+    starts: list[int] = []  # first row of each block, and the lines (from 1) of its rows
+    numbers: list[Sequence[int]] = []
+    rows = 0
+    for at, lines in chain([first], blocks):
+        skipped = max(dialect.first - at, 0)
+        numbered, kept = _rows(lines, at + skipped, skipped)
+        if not kept:
+            continue
+        values = _numbers(numbered, kept, dialect, used, where)
+        starts.append(rows)
+        numbers.append(numbered)
+        rows += len(kept)
+        if rows > MAX_SAMPLES:
+            raise too_long(where, rows)
+        for part, column in zip(parts, values.T, strict=True):
+            part.append(np.ascontiguousarray(column))
+    columns = {}
+    for j in used:
+        part = parts.pop(0)  # one column after the other, so that two copies of one alone exist at a time
+        columns[names[j]] = np.concatenate(part) if part else np.empty(0)
+    units = dict(zip(names, dialect.units, strict=True))
+    return Table(where=where, columns=columns, units=units, row=lambda k: f"{line} {_line(starts, numbers, k)}")
+
+
+def _line(starts: Sequence[int], numbers: Sequence[Sequence[int]], row: int) -> int:
+    block = bisect_right(starts, row) - 1
+    return numbers[block][row - starts[block]]
+
+
+def _blocks(path: Path, encoding: str) -> Iterator[Block]:
+    """The lines of a file in blocks, each with the number of its first line. Raises InputError."""
+    rest, at = "", 0
+    with path.open(encoding=encoding) as file:
+        while text := file.read(BLOCK):
+            whole, end, rest = (rest + text).rpartition("\n")
+            if not end and len(rest) >= BLOCK:
+                raise InputError(
+                    f"the line is longer than {BLOCK} characters",
+                    where=f"{path}, line {at + 1}",
+                    expected="a row of a few numbers in each line",
+                    fix="export the recording as CSV",
+                )
+            if end:
+                lines = whole.split("\n")
+                yield at, lines
+                at += len(lines)
+    if rest:
+        yield at, [rest]
+
+
+def _sample(lines: Sequence[str]) -> list[str]:
+    """The first lines, as many as tell the dialect."""
+    taken, size = 0, 0
+    while taken < len(lines) and (size < _SAMPLE or taken < 2):
+        size += len(lines[taken]) + 1
+        taken += 1
+    return list(lines[:taken])
+
+
+def _refuse_doubles(names: Sequence[str], where: str) -> None:
+    for name in names:
+        if names.count(name) > 1:
             raise InputError(
                 f"two columns are called '{name}'",
                 where=where,
                 expected="each name once",
                 fix="rename or remove one of them",
             )
-        units[name] = match["unit"]
-    return list(units), units
+
+
+def _rows(lines: list[str], at: int, skipped: int) -> tuple[Sequence[int], list[str]]:
+    """The lines that are rows, blank ones and comments left out, with their numbers from 1."""
+    kept = lines[skipped:] if skipped else lines
+    numbers: Sequence[int] = range(at + 1, at + 1 + len(kept))
+    if all(map(str.strip, kept)) and not any(line.startswith("#") for line in kept):
+        return numbers, kept
+    pairs = [(k, line) for k, line in zip(numbers, kept, strict=True) if line.strip() and not line.startswith("#")]
+    return [k for k, _ in pairs], [line for _, line in pairs]
 
 
 def _numbers(
-    path: Path, rows: list[tuple[int, str]], names: Sequence[str], used: Sequence[int], delimiter: str
-) -> NDArray[np.float64]:
-    for line, text in rows:
-        if text.count(delimiter) != len(names) - 1:
-            raise InputError(
-                f"{text.count(delimiter) + 1} values in {len(names)} columns",
-                where=f"{path}, line {line}",
-                expected=f"one value for each of {', '.join(names)}",
-                fix="complete the line or remove it",
-            )
-    if not rows or not used:
-        return np.empty((len(rows), len(used)))
+    numbers: Sequence[int], lines: list[str], dialect: Dialect, used: Sequence[int], where: str
+) -> Array:
+    """The values (rows, columns) of the used columns."""
+    delimiter, width = dialect.delimiter, len(dialect.names)
+    quoted = any(_QUOTE in line for line in lines)
+    try:
+        rows = list(csv.reader(lines, delimiter=delimiter)) if quoted else None
+    except csv.Error as error:
+        raise InputError(
+            f"the rows cannot be split into cells ({error})",
+            where=f"{where}, line {numbers[0]} and below",
+            expected="rows of numbers",
+            fix="close the quotes, or export without them",
+        ) from error
+    widths = [len(row) for row in rows] if rows is not None else [line.count(delimiter) + 1 for line in lines]
+    if rows is not None and len(rows) != len(lines):
+        raise InputError(
+            "a quote is left open",
+            where=f"{where}, line {next(k for k, line in zip(numbers, lines, strict=True) if line.count(_QUOTE) % 2)}",
+            expected="one row in each line, with quotes in pairs",
+            fix="close the quote; remove line breaks within cells",
+        )
+    if set(widths) - {width}:
+        k = next(k for k, w in enumerate(widths) if w != width)
+        raise InputError(
+            f"{widths[k]} values in {width} columns",
+            where=f"{where}, line {numbers[k]}",
+            expected=f"one value for each of {', '.join(dialect.names)}",
+            fix="complete the line or remove it",
+        )
+    if not used:
+        return np.empty((len(lines), 0))
+    plain, columns = lines, list(used)
+    if rows is not None:
+        plain, columns = ["\t".join(row[j].replace(",", ".") for j in used) for row in rows], list(range(len(used)))
+    elif delimiter != ",":
+        plain = [line.replace(",", ".") for line in lines]
     try:
         return np.loadtxt(
-            [text for _, text in rows], delimiter=delimiter, ndmin=2, comments=None, usecols=used
+            plain, delimiter="\t" if quoted else delimiter, ndmin=2, comments=None, usecols=columns
         )
     except ValueError as error:
-        raise _first_bad_cell(path, rows, names, used, delimiter) from error
+        cells = rows or [line.split(delimiter) for line in lines]
+        raise _first_bad_cell(numbers, cells, dialect, used, where) from error
 
 
 def _first_bad_cell(
-    path: Path, rows: list[tuple[int, str]], names: Sequence[str], used: Sequence[int], delimiter: str
+    numbers: Sequence[int], rows: Sequence[Sequence[str]], dialect: Dialect, used: Sequence[int], where: str
 ) -> InputError:
-    for line, text in rows:
-        cells = text.split(delimiter)
+    for line, row in zip(numbers, rows, strict=True):
         for j in used:
-            cell = cells[j].strip()[:40]
-            if not _is_number(cell):
-                what = (
-                    f"'{cell}' in column '{names[j]}' is not a number"
-                    if cell
-                    else f"column '{names[j]}' is empty"
-                )
+            cell, name = row[j].strip(), dialect.names[j]
+            if not is_number(cell) or (dialect.delimiter != "," and cell.count(",") + cell.count(".") > 1):
+                what = f"'{cell[:40]}' in column '{name}' is not a number" if cell else f"column '{name}' is empty"
+                separated = is_number(cell.replace(",", "").replace(".", "").replace(" ", "").replace("_", ""))
                 return InputError(
                     what,
-                    where=f"{path}, line {line}",
-                    expected="a number",
-                    fix="complete the line or remove it",
+                    where=f"{where}, line {line}",
+                    expected="a number without separators of thousands" if separated else "a number",
+                    fix="export without them" if separated else "complete the line or remove it",
                 )
-    return InputError("the rows cannot be read as numbers", where=path, expected="rows of numbers", fix=_HOW)
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return InputError("the rows cannot be read as numbers", where=where, expected="rows of numbers", fix=HOW)

@@ -1,35 +1,71 @@
-"""Columns of numbers as a file holds them, before units and signal names."""
+"""Columns of numbers as a file or an object holds them, before units and signal names."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError
 
-MAX_BYTES = 256 * 2**20
-MAX_SAMPLES = 5_000_000
+MAX_SAMPLES = 20_000_000  # 160 MB a signal
 
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """`columns`: name -> (n_t,) float64 in the unit of `units` (None: not said). `row` names row k."""
+    """`columns`: name -> (n_t,) float64 in the unit of `units` (None: not said), which names every column there is.
 
-    path: Path
+    `where` is the file or object in messages, `row` words the place of row k.
+    """
+
+    where: str
     columns: Mapping[str, NDArray[np.float64]]
     units: Mapping[str, str | None]
-    row: Callable[[int], str]
+    row: Callable[[int], str] = lambda k: f"sample {k + 1}"
 
 
-def too_long(path: Path, samples: int) -> InputError:
+def table_of(
+    where: str, arrays: Mapping[str, Any], units: Mapping[str, str | None], wanted: Collection[str]
+) -> Table:
+    """The `wanted` ones of named arrays as a table. Raises InputError where one is no vector of real numbers."""
+    columns = {name: vector(where, name, arrays[name]) for name in arrays if name in wanted}
+    return Table(where=where, columns=columns, units={name: units.get(name) for name in arrays})
+
+
+def vector(where: str, name: str, values: Any) -> NDArray[np.float64]:
+    """One column (n_t,) float64; instants and durations in s. Raises InputError."""
+    array = np.squeeze(np.asarray(values))
+    if array.dtype.kind == "M" and array.size:  # instants, as time since the first
+        array = array - array.flat[0]
+    if array.dtype.kind == "m":
+        array = array / np.timedelta64(1, "s")
+    if array.dtype.kind not in "fiub":
+        raise InputError(
+            f"'{name}' does not hold real numbers",
+            where=where,
+            expected="a vector of real numbers",
+            fix="name a column of numbers, such as RawData.Velo in a struct",
+        )
+    if array.ndim != 1:
+        raise InputError(
+            f"'{name}' has shape {array.shape}",
+            where=where,
+            expected="a vector, one value per sample",
+            fix=f"name one of its columns: '{name}(:,1)'" if array.ndim == 2 else "save each signal as a vector",
+        )
+    if array.size > MAX_SAMPLES:
+        raise too_long(where, array.size)
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def too_long(where: str, samples: int) -> InputError:
     """The error for a recording of more than MAX_SAMPLES samples."""
     return InputError(
         f"{samples} samples are too many",
-        where=path,
+        where=where,
         expected=f"at most {MAX_SAMPLES} samples",
-        fix="cut out the part to be judged, or keep every k-th row",
+        fix="cut out the part to be judged before, or keep every k-th row",
     )

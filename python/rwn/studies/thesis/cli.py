@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -100,6 +101,7 @@ def table_20(
     """Writes a page that walks through Table 20, from the recording to the friction curve."""
     from rwn.studies.thesis.walk_through_page import write_walk_through
 
+    _check_page(page)
     write_walk_through(page)
     typer.echo(f"page: {page}")
 
@@ -111,6 +113,7 @@ def _run(experiments: Sequence[Experiment], out: Path, *, count: Count, jobs: in
     from rwn.studies.thesis.overview import overview_table
     from rwn.studies.thesis.page import write_page
 
+    _check_page(page)
     console = Console()
     if not console.is_terminal:
         console = Console(width=160)  # a file or a pipe has room
@@ -121,6 +124,19 @@ def _run(experiments: Sequence[Experiment], out: Path, *, count: Count, jobs: in
     console.print(f"{seconds:.0f} s of experiments" + ("" if count == "full" else "; shortened counts"))
     write_page(results, page)
     console.print(f"page: {page}")
+
+
+def _check_page(page: Path) -> None:
+    """What a page needs is there before hours of experiments, not found missing after them. Raises InputError."""
+    if importlib.util.find_spec("matplotlib") is None:
+        raise InputError(
+            "the pictures of the page need matplotlib, which is not installed",
+            where="rwn thesis",
+            expected="the extra 'thesis'",
+            fix="pip install 'rwn[thesis]'",
+        )
+    if page.is_dir():
+        raise InputError("this is a folder", where=page, expected="a file name", fix=f"write {page / 'thesis.md'}")
 
 
 def _with_progress(experiments: Sequence[Experiment], out: Path, count: Count, jobs: int) -> list[Finished]:

@@ -60,8 +60,11 @@ def run(
         return done
 
     longest_first = sorted(experiments, key=lambda e: -e.minutes)
-    with ThreadPoolExecutor(jobs) as pool:
+    pool = ThreadPoolExecutor(jobs)
+    try:
         found = dict(zip([e.name for e in longest_first], pool.map(one, longest_first), strict=True))
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)  # after Ctrl-C nobody waits for experiments that take minutes
     return [found[e.name] for e in experiments]
 
 

@@ -67,7 +67,7 @@ def diagnose_trial(folder: Path, out: Path) -> None:
     for path, recording in zip(heldout_files(folder), heldout, strict=True):
         write_speed(simulated_file(out, path), recording.time, simulate(corrected, recording).signals["speed"])
         if found.corrected is not None and fitted:
-            refitted = simulate(replace(model, parameters=fitted), recording)
+            refitted = simulate(replace(model, parameters={**model.parameters, **fitted}, uncertainty={}), recording)
             write_speed(refitted_file(out, path), recording.time, refitted.signals["speed"])
     (out / "timing.json").write_text(json.dumps({"seconds": round(elapsed, 3)}))
     (out / "diagnosis.json").write_bytes(found.to_json())  # last: its presence says that all is done

@@ -8,6 +8,7 @@ import numpy as np
 
 from rwn.studies.trials.bench import Recording
 from rwn.studies.trials.conceal import Nominal
+from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.plant import Array
 from rwn.studies.trials.trial import Trial
 
@@ -55,10 +56,11 @@ def write_recording(path: Path, recording: Recording) -> None:
 
 def read_columns(path: Path) -> dict[str, Array]:
     """The columns of a recording by signal: time, voltage, current, speed, position."""
-    with path.open(encoding="utf-8") as file:
-        names = [name.split(" [")[0] for name in file.readline().strip().split(",")]
-    table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
-    return {name: np.ascontiguousarray(table[:, k]) for k, name in enumerate(names)}
+    with reading(path):
+        with path.open(encoding="utf-8") as file:
+            names = [name.split(" [")[0] for name in file.readline().strip().split(",")]
+        table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+        return {name: np.ascontiguousarray(table[:, k]) for k, name in enumerate(names)}
 
 
 def write_trial(folder: Path, trial: Trial) -> None:

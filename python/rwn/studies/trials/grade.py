@@ -13,6 +13,7 @@ import numpy as np
 
 from rwn.faults.fault import RECORDING
 from rwn.studies.trials.adapter import heldout_files, simulated_file
+from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.dossier import read_columns
 from rwn.studies.trials.plant import simulate
 from rwn.studies.trials.run import out_of, trial_folders
@@ -94,10 +95,14 @@ class Graded:
 def load_answers(folder: Path) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
     """What is known of the set, and the answers by trial: sealed, or an answer.json in each folder."""
     if (folder / ANSWERS).exists():
-        content = unseal(folder)
-        answers: dict[str, dict[str, Any]] = content.pop("answers")
+        with reading(folder / ANSWERS):
+            content = unseal(folder)
+            answers: dict[str, dict[str, Any]] = content.pop("answers")
         return content, answers
-    found = {path.parent.name: json.loads(path.read_text()) for path in sorted(folder.glob("*/answer.json"))}
+    found = {}
+    for path in sorted(folder.glob("*/answer.json")):
+        with reading(path):
+            found[path.parent.name] = json.loads(path.read_text())
     if not found:
         raise ValueError(f"{folder} holds neither {ANSWERS} nor answer.json files")
     return {}, found
@@ -106,11 +111,12 @@ def load_answers(folder: Path) -> tuple[dict[str, Any], dict[str, dict[str, Any]
 def grade_folder(folder: Path, *, results: Path | None = None) -> Graded:
     """Opens the seal and grades every trial; one without a diagnosis counts as wrong."""
     about, answers = load_answers(folder)
-    grades = [
-        grade(answers[trial.name], trial, out_of(trial, results))
-        for trial in trial_folders(folder)
-        if trial.name in answers
-    ]
+    grades = []
+    for trial in trial_folders(folder):
+        if trial.name in answers:
+            out = out_of(trial, results)
+            with reading(out):
+                grades.append(grade(answers[trial.name], trial, out))
     return Graded((about["seed"],) if "seed" in about else (), about.get("split"), grades)
 
 
@@ -137,7 +143,8 @@ def grade_folders(folders: Sequence[Path], *, results: Path | None = None) -> Gr
 def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     said: dict[str, Any] = {"verdict": NO_RESULT}
     if (out / "diagnosis.json").exists():
-        said = json.loads((out / "diagnosis.json").read_text())
+        with reading(out / "diagnosis.json"):
+            said = json.loads((out / "diagnosis.json").read_text())
     mistaken, said = without_mistake(said) if "mistake" in answer else ((), said)
     effects = said.get("effects", []) if said["verdict"] == "missing-physics" else []
     names = tuple(str(effect["name"]) for effect in effects)

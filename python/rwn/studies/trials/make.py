@@ -11,6 +11,7 @@ from typing import Any, Protocol, TypeVar
 from rwn.studies.trials.bench_trials.plan import JUDGED_BY
 from rwn.studies.trials.bench_trials.plan import plans as bench_plans
 from rwn.studies.trials.bench_trials.trial import make_bench_trial
+from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.dossier import write_trial
 from rwn.studies.trials.judges import JUDGES
 from rwn.studies.trials.plan import FIRST_TEST_SEED, SPLITS, plans, split_of
@@ -117,14 +118,19 @@ def _make(
         for number, plan in enumerate(made, start=done + 1):
             if progress is not None:
                 progress(number, len(planned), plan.name)
-    answers = {plan.name: json.loads((work / f"{plan.name}.json").read_text()) for plan in planned}
+    answers = {}
+    for plan in planned:
+        with reading(work / f"{plan.name}.json"):
+            answers[plan.name] = json.loads((work / f"{plan.name}.json").read_text())
     digest = seal(out, about | {"answers": answers})
     shutil.rmtree(work)
     return digest
 
 
 def _same_set(path: Path, wanted: dict[str, Any]) -> None:
-    if path.exists() and json.loads(path.read_text()) != wanted:
+    with reading(path):
+        other = path.exists() and json.loads(path.read_text()) != wanted
+    if other:
         raise FileExistsError(
             f"{path.parent.parent} holds an unfinished set of another seed, count or kind; remove it"
         )

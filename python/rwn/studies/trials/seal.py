@@ -8,11 +8,13 @@ import json
 from pathlib import Path
 from typing import Any
 
+from rwn.errors import InputError
+
 ANSWERS = "answers.sealed"
 HASH = "answers.sha256"
 
 
-class SealBrokenError(ValueError):
+class SealBrokenError(InputError):
     """The answers are not those whose hash was printed when the trials were made."""
 
 

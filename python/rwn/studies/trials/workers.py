@@ -3,21 +3,36 @@
 from __future__ import annotations
 
 import os
+import signal
 import threading
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context, parent_process
+from contextlib import contextmanager
+from multiprocessing import active_children, get_context, parent_process
 from multiprocessing.connection import wait
 
 
-def workers(jobs: int) -> ProcessPoolExecutor:
-    """A pool of `jobs` fresh processes."""
-    return ProcessPoolExecutor(
-        max_workers=jobs, mp_context=get_context("spawn"), initializer=_end_with_the_parent
-    )
+@contextmanager
+def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
+    """A pool of `jobs` fresh processes; an error or Ctrl-C in the block ends them at once, what they do is lost."""
+    before = set(active_children())
+    pool = ProcessPoolExecutor(max_workers=jobs, mp_context=get_context("spawn"), initializer=_end_with_the_parent)
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for process in set(active_children()) - before:
+            process.kill()
+        raise
+    pool.shutdown()
 
 
 def _end_with_the_parent() -> None:
-    """A killed parent tells nobody, and its workers would wait for their next task for ever."""
+    """A killed parent tells nobody, and its workers would wait for their next task for ever.
+
+    Ctrl-C in a terminal goes to every process: the parent alone answers it.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = parent_process()
     assert parent is not None, "runs in a worker"
 

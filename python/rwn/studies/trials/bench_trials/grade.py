@@ -12,6 +12,7 @@ import numpy as np
 
 from rwn.studies.trials.adapter import heldout_files, refitted_file, simulated_file
 from rwn.studies.trials.bench_trials.plan import BACKGROUND_ALONE, NOTHING
+from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.dossier import read_columns
 from rwn.studies.trials.grade import (
     LARGEST_SET,
@@ -96,7 +97,11 @@ def grade_folders(folders: Sequence[Path], *, results: Path | None = None) -> Be
         splits.add(about.get("split"))
         several = len(folders) > 1
         into = results / folder.name if results and several else results
-        found = [grade(answers[t.name], t, out_of(t, into)) for t in trial_folders(folder) if t.name in answers]
+        found = []
+        for trial in trial_folders(folder):
+            if trial.name in answers:
+                with reading(out_of(trial, into)):
+                    found.append(grade(answers[trial.name], trial, out_of(trial, into)))
         grades += [replace(g, case=f"{folder.name}/{g.case}") if several else g for g in found]
     if len(splits) > 1:
         raise ValueError("the folders mix development and test sets (or open answers); score each kind alone")
@@ -109,7 +114,8 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> BenchGrade:
     """A trial without a diagnosis states nothing."""
     said: dict[str, Any] = {"verdict": NO_RESULT}
     if (out / "diagnosis.json").exists():
-        said = json.loads((out / "diagnosis.json").read_text())
+        with reading(out / "diagnosis.json"):
+            said = json.loads((out / "diagnosis.json").read_text())
     truth = tuple(str(effect["name"]) for effect in answer["effects"])
     kinds = tuple(str(each["kind"]) for each in answer["imperfections"])
     faults = [e for e in said.get("effects", []) if e["equation"] == "recording"]

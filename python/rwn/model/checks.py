@@ -1,0 +1,105 @@
+"""Are the values of a model such as a drive can have? The same for a model file and for one made in Python."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from rwn.errors import InputError
+from rwn.model.drives.drive import NominalParameter
+from rwn.model.vocabulary import Effect, Parameter
+
+LARGEST = 1e15  # of any number in SI: no drive comes near
+LARGEST_COEFFICIENT = 1e200  # of a transfer function: powers of frequencies
+ROUNDED = 1e-6  # relative: a fitted value at its bound, as it is written and read again
+
+
+def check_numbers(values: Mapping[str, Any], *, where: str, largest: float = LARGEST) -> None:
+    """Every value is a real number of believable size. Raises InputError."""
+    for name, value in values.items():
+        try:
+            number = float(value)
+        except (TypeError, ValueError, OverflowError):
+            number = math.nan if not isinstance(value, int) else math.inf
+        if isinstance(value, bool) or not abs(number) <= largest:
+            raise InputError(
+                f"the value is {value!r}",
+                where=f"{where} {name}",
+                expected=f"a finite number in SI, at most {largest:g}",
+                fix="write the number; where it is unknown, a guess with a large uncertainty",
+            )
+
+
+def check_nominal(values: Mapping[str, float], known: Iterable[NominalParameter], *, linear: bool, where: str) -> None:
+    """Required ones are there, none has a sign that it cannot have. Raises InputError."""
+    for entry in known:
+        unit = (entry.linear_unit if linear else entry.unit) or entry.unit
+        if entry.name not in values:
+            if entry.required:
+                raise InputError(
+                    f"there is no {entry.name} ({entry.meaning})",
+                    where=where,
+                    expected=f"a number in {unit}",
+                    fix=f"add {entry.name} = ... from the data sheet, and its doubt under [uncertainty]",
+                )
+            continue
+        value = values[entry.name]
+        if (value < 0 and not entry.signed) or (entry.positive and value == 0):
+            raise InputError(
+                f"{entry.name} is {value:g} {unit}",
+                where=where,
+                expected="a positive number" if entry.positive else "a number that is not negative",
+                fix="correct the value or its unit",
+            )
+
+
+def check_uncertainty(values: Mapping[str, float], parameters: Mapping[str, float], *, where: str) -> None:
+    """Each is a relative deviation of a value that is not 0. Raises InputError."""
+    for name, value in values.items():
+        if value < 0 or value > 1e3:
+            raise InputError(
+                f"{name} is {value:g}",
+                where=where,
+                expected="a relative standard deviation, 0.1 = 10 %",
+                fix="write it without a sign" if value < 0 else "write the share of the nominal value",
+            )
+        if value > 0 and parameters.get(name, 0.0) == 0:
+            raise InputError(
+                f"{name} is relative to a nominal value of 0",
+                where=where,
+                expected="a nominal value that is not 0",
+                fix="give a guess in [motor]",
+            )
+
+
+def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> None:
+    """Every parameter is there and within its bounds as far as they are known without a recording. Raises InputError.
+
+    Bounds that are relative to what a recording shows (torque, speed, ..) say the sign alone; those of a user's own
+    effect are where a fit searches.
+    """
+    for p in effect.parameters:
+        if p.name not in values:
+            if not p.fixed:
+                raise InputError(
+                    f"there is no {p.name}", where=where, expected=f"a number in {p.unit}", fix=f"add {p.name} = ..."
+                )
+            continue
+        lower, upper = _bounds(p)
+        value = values[p.name]
+        slack = ROUNDED * max(abs(bound) for bound in (lower, upper, value) if math.isfinite(bound))
+        if not (p.cyclic or effect.own) and not lower - slack <= value <= upper + slack:
+            to = f"{lower:g} to {upper:g}" if math.isfinite(upper) else f"at least {lower:g}"
+            raise InputError(
+                f"{p.name} is {value:g}" + (f" {p.unit}" if p.unit not in ("", "1") else ""),
+                where=where,
+                expected=f"{to} ({p.meaning})",
+                fix=f"correct the value or its unit; see rwn effects {effect.name}",
+            )
+
+
+def _bounds(p: Parameter) -> tuple[float, float]:
+    if not p.scale.powers:
+        return p.scale.factor * p.lower, p.scale.factor * p.upper
+    return (0.0 if p.lower >= 0.0 else -math.inf), math.inf

@@ -1,0 +1,24 @@
+"""Libraries that a format needs and the base installation leaves out."""
+
+from __future__ import annotations
+
+import importlib
+import warnings
+from typing import Any
+
+from rwn.errors import InputError
+
+
+def library(module: str, extra: str, where: object) -> Any:
+    """The module; raises InputError with the extra that installs it."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # what a library's own imports complain of is not the user's affair
+            return importlib.import_module(module)
+    except ImportError as error:
+        raise InputError(
+            f"this kind of file needs {module.split('.')[0]}, which is not installed",
+            where=where,
+            expected="the extra for it",
+            fix=f"pip install 'rwn[{extra}]', or export the recording as CSV",
+        ) from error

@@ -1,0 +1,78 @@
+"""Tables in Python: frames of pandas, polars and what else narwhals knows, datasets of xarray, dictionaries."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from rwn.errors import InputError
+from rwn.recording.formats.csv_dialect import name_and_unit
+from rwn.recording.formats.table import Table, table_of
+
+
+def is_frame(source: Any) -> bool:
+    """Whether it is a frame that narwhals knows."""
+    from narwhals.stable.v1 import dependencies
+
+    return bool(dependencies.is_into_dataframe(source))
+
+
+def table_of_object(source: Any, wanted: Collection[str]) -> Table:
+    """The `wanted` columns of a table in Python. Raises InputError for what is no table."""
+    where = f"the {type(source).__name__}"
+    if is_frame(source):
+        found = list(columns_of_frame(source))
+    elif hasattr(source, "data_vars") and hasattr(source, "coords"):
+        found = [(str(name), v.values, v.attrs.get("units")) for name, v in source.variables.items()]
+    elif isinstance(source, Mapping):
+        told = [(*name_and_unit_of(str(name)), values) for name, values in source.items()]
+        found = [(name, values, unit) for name, unit, values in told]
+    else:
+        raise InputError(
+            f"a recording cannot be read from {where}",
+            where="recording",
+            expected="a path, a Recording, a frame of pandas or polars, an xarray.Dataset or a dictionary of arrays",
+            fix='pass for instance {"time [s]": t, "voltage [V]": u, "speed [rpm]": w}',
+        )
+    names = [name for name, _, _ in found]
+    for name in names:
+        if name in wanted and names.count(name) > 1:
+            raise InputError(
+                f"two columns are called '{name}'", where=where, expected="each name once", fix="rename one of them"
+            )
+    return table_of(where, {n: values for n, values, _ in found}, {n: unit for n, _, unit in found}, wanted)
+
+
+def columns_of_frame(frame: Any) -> Iterator[tuple[str, Any, str | None]]:
+    """Name, values and unit of each column, and of an index that has a name or holds instants.
+
+    A unit is in the column's name, `speed [rpm]`, or in the frame's attrs: `units` by name, or MATLAB's lists.
+    """
+    from narwhals import stable
+
+    attrs = getattr(frame, "attrs", {})
+    listed = attrs.get("VariableUnits") or attrs.get("varUnits") or ()
+    units = attrs.get("units")
+    given: Mapping[str, str] = units if isinstance(units, Mapping) else {}
+    index: Any = getattr(frame, "index", None)
+    if getattr(getattr(index, "dtype", None), "kind", "") in ("m", "M"):
+        yield str(index.name or "time"), np.asarray(index), "s"
+    elif getattr(index, "name", None):
+        name, unit = name_and_unit_of(str(index.name))
+        yield name, np.asarray(index), unit or given.get(name)
+    wrapped = stable.v1.from_native(frame, eager_only=True)
+    for k, column in enumerate(wrapped.columns):
+        name, unit = name_and_unit_of(column)
+        values = wrapped[column].to_numpy()
+        unit = unit or given.get(column) or given.get(name) or (listed[k] if k < len(listed) else None)
+        yield name, values, unit or ("s" if values.dtype.kind in "mM" else None)
+
+
+def name_and_unit_of(name: str) -> tuple[str, str | None]:
+    """Name and unit (None: not said) of a column called `speed [rpm]`; all of it is the name if brackets stay open."""
+    try:
+        return name_and_unit(name)
+    except ValueError:
+        return name, None

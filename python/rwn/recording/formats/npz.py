@@ -1,0 +1,37 @@
+"""NumPy's files: named arrays (.npz), or one array with named fields or columns (.npy)."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Collection
+from pathlib import Path
+
+import numpy as np
+
+from rwn.errors import InputError
+from rwn.recording.formats.frame import name_and_unit_of
+from rwn.recording.formats.nested import nested_table
+from rwn.recording.formats.table import Table
+
+
+def read_npz(path: Path, wanted: Collection[str] = ()) -> Table:
+    """The `wanted` arrays; a name may carry its unit, `speed [rpm]`. Pickled objects are not read."""
+    try:
+        with path.open("rb") as file:
+            loaded = np.load(file, allow_pickle=False)
+            if isinstance(loaded, np.ndarray):
+                return nested_table(str(path), {path.stem: loaded}, (path.stem,), wanted)
+            names = {key: name_and_unit_of(key) for key in loaded.files}
+            roots = {re.split(r"[.({]", name)[0] for name in wanted} | set(wanted)
+            content = {name: loaded[key] for key, (name, _) in names.items() if name in roots}
+    except (ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
+        raise InputError(
+            "the arrays cannot be read",
+            where=path,
+            expected="arrays of numbers that numpy.savez wrote",
+            fix="save them again as plain arrays, or export the recording as CSV",
+        ) from error
+    units = dict(names.values())
+    table = nested_table(str(path), content, units, wanted)
+    return Table(where=table.where, columns=table.columns, units={**table.units, **units})

@@ -1,0 +1,46 @@
+"""Apache Parquet, read by pyarrow: the wanted columns only."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+from rwn.errors import InputError
+from rwn.recording.formats.extra import library
+from rwn.recording.formats.frame import name_and_unit_of
+from rwn.recording.formats.table import MAX_SAMPLES, Table, table_of, too_long
+
+
+def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
+    """The `wanted` columns; units from names, `speed [rpm]`, or a field's metadata (`unit` or `units`)."""
+    parquet = library("pyarrow.parquet", "parquet", path)
+    try:
+        file = parquet.ParquetFile(path)
+        schema, rows = file.schema_arrow, file.metadata.num_rows
+        if rows > MAX_SAMPLES:
+            raise too_long(str(path), rows)
+        told = {field.name: name_and_unit_of(field.name) for field in schema}
+        content = file.read(columns=[column for column, (name, _) in told.items() if name in wanted])
+    except InputError:
+        raise
+    except OSError:
+        raise
+    except Exception as error:  # pyarrow raises many kinds for what is no Parquet
+        raise InputError(
+            "the file is not Parquet, or it is damaged",
+            where=path,
+            expected="a complete Parquet file",
+            fix="write it again, or export the recording as CSV",
+        ) from error
+    units = {name: unit or _in_metadata(schema.field(column)) for column, (name, unit) in told.items()}
+    arrays = {name: None for name, _ in told.values()}
+    arrays |= {told[column][0]: content.column(column).to_numpy() for column in content.column_names}
+    return table_of(str(path), arrays, units, wanted)
+
+
+def _in_metadata(field: Any) -> str | None:
+    for key in (b"unit", b"units"):
+        if key in (field.metadata or {}):
+            return str(field.metadata[key].decode("utf-8", "replace"))
+    return "s" if str(field.type).startswith(("timestamp", "duration")) else None

@@ -1,0 +1,28 @@
+"""Files of trials that were damaged: whatever their readers make of them is one line that names the file."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rwn.errors import InputError
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Raises InputError with the place for what a damaged file makes its readers raise within the block."""
+    try:
+        yield
+    except InputError:
+        raise
+    except (ValueError, LookupError, TypeError, AttributeError, EOFError, OSError, zlib.error) as error:
+        if isinstance(error, OSError) and error.filename is not None:
+            raise
+        raise InputError(
+            f"this cannot be read ({type(error).__name__}: {error})",
+            where=path,
+            expected="what rwn trials wrote there",
+            fix="copy it again; or remove it, and rwn trials run or make writes it anew",
+        ) from error

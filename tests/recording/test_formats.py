@@ -1,0 +1,234 @@
+"""Every format of FORMATS gives the same recording, with the units that the file holds."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import scipy.io
+
+from rwn.errors import InputError
+from rwn.recording.columns import Column, Layout
+from rwn.recording.formats import FORMATS
+from rwn.recording.recording import Recording, read_recording
+
+TIME = np.arange(80) * 0.02
+VOLTAGE = 5.0 * np.sin(TIME)
+RPM = 300.0 * np.sin(TIME - 0.2)
+NAMED = {"time [s]": TIME, "voltage [V]": VOLTAGE, "speed [rpm]": RPM}
+
+
+def _imported(module: str) -> Any:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return pytest.importorskip(module)
+
+
+def _npz(path: Path) -> None:
+    np.savez(path, **NAMED)
+
+
+def _npy(path: Path) -> None:
+    table = np.zeros(80, dtype=[("time", float), ("voltage", float), ("speed", np.float32)])
+    for name, values in zip(("time", "voltage", "speed"), NAMED.values(), strict=True):
+        table[name] = values
+    np.save(path, table)
+
+
+def _parquet(path: Path) -> None:
+    pa, parquet = _imported("pyarrow"), _imported("pyarrow.parquet")
+    fields = [
+        pa.field("time", pa.float64(), metadata={"unit": "s"}),
+        pa.field("voltage [V]", pa.float64()),
+        pa.field("speed", pa.float64(), metadata={"units": "rpm"}),
+        pa.field("note", pa.string()),
+    ]
+    parquet.write_table(pa.table([TIME, VOLTAGE, RPM, ["ok"] * 80], schema=pa.schema(fields)), path)
+
+
+def _excel(path: Path) -> None:
+    _imported("python_calamine")
+    book = _imported("openpyxl").Workbook()
+    book.active.append(["Recorded by bench 3"])
+    book.active.append(["time", "voltage", "speed", "note"])
+    book.active.append(["s", "V", "rpm", None])
+    for row in zip(TIME, VOLTAGE, RPM, strict=True):
+        book.active.append([*map(float, row), "ok"])
+    book.save(path)
+
+
+def _mat(path: Path) -> None:
+    scipy.io.savemat(path, {"time": TIME, "voltage": VOLTAGE, "speed": RPM, "other": np.zeros((300, 300))})
+
+
+def _mat_7_3(path: Path) -> None:
+    _imported("matio").save_to_mat(str(path), {"time": TIME, "voltage": VOLTAGE, "speed": RPM}, version="v7.3")
+
+
+UNITS = {"time": "s", "voltage": "V", "speed": "rpm"}
+BY_MAP = Layout(columns={name: Column(source=name, unit=unit) for name, unit in UNITS.items()})
+WRITERS: dict[str, tuple[str, Callable[[Path], None], Layout]] = {
+    "npz": (".npz", _npz, Layout()),
+    "npy": (".npy", _npy, BY_MAP),
+    "parquet": (".parquet", _parquet, Layout()),
+    "excel": (".xlsx", _excel, Layout()),
+    "mat 7": (".mat", _mat, BY_MAP),
+    "mat 7.3": (".mat", _mat_7_3, BY_MAP),
+}
+
+
+def _as_meant(read: Recording) -> None:
+    np.testing.assert_allclose(read.time, TIME, atol=1e-12)
+    np.testing.assert_allclose(read.signals["voltage"], VOLTAGE)
+    np.testing.assert_allclose(read.signals["speed"], RPM * np.pi / 30.0, rtol=1e-6, atol=1e-6)
+
+
+@pytest.mark.parametrize("kind", WRITERS)
+def test_a_format_gives_the_recording_that_was_written(kind: str, tmp_path: Path) -> None:
+    ending, write, layout = WRITERS[kind]
+    write(tmp_path / f"run{ending}")
+    _as_meant(read_recording(tmp_path / f"run{ending}", layout=layout))
+
+
+@pytest.mark.parametrize("ending", sorted(FORMATS))
+def test_what_is_no_such_file_is_refused_in_one_line(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"run{ending}"
+    for content in (b"", b"PK\x03\x04 broken", b"no such file at all\n" * 40, np.arange(9.0).tobytes() * 99):
+        path.write_bytes(content)
+        with pytest.raises(InputError, match="fix: "):
+            read_recording(path, layout=BY_MAP)
+
+
+def _pandas_timetable() -> Any:
+    pandas = _imported("pandas")
+    return pandas.DataFrame(
+        {"Voltage": VOLTAGE, "Speed": RPM},
+        index=pandas.Index(pandas.to_timedelta(np.round(1e3 * TIME), unit="ms").astype("timedelta64[ms]"), name="Time"),
+    )
+
+
+@pytest.mark.filterwarnings("ignore:duration_to_mat")  # of the writer
+@pytest.mark.parametrize("version", ["v7", "v7.3"])
+def test_timetables_with_their_times(version: str, tmp_path: Path) -> None:
+    matio = _imported("matio")
+    matio.save_to_mat(str(tmp_path / "a.mat"), {"log": _pandas_timetable(), "x": np.ones(3)}, version=version)
+    columns = {
+        "time": Column(source="log.Time"),
+        "voltage": Column(source="log.Voltage", unit="V"),
+        "speed": Column(source="log.Speed", unit="rpm"),
+    }
+    _as_meant(read_recording(tmp_path / "a.mat", layout=Layout(columns=columns)))
+
+
+@pytest.mark.filterwarnings("ignore:duration_to_mat")  # of the writer
+@pytest.mark.parametrize("version", ["v7", "v7.3"])
+def test_units_of_a_timetable_are_taken(version: str, tmp_path: Path) -> None:
+    matio = _imported("matio")
+    path = str(tmp_path / "a.mat")
+    matio.save_to_mat(path, {"log": _pandas_timetable()}, version=version)
+    raw = matio.load_from_mat(path, raw_data=True)["log"]
+    units = np.empty((1, 2), dtype=object)
+    units[0, 0], units[0, 1] = np.array(["V"]), np.array(["rpm"])
+    raw.properties["any"]["varUnits"][0, 0] = units
+    matio.save_to_mat(path, {"log": raw}, version=version)
+    columns = {"time": "Time", "voltage": "Voltage", "speed": "Speed"}  # of the only variable: the bare names do
+    layout = Layout(columns={name: Column(source=source) for name, source in columns.items()})
+    _as_meant(read_recording(path, layout=layout))
+
+
+def test_struct_arrays_and_matrices(tmp_path: Path) -> None:
+    runs = np.zeros((1, 2), dtype=[("u", object), ("w", object)])
+    for k, factor in enumerate((0.0, 1.0)):
+        runs[0, k] = (factor * VOLTAGE, factor * RPM)
+    scipy.io.savemat(tmp_path / "a.mat", {"runs": runs, "M": np.column_stack([VOLTAGE, TIME])})
+    columns = {
+        "time": Column(source="M(:,2)", unit="s"),
+        "voltage": Column(source="runs(2).u", unit="V"),
+        "speed": Column(source="runs(2).w", unit="rpm"),
+    }
+    _as_meant(read_recording(tmp_path / "a.mat", layout=Layout(columns=columns)))
+
+
+def test_a_matrix_is_not_taken_for_a_signal(tmp_path: Path) -> None:
+    scipy.io.savemat(tmp_path / "a.mat", {"M": np.ones((80, 2))})
+    with pytest.raises(InputError, match=r"shape \(80, 2\).*'M\(:,1\)'"):
+        read_recording(tmp_path / "a.mat", layout=Layout(columns={"speed": Column(source="M", unit="rpm")}))
+
+
+def test_a_pickle_in_an_npz_is_not_run(tmp_path: Path) -> None:
+    np.savez(tmp_path / "a.npz", **{"speed [rpm]": np.array([{"a": 1}], dtype=object)})
+    with pytest.raises(InputError, match="cannot be read"):
+        read_recording(tmp_path / "a.npz")
+
+
+def test_a_library_that_is_missing_is_named_with_its_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.parquet").write_bytes(b"PAR1")
+    monkeypatch.setitem(__import__("sys").modules, "pyarrow.parquet", None)
+    with pytest.raises(InputError, match=r"pip install 'rwn\[parquet\]'"):
+        read_recording(tmp_path / "a.parquet")
+
+
+def _pandas() -> Any:
+    return _imported("pandas").DataFrame(NAMED)
+
+
+def _pandas_with_an_index() -> Any:
+    frame = _pandas_timetable().rename(columns={"Voltage": "voltage", "Speed": "speed"})
+    frame.attrs["units"] = {"voltage": "V", "speed": "rpm"}
+    frame.index.name = None
+    return frame
+
+
+def _polars() -> Any:
+    return _imported("polars").DataFrame(NAMED)
+
+
+def _pyarrow() -> Any:
+    return _imported("pyarrow").table(NAMED)
+
+
+def _xarray() -> Any:
+    xarray = _imported("xarray")
+    return xarray.Dataset(
+        {"voltage": ("time", VOLTAGE, {"units": "V"}), "speed": ("time", RPM, {"units": "rpm"})},
+        coords={"time": ("time", TIME, {"units": "s"})},
+    )
+
+
+OBJECTS: dict[str, Callable[[], Any]] = {
+    "pandas": _pandas,
+    "pandas with times as its index": _pandas_with_an_index,
+    "polars": _polars,
+    "pyarrow": _pyarrow,
+    "xarray": _xarray,
+    "dictionary": lambda: dict(NAMED),
+    "dictionary of lists": lambda: {name: values.tolist() for name, values in NAMED.items()},
+}
+
+
+@pytest.mark.parametrize("kind", OBJECTS)
+def test_tables_in_python_are_read_as_files_are(kind: str) -> None:
+    _as_meant(read_recording(OBJECTS[kind]()))
+
+
+@pytest.mark.parametrize(
+    ("source", "held"),
+    [
+        (3, "cannot be read from the int"),
+        (None, "cannot be read from the NoneType"),
+        ([1, 2, 3], "cannot be read from the list"),
+        ({}, "no column is called like a signal"),
+        ({"time [s]": TIME, "voltage [V]": VOLTAGE[:5]}, "5 samples"),
+        ({"time [s]": TIME, "voltage": VOLTAGE}, "'voltage' has no unit"),
+        ({"time [s]": TIME, "voltage [V]": ["a"] * 80}, "real numbers"),
+        ({"time [s]": TIME, "speed [rpm]": np.where(TIME[7] == TIME, np.nan, RPM)}, "sample 8: speed is nan"),
+    ],
+)
+def test_what_is_no_table_is_refused(source: Any, held: str) -> None:
+    with pytest.raises(InputError) as refused:
+        read_recording(source)
+    assert held in str(refused.value)
