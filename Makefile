@@ -17,7 +17,7 @@ install-tools:
 	@$(PIP) --group test --group dev
 
 install-test: install-tools
-	@$(PIP) '.[thesis]' -C cmake.define.RWN_WERROR=ON
+	@$(PIP) '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON
 
 # The main job on the embedded recording, whose missing effect is known.
 demo: install
@@ -99,4 +99,4 @@ docs: install-test
 # For work on rwn itself: quick rebuilds, no build isolation.
 develop: install-tools
 	@$(PY) -c 'import scikit_build_core' 2>/dev/null || $(PIP) scikit-build-core pybind11 cmeel-eigen
-	@$(PIP) --no-build-isolation '.[thesis]' -C cmake.define.RWN_WERROR=ON
+	@$(PIP) --no-build-isolation '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON

@@ -79,7 +79,7 @@ def _fake_diagnose(calls: list[dict[str, Any]]) -> Callable[..., Diagnosis]:
     return fake
 
 
-def test_diagnose_writes_the_three_files(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_diagnose_writes_its_files(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     calls: list[dict[str, Any]] = []
     monkeypatch.setattr(rwn, "diagnose", _fake_diagnose(calls), raising=False)
     code, out, err = run(
@@ -91,7 +91,12 @@ def test_diagnose_writes_the_three_files(run: Run, monkeypatch: pytest.MonkeyPat
     assert [r.name for r in call["heldout"]] == ["b.csv"]
     assert call["seed"] == 4
     folder = tmp_path / "new" / "out"
-    assert sorted(f.name for f in folder.iterdir()) == ["corrected.toml", "diagnosis.json", "report.html"]
+    assert sorted(f.name for f in folder.iterdir()) == [
+        "corrected.toml",
+        "curves.json",
+        "diagnosis.json",
+        "report.html",
+    ]
     assert read_model(folder / "corrected.toml") == read_model("model.toml")
     assert Diagnosis.from_json((folder / "diagnosis.json").read_bytes()).verdict == "missing-physics"
     report = (folder / "report.html").read_text(encoding="utf-8")
@@ -107,7 +112,7 @@ def test_a_failure_half_way_leaves_nothing(run: Run, monkeypatch: pytest.MonkeyP
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("rwn.report.write_report", full)
+    monkeypatch.setattr("rwn.report.diagnosis.page", full)
     code, _, err = run("diagnose", "a.csv", "--model", "model.toml", "--out", "out")
     assert code == 2
     assert "No space left" in err

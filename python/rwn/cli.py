@@ -27,9 +27,7 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
-Recordings = Annotated[
-    list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")
-]
+Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")]
 ModelFile = Annotated[Path, typer.Option("--model", help="The nominal model (TOML).")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace results that exist.")]
 
@@ -39,7 +37,7 @@ def diagnose(
     recordings: Recordings,
     model: ModelFile,
     out: Annotated[
-        Path, typer.Option("--out", help="Folder for diagnosis.json, corrected.toml, report.html.")
+        Path, typer.Option("--out", help="Folder for report.html, diagnosis.json, curves.json, corrected.toml.")
     ],
     heldout: Annotated[
         list[Path] | None, typer.Option("--heldout", help="A file to judge by, never fitted to; repeatable.")
@@ -67,7 +65,7 @@ def diagnose(
             *(source(r, "heldout") for r in judged),
         ]
         found = replace(found, sources=tuple(used), command=shlex.join(["rwn", *sys.argv[1:]]))
-        _write_results(found, aside)
+        found.write(aside)
     _print_verdict(found, out)
 
 
@@ -86,9 +84,7 @@ def _refuse_strays(arguments: list[str]) -> None:
 @app.command()
 def simulate(
     model: Annotated[Path, typer.Argument(metavar="MODEL.toml", help="A model file.")],
-    recording: Annotated[
-        Path, typer.Option("--input", help="Recording whose input signal drives the model.")
-    ],
+    recording: Annotated[Path, typer.Option("--input", help="Recording whose input signal drives the model.")],
     out: Annotated[Path, typer.Option("--out", help="CSV to write.")],
     overwrite: Overwrite = False,
 ) -> None:
@@ -219,20 +215,11 @@ def _progress() -> Any:
     return Progress(sys.stderr)
 
 
-def _write_results(found: Diagnosis, folder: Path) -> None:
-    from rwn.model.files import write_model
-    from rwn.report import write_report
-
-    (folder / "diagnosis.json").write_bytes(found.to_json())
-    if found.corrected is not None:
-        write_model(found.corrected, folder / "corrected.toml")
-    write_report(found, folder / "report.html")
-
-
 def _print_verdict(found: Diagnosis, out: Path) -> None:
     from rwn.report import text as words
+    from rwn.report.sentences import verdict_sentence
 
-    typer.echo(words.verdict_sentence(found))
+    typer.echo(verdict_sentence(found))
     for finding in found.findings:
         typer.echo(f"  {finding.recording}: {finding.words}; {finding.done}")
     for effect in found.effects:

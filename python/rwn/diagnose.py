@@ -17,7 +17,8 @@ from rwn.parallel import crew
 from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
 from rwn.report.assemble import assemble
-from rwn.report.diagnosis import Diagnosis, as_found
+from rwn.report.diagnosis import Diagnosis
+from rwn.report.diagnosis_data import as_found
 from rwn.simulate.run import judging_run
 
 
@@ -60,7 +61,7 @@ def diagnose(
         say("correcting the model", 0.9)
         correction = correct(decision, unseen, model, seed=seed)
         say("drawing", 0.95)
-        found = assemble(correction, faults, model, seed=seed, elapsed=time.perf_counter() - began)
+        found = assemble(correction, faults, model, unseen, seed=seed, elapsed=time.perf_counter() - began)
         return replace(found, findings=as_found((*findings, *unseen_findings)))
 
 
