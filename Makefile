@@ -8,9 +8,16 @@ PIP := $(PY) -m pip install -q --disable-pip-version-check
 .PHONY: demo demo-real test check test-cpp test-sanitize test-python mutants lint lint-only bench install install-tools \
   install-test stubs docs develop clean
 
-install:
+# Installed once; again only where something that goes into it has changed.
+SOURCES := $(shell find cpp cmake python CMakeLists.txt pyproject.toml -type f -not -name '*.pyc' -not -name '*.so' 2>/dev/null)
+INSTALLED := .venv/.installed
+install: $(INSTALLED)
+
+$(INSTALLED): $(SOURCES)
 	@./tools/setup.sh
+	@echo "install: compiling and installing into .venv; some minutes" >&2
 	@$(PIP) .
+	@touch $@
 
 install-tools:
 	@./tools/setup.sh test
