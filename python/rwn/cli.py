@@ -6,7 +6,9 @@ import importlib
 import importlib.util
 import os
 import shlex
+import shutil
 import sys
+import textwrap
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -22,10 +24,11 @@ app = typer.Typer(
     name="rwn",
     help="Says what physics a drive simulation leaves out, from recordings of the real drive.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
+
+NO_RESULT = 3  # exit code of a computation that ran and has no result to stand by
 
 Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")]
 ModelFile = Annotated[Path, typer.Option("--model", help="The nominal model (TOML).")]
@@ -123,47 +126,75 @@ def identify(
     out: Annotated[Path | None, typer.Option("--out", help="Model file to write.")] = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Fit the parameters of a model, effects included, within their declared uncertainty."""
+    """Fit the parameters of a model, effects included, within their declared uncertainty.
+
+    Ends with exit code 3, and writes nothing, where the fit does not converge or describes no recorded signal.
+    """
     from contextlib import nullcontext
 
     from rwn.model.files import read_model, write_model
     from rwn.model.recordings import read_recordings
-    from rwn.report import text as words
+    from rwn.report import identification
     from rwn.report.files import output_file
 
     with output_file(out, overwrite=overwrite) if out else nullcontext() as aside:
         nominal = read_model(model)
-        fit = _rwn().identify(read_recordings(recordings, nominal), nominal)
+        files = read_recordings(recordings, nominal)
+        fit = _rwn().identify(files, nominal)
+        signals = identification.fitted_signals(fit, files)
+        for line in identification.lines(fit, signals, nominal):
+            typer.echo(line, err=line.startswith("warning"))
+        why = identification.failure(fit, signals)
+        if why:
+            typer.echo(f"rwn: {why}" + (f"; {out} was not written" if out else ""), err=True)
+            raise typer.Exit(NO_RESULT)
         if aside is not None:
             write_model(fit.model, aside)
-    for name, value in fit.parameters.items():
-        typer.echo(f"{name:<22} {words.estimate(value)}")
-    if fit.status != "converged":
-        typer.echo(f"{fit.status}: {fit.advice}")
+
+
+def _effect_names(incomplete: str) -> list[str]:
+    from rwn.model import vocabulary
+
+    return [name for name in vocabulary.table() if name.startswith(incomplete)]
 
 
 @app.command()
 def effects(
-    name: Annotated[str | None, typer.Argument(help="One effect, in detail.")] = None,
+    name: Annotated[
+        list[str] | None, typer.Argument(help="One effect, in detail, or a word of it.", autocompletion=_effect_names)
+    ] = None,
     model: Annotated[Path | None, typer.Option("--model", help="A model file: its own effects as well.")] = None,
 ) -> None:
-    """The effects that rwn can name: site, equation, parameters, source."""
+    """The effects that rwn can name: site, equation, parameters, source; also by a word: rwn effects friction."""
     from rwn.model import vocabulary as known
+    from rwn.model.effect_search import effects_by_word
     from rwn.model.files import read_model
+    from rwn.model.symbols import symbol_of
 
     table = read_model(model).effect_table if model else known.table()
-    if name is None:
-        for effect in table.values():
-            typer.echo(f"{effect.name:<28} {effect.site:<9} {effect.meaning}")
+    wanted = " ".join(name or [])
+    found = [table[wanted]] if wanted in table else effects_by_word(wanted, table) if wanted else list(table.values())
+    if not found:
+        raise unknown("effect", wanted, table, where="rwn effects")
+    if len(found) > 1:
+        for effect in found:
+            _echo_wrapped(f"{effect.name:<28} {effect.site:<9} {effect.meaning}", indent=39)
         return
-    if name not in table:
-        raise unknown("effect", name, table, where="rwn effects")
-    effect = table[name]
+    (effect,) = found
     typer.echo(f"{effect.name}: {effect.meaning}\nsite: {effect.site}\nequation: {effect.equation}")
     for p in effect.parameters:
         scale = f" x {p.scale.words} of the drive" if p.scale.powers else ""
-        typer.echo(f"  {p.name} [{p.unit}]: {p.meaning}; {p.lower:g} to {p.upper:g}{scale}")
+        symbol = f" {symbol_of(effect.name, p.name)}".rstrip()
+        typer.echo(f"  {p.name}{symbol} [{p.unit}]: {p.meaning}; {p.lower:g} to {p.upper:g}{scale}")
     typer.echo(f"source: {effect.source}")
+
+
+def _echo_wrapped(text: str, *, indent: int) -> None:
+    """A line, broken between words where a terminal is narrower; whole where the output is piped."""
+    if sys.stdout.isatty():
+        width = shutil.get_terminal_size().columns
+        text = textwrap.fill(text, width=max(width, indent + 20), subsequent_indent=" " * indent)
+    typer.echo(text)
 
 
 @app.command()
@@ -216,17 +247,11 @@ def _progress() -> Any:
 
 
 def _print_verdict(found: Diagnosis, out: Path) -> None:
-    from rwn.report import text as words
-    from rwn.report.sentences import verdict_sentence
+    from rwn.report.terminal import lines
 
-    typer.echo(verdict_sentence(found))
-    for finding in found.findings:
-        typer.echo(f"  {finding.recording}: {finding.words}; {finding.done}")
-    for effect in found.effects:
-        for name, value in effect.parameters.items():
-            typer.echo(f"  {effect.name} {name} = {words.estimate(value)}")
-    if found.next_experiment:
-        typer.echo(f"Next experiment: {found.next_experiment}")
+    plain = bool(os.environ.get("NO_COLOR"))  # https://no-color.org
+    for line in lines(found):
+        typer.echo(line, color=False if plain else None)
     for warning in found.warnings:
         typer.echo(f"warning: {warning}", err=True)
     typer.echo(f"Report: {out / 'report.html'}")

@@ -73,8 +73,9 @@ def asked(found: Diagnosis, folder: Path, script: str, *, width: int = 1280, dar
     )
     (folder / "frame.html").write_text(
         f'<body style="margin:0"><iframe src="asked.html" style="width:{width}px;height:6000px;border:0"></iframe>'
-        "<script>const copy = () => { const asked = document.querySelector('iframe').contentDocument;"
-        "const d = asked.getElementById('said'); if (d) document.body.append(d.cloneNode(true)); else setTimeout(copy, 50); }; copy();</script></body>"
+        "<script>const copy = () => { const d = document.querySelector('iframe').contentDocument;"
+        "const said = d.getElementById('said'); if (said) document.body.append(said.cloneNode(true));"
+        "else setTimeout(copy, 50); }; copy();</script></body>"
     )
     scheme = "--blink-settings=preferredColorScheme=" + ("0" if dark else "1")
     window = f"--window-size={max(width, 600)},6000"

@@ -41,7 +41,8 @@ def plots(
     if network is not None:
         drawn = (*drawn, network_over_its_state(network))
     spectrum = _spectrum(ranking, linear)
-    return (*made, _residual_speed(names, unknown, speed_unit, torque_unit), *drawn, *([spectrum] if spectrum else []))
+    where = _residual_speed(names, unknown, speed_unit, torque_unit)
+    return (*made, where, *([spectrum] if spectrum else []), *drawn)
 
 
 def _residual_speed(names: Sequence[str], unknown: Sequence[UnknownInputs], speed_unit: str, torque_unit: str) -> Plot:
