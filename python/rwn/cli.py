@@ -8,7 +8,6 @@ import os
 import shlex
 import shutil
 import sys
-import textwrap
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -169,32 +168,43 @@ def effects(
     from rwn.model import vocabulary as known
     from rwn.model.effect_search import effects_by_word
     from rwn.model.files import read_model
-    from rwn.model.symbols import symbol_of
+    from rwn.report.effect_text import lines
 
     table = read_model(model).effect_table if model else known.table()
     wanted = " ".join(name or [])
     found = [table[wanted]] if wanted in table else effects_by_word(wanted, table) if wanted else list(table.values())
     if not found:
         raise unknown("effect", wanted, table, where="rwn effects")
-    if len(found) > 1:
-        for effect in found:
-            _echo_wrapped(f"{effect.name:<28} {effect.site:<9} {effect.meaning}", indent=39)
-        return
-    (effect,) = found
-    typer.echo(f"{effect.name}: {effect.meaning}\nsite: {effect.site}\nequation: {effect.equation}")
-    for p in effect.parameters:
-        scale = f" x {p.scale.words} of the drive" if p.scale.powers else ""
-        symbol = f" {symbol_of(effect.name, p.name)}".rstrip()
-        typer.echo(f"  {p.name}{symbol} [{p.unit}]: {p.meaning}; {p.lower:g} to {p.upper:g}{scale}")
-    typer.echo(f"source: {effect.source}")
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    for line in lines(found, width=width):
+        typer.echo(line)
 
 
-def _echo_wrapped(text: str, *, indent: int) -> None:
-    """A line, broken between words where a terminal is narrower; whole where the output is piped."""
-    if sys.stdout.isatty():
-        width = shutil.get_terminal_size().columns
-        text = textwrap.fill(text, width=max(width, indent + 20), subsequent_indent=" " * indent)
-    typer.echo(text)
+@app.command()
+def report(
+    folders: Annotated[list[Path], typer.Argument(metavar="RESULT...", help="Folders that rwn diagnose wrote.")],
+    out: Annotated[Path, typer.Option("--out", help="HTML file to write.")],
+    compare: Annotated[bool, typer.Option("--compare", help="Set two results beside each other.")] = False,
+    overwrite: Overwrite = False,
+) -> None:
+    """Draw the report of a result anew, or compare two: before and after a repair."""
+    from rwn.report.comparison import comparison
+    from rwn.report.diagnosis import Diagnosis
+    from rwn.report.files import output_file
+    from rwn.report.page import page
+
+    if len(folders) != (2 if compare else 1):
+        raise InputError(
+            f"{len(folders)} result(s) {'with' if compare else 'without'} --compare",
+            where="rwn report",
+            expected="one result, or two and --compare",
+            fix="rwn report before after --compare --out comparison.html",
+        )
+    with output_file(out, overwrite=overwrite) as aside:
+        found = [Diagnosis.load(folder) for folder in folders]
+        text = comparison(found[0], found[1], (str(folders[0]), str(folders[1]))) if compare else page(found[0])
+        aside.write_text(text, encoding="utf-8")
+    typer.echo(f"Report: {out}")
 
 
 @app.command()

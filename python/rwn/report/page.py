@@ -33,22 +33,26 @@ _HERE = Path(__file__).parent
 
 
 def page(found: DiagnosisData) -> str:
-    """The whole HTML text; nothing in it reaches outside, which its content security policy enforces."""
+    """The report of a diagnosis, the whole HTML text."""
     kind, colour = _VERDICTS[found.verdict]
-    style, script = ((_HERE / name).read_text(encoding="utf-8") for name in ("style.css", "script.js"))
-    plotly = base64.b64encode((_HERE / "vendor" / "plotly-basic.min.js.gz").read_bytes()).decode("ascii")
     said = sentences(found)
     lead = f'<p class="lead">{_unbroken(" ".join(said[1:]))}</p>' if said[1:] else ""
-    sections = "\n".join(section for section in _sections(found) if section)
+    head = f'<header><div class="kind">{escape(kind)}</div><h1>{_unbroken(said[0])}</h1>{lead}</header>'
+    sections = "\n".join(part for part in _sections(found) if part)
+    return document(f"{kind} – rwn diagnosis", colour, f"{head}\n{_facts(found)}\n{sections}")
+
+
+def document(title: str, colour: str, body: str) -> str:
+    """A whole page of HTML around its body; its content security policy lets nothing in it reach outside."""
+    style, script = ((_HERE / name).read_text(encoding="utf-8") for name in ("style.css", "script.js"))
+    plotly = base64.b64encode((_HERE / "vendor" / "plotly-basic.min.js.gz").read_bytes()).decode("ascii")
     return f"""<!doctype html>
 <html lang="en"><head><meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="{_OFFLINE}">
 <meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark">
-<title>{escape(kind)} – rwn diagnosis</title><style>:root {{ --verdict: {colour}; }}
+<title>{escape(title)}</title><style>:root {{ --verdict: {colour}; }}
 {style}</style></head><body><main>
-<header><div class="kind">{escape(kind)}</div><h1>{_unbroken(said[0])}</h1>{lead}</header>
-{_facts(found)}
-{sections}
+{body}
 </main><script type="text/plain" id="plotly">{plotly}</script>
 <script type="application/json" id="dark">{json.dumps(DARK)}</script>
 <script>{script}</script></body></html>
@@ -56,15 +60,15 @@ def page(found: DiagnosisData) -> str:
 
 
 def _sections(found: DiagnosisData) -> Iterator[str]:
-    account = _section("What acts, and what is left", account_picture(found))
-    yield f'<div class="top">{account}{_section("What to do next", _list(next_steps(found)))}</div>'
-    yield _section("Before you trust the rest", _doubts(found))
-    yield _section("What was found", _findings(found))
-    yield _section("Does the simulation improve?", _proof(found))
-    yield _section("Its law", _figures(found, ("law", "spectrum")))
-    yield _section("Where the mismatch is", _place(found))
-    yield _section("Parameters", _parameters(found))
-    yield _section("How this was made", _provenance(found))
+    account = section("What acts, and what is left", account_picture(found))
+    yield f'<div class="top">{account}{section("What to do next", _list(next_steps(found)))}</div>'
+    yield section("Before you trust the rest", _doubts(found))
+    yield section("What was found", _findings(found))
+    yield section("Does the simulation improve?", _proof(found))
+    yield section("Its law", figures(found, ("law", "spectrum")))
+    yield section("Where the mismatch is", _place(found))
+    yield section("Parameters", _parameters(found))
+    yield section("How this was made", _provenance(found))
 
 
 def _unbroken(text: str) -> str:
@@ -72,7 +76,8 @@ def _unbroken(text: str) -> str:
     return re.sub(r"(?<=\d) (?=[%A-Za-zµΩ°/²]{1,6}\b|%)", "\u00a0", escape(text))
 
 
-def _section(title: str, body: str) -> str:
+def section(title: str, body: str) -> str:
+    """A part of a page with its heading; empty where there is nothing to say."""
     return f"<section><h2>{escape(title)}</h2>{body}</section>" if body else ""
 
 
@@ -141,7 +146,7 @@ def _place(found: DiagnosisData) -> str:
     return (
         text
         + tables.region_table(found.location.regions)
-        + _figures(found, ("residual-speed",))
+        + figures(found, ("residual-speed",))
         + (_recordings(found, "fit") if kept_back else "")
     )
 
@@ -178,10 +183,10 @@ def panels(curves: Sequence[Plot], first: Plot) -> list[Plot]:
 def _recordings(found: DiagnosisData, use: str) -> str:
     """The pictures over time of the recordings of one use: whole, and the stretch that shows most."""
     firsts = [(k, plot) for k, plot in enumerate(found.curves) if plot.use == use and plot.slot == _PANELS[0]]
-    return "".join(_recording(k, panels(found.curves, plot)) for k, plot in firsts)
+    return "".join(_recording(str(k), panels(found.curves, plot)) for k, plot in firsts)
 
 
-def _recording(index: int, plots: Sequence[Plot]) -> str:
+def _recording(index: str, plots: Sequence[Plot]) -> str:
     drawn, first, name = figure(plots), plots[0], plots[0].recording
     use = "fitted" if first.use == "fit" else "not fitted"
     scale, unit = words.prefix_for(max(float(abs(trace.x).max()) for trace in first.traces), first.x_unit)
@@ -194,21 +199,22 @@ def _recording(index: int, plots: Sequence[Plot]) -> str:
             f'<div class="plot" {ident} data-zoom></div></div>'
         )
     return (
-        f'<figure class="recording"><figcaption>{escape(name)} <span class="note">({use}; free run from the input '
-        f'alone)</span></figcaption><p class="unseen">{escape(in_words(plots))}</p><div class="pair"><div>'
+        f'<figure class="recording {first.use}"><figcaption>{escape(name)} <span class="note">({use}; free run from '
+        f'the input alone)</span></figcaption><p class="unseen">{escape(in_words(plots))}</p><div class="pair"><div>'
         f'<div class="note">Whole recording</div><div class="plot" {ident}></div></div>{close}</div>'
         f"{_data(index, drawn)}</figure>"
     )
 
 
-def _figures(found: DiagnosisData, slots: Sequence[str]) -> str:
+def figures(found: DiagnosisData, slots: Sequence[str], *, prefix: str = "") -> str:
+    """The pictures of these slots; `prefix` keeps those of several diagnoses on one page apart."""
     numbered = [(k, plot) for slot in slots for k, plot in enumerate(found.curves) if plot.slot == slot]
     odd = {numbered[-1][0]} if len(numbered) % 2 else set()  # the odd one out fills its row
-    figures = "".join(_figure(k, plot, wide=k in odd) for k, plot in numbered)
-    return f'<div class="plots">{figures}</div>' if figures else ""
+    drawn = "".join(_figure(f"{prefix}{k}", plot, wide=k in odd) for k, plot in numbered)
+    return f'<div class="plots">{drawn}</div>' if drawn else ""
 
 
-def _figure(index: int, plot: Plot, *, wide: bool) -> str:
+def _figure(index: str, plot: Plot, *, wide: bool) -> str:
     note = plot.note
     if any(trace.at is not None for trace in plot.traces):
         note += " A click on a point leads to its instant in the recording."
@@ -221,7 +227,7 @@ def _figure(index: int, plot: Plot, *, wide: bool) -> str:
     )
 
 
-def _data(index: int, drawn: dict[str, Any]) -> str:
+def _data(index: str, drawn: dict[str, Any]) -> str:
     """A figure as JSON, arrays that several of its lines share written once."""
     places: dict[str, int] = {}
     lines = [dict(line) for line in drawn["data"]]

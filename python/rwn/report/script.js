@@ -24,6 +24,7 @@
       drawn.layout.shapes = [];
       drawn.layout.showlegend = false;  // the whole recording beside it has it
     }
+    if (printing) drawn.layout.width = box.clientWidth;  // paper does not resize what is drawn
     if (box.clientWidth < 480) {
       drawn.layout.margin = {...drawn.layout.margin, l: 54, r: 6};
       drawn.layout.font.size = 11;
