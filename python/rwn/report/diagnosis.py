@@ -25,12 +25,20 @@ if TYPE_CHECKING:
 RESULT, CURVES, MODEL, REPORT = "diagnosis.json", "curves.json", "corrected.toml", "report.html"
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Diagnosis(DiagnosisData):
     """The verdict, what it rests on, and the curves that show it.
 
-    Equal diagnoses hold the same; how long they took and the command that made them do not count.
+    Equal diagnoses are those that are saved alike; how long they took and the command that made them do not count.
     """
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Diagnosis):
+            return NotImplemented
+        mine, its = ((d.to_json(), d.curves_json(), d.corrected) for d in (self, other))
+        return mine == its
+
+    __hash__ = None  # type: ignore[assignment]  # what it holds has none
 
     def __repr__(self) -> str:
         names = ", ".join(f"{e.name} ({likelihood(e.probability)})" for e in self.effects)

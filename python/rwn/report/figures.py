@@ -46,6 +46,7 @@ def plots(
 
 
 def _residual_speed(names: Sequence[str], unknown: Sequence[UnknownInputs], speed_unit: str, torque_unit: str) -> Plot:
+    what = "force" if torque_unit == "N" else "torque"
     speed = np.concatenate([u.speed for u in unknown])
     torque = np.concatenate([u.torque for u in unknown])
     mean = _mean_curve(speed, torque)
@@ -64,8 +65,8 @@ def _residual_speed(names: Sequence[str], unknown: Sequence[UnknownInputs], spee
             )
         )
     return Plot(
-        slot="residual-speed", title="Unknown torque of the refitted nominal model over speed", x_label="speed",
-        x_unit=speed_unit, y_label="unknown torque", y_unit=torque_unit, traces=(*clouds, mean),
+        slot="residual-speed", title=f"Unknown {what} of the refitted nominal model over speed", x_label="speed",
+        x_unit=speed_unit, y_label=f"unknown {what}", y_unit=torque_unit, traces=(*clouds, mean),
         marks=tuple(_speed_regions(unknown)), shown=worth_seeing(torque, mean.y),
         note="What the refitted nominal equations leave over along the recorded motion, smoothed.",
     )  # fmt: skip

@@ -69,7 +69,7 @@ def _law(name: str, full: Sequence[UnknownInputs], without: Sequence[UnknownInpu
     outside = worth_seeing(best.left, curve.y)
     return Plot(
         slot="law", title=f"{plain_name(name).capitalize()} over {state}".replace("coulomb", "Coulomb"), x_label=state,
-        x_unit=unit, y_label=f"unknown {best.label}", y_unit=best.unit, shown=outside,
+        x_unit=unit, y_label=f"unknown {'force' if best.unit == 'N' else best.label}", y_unit=best.unit, shown=outside,
         traces=(
             Trace(name="left by all else", role="measured", x=x[kept], y=best.left[kept], points=True),
             Trace(name=plain_name(name), role="corrected", x=curve.x, y=curve.y),
@@ -114,12 +114,13 @@ def _bins(x: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 def over_its_state(law: Law, unknown: Sequence[UnknownInputs], torque_unit: str) -> Plot:
     """What depends on one state and has no name: the wavelet network over the points that it was fitted to."""
+    what = "force" if torque_unit == "N" else "torque"
     state = _states(unknown)[law.coordinate]
     torque = np.concatenate([u.torque for u in unknown])
     torque, kept = torque - np.mean(torque), thin_cloud(torque)
     return Plot(
-        slot="law", title=f"Unknown torque over {law.coordinate}", x_label=law.coordinate, x_unit=law.unit,
-        y_label="unknown torque", y_unit=torque_unit, shown=worth_seeing(torque, law.torque),
+        slot="law", title=f"Unknown {what} over {law.coordinate}", x_label=law.coordinate, x_unit=law.unit,
+        y_label=f"unknown {what}", y_unit=torque_unit, shown=worth_seeing(torque, law.torque),
         traces=(
             Trace(name="along the recordings", role="before", x=state[kept], y=torque[kept], points=True),
             Trace(name="wavelet network", role="reference", x=law.x, y=law.torque),

@@ -36,19 +36,19 @@ def _titled(title: str, texts: Iterator[str] | tuple[str, ...]) -> Iterator[str]
 def _account(found: DiagnosisData) -> Iterator[str]:
     if found.verdict in ("adequate", "insufficient-excitation"):
         return
+    rows = []
     for effect in found.account:
         names = listing([plain_name(name) for name in (effect.name, *effect.rivals)], "or")
         said = "" if effect.stated else ", not stated"
-        yield _bar(capital(names), effect.share, f"probability {likelihood(effect.together)}{said}")
+        rows.append((capital(names), effect.share, f"probability {likelihood(effect.together)}{said}"))
     left = found.remainder
     if left.signals and left.share >= SLIGHT:
-        yield _bar("No name here", left.share, f"of the {listing(left.signals)}")
-
-
-def _bar(name: str, share: float, said: str) -> str:
-    share = min(max(share, 0.0), 1.0)
-    full = round(_BAR * share)
-    return f"{name:<28} {'█' * full}{'·' * (_BAR - full)} {percent(share):>8}  {said}"
+        rows.append(("No name here", left.share, f"of the {listing(left.signals)}"))
+    width = max((len(name) for name, _, _ in rows), default=0)
+    for name, share, said in rows:
+        kept = min(max(share, 0.0), 1.0)
+        full = round(_BAR * kept)
+        yield f"{name:<{width}}  {'█' * full}{'·' * (_BAR - full)} {percent(kept):>8}  {said}"
 
 
 def _parameters(found: DiagnosisData) -> Iterator[str]:
