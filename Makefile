@@ -8,16 +8,23 @@ PIP := $(PY) -m pip install -q --disable-pip-version-check
 .PHONY: demo demo-real test check test-cpp test-sanitize test-python mutants lint lint-only bench install install-tools \
   install-test stubs docs develop clean
 
-install:
+# Installed once; again only where something that goes into it has changed.
+SOURCES := $(shell find cpp cmake python CMakeLists.txt pyproject.toml -type f -not -name '*.pyc' -not -name '*.so' 2>/dev/null)
+INSTALLED := .venv/.installed
+install: $(INSTALLED)
+
+$(INSTALLED): $(SOURCES)
 	@./tools/setup.sh
+	@echo "install: compiling and installing into .venv; some minutes" >&2
 	@$(PIP) .
+	@touch $@
 
 install-tools:
 	@./tools/setup.sh test
 	@$(PIP) --group test --group dev
 
 install-test: install-tools
-	@$(PIP) '.[thesis]' -C cmake.define.RWN_WERROR=ON
+	@$(PIP) '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON
 
 # The main job on the embedded recording, whose missing effect is known.
 demo: install
@@ -99,4 +106,4 @@ docs: install-test
 # For work on rwn itself: quick rebuilds, no build isolation.
 develop: install-tools
 	@$(PY) -c 'import scikit_build_core' 2>/dev/null || $(PIP) scikit-build-core pybind11 cmeel-eigen
-	@$(PIP) --no-build-isolation '.[thesis]' -C cmake.define.RWN_WERROR=ON
+	@$(PIP) --no-build-isolation '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON

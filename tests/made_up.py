@@ -6,66 +6,64 @@ from dataclasses import replace
 
 import numpy as np
 
+from rwn.decide.account import Acting, Remainder
+from rwn.decide.evidence import Evidence
 from rwn.fit.intervals import Estimate
 from rwn.locate.regions import Region
 from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
-from rwn.report.diagnosis import Alternative, Beneath, Diagnosis, Location, Mark, Plot, Source, Trace
+from rwn.report.diagnosis import Diagnosis
+from rwn.report.diagnosis_data import Alternative, Beneath, Found, Location, Source
 from rwn.report.nominal_fit import FittedParameter, NominalFit
+from rwn.report.plot import Mark, Plot, Role, Slot, Trace
+from rwn.report.sensor_filter import FittedFilter
 
 
-def _response(rng: np.random.Generator) -> Plot:
-    t = np.arange(0.0, 20.0, 0.001)
+def _over_time(rng: np.random.Generator) -> tuple[Plot, ...]:
+    """A recording that was kept back: response, error and input."""
+    t = np.arange(0.0, 20.0, 0.01)
     true = 180 * np.sin(1.9 * t) * np.exp(-t / 40)
+    measured = true + rng.normal(0, 0.8, t.size)
     nominal = true + 14 * np.sign(np.cos(1.9 * t))
+    refitted = true + 6 * np.sign(np.cos(1.9 * t))
     corrected = true + 0.4 * np.sin(7 * t)
-    traces = (
-        Trace(name="measured", role="measured", x=t, y=true + rng.normal(0, 0.8, t.size)),
-        Trace(name="nominal as given", role="nominal", x=t, y=nominal),
-        Trace(name="nominal refitted", role="refitted", x=t, y=true + 6 * np.sign(np.cos(1.9 * t))),
-        Trace(name="corrected", role="corrected", x=t, y=corrected),
-    )
-    return Plot(
-        slot="response",
-        title="Speed on heldout_1.csv, free run",
-        x_label="Time",
-        x_unit="s",
-        y_label="Speed",
-        y_unit="rad/s",
-        traces=traces,
-    )
+
+    def panel(slot: Slot, label: str, unit: str, lines: dict[str, tuple[Role, np.ndarray]]) -> Plot:
+        traces = tuple(Trace(name=name, role=role, x=t, y=y) for name, (role, y) in lines.items())
+        return Plot(
+            slot=slot, title=f"{label}, heldout_1.csv", x_label="time", x_unit="s", y_label=label, y_unit=unit,
+            traces=traces, recording="heldout_1.csv", use="heldout", zoom=(4.0, 5.5),
+        )  # fmt: skip
+
+    return (
+        panel("response", "speed", "rad/s", {
+            "measured": ("measured", measured), "nominal as given": ("nominal", nominal),
+            "nominal refitted": ("refitted", refitted), "corrected": ("corrected", corrected),
+        }),
+        panel("residual-time", "speed error", "rad/s", {
+            "nominal refitted": ("before", measured - refitted), "corrected": ("after", measured - corrected),
+        }),
+        panel("input", "voltage", "V", {"input": ("reference", 24 * np.sign(np.sin(1.9 * t)))}),
+    )  # fmt: skip
 
 
-def _residuals(rng: np.random.Generator) -> tuple[Plot, Plot]:
-    t = np.arange(0.0, 20.0, 0.004)
+def _map(rng: np.random.Generator) -> Plot:
+    t = np.arange(0.0, 20.0, 0.02)
     speed = 180 * np.sin(1.9 * t)
     before = 0.021 * np.tanh(speed / 3) + rng.normal(0, 0.003, t.size)
-    after = rng.normal(0, 0.003, t.size)
-    axis = {"y_label": "Unexplained torque", "y_unit": "N m"}
-    over_time = Plot(
-        slot="residual-time",
-        title="Unexplained torque over time",
-        x_label="Time",
-        x_unit="s",
-        **axis,
-        traces=(
-            Trace(name="before", role="before", x=t, y=before),
-            Trace(name="after", role="after", x=t, y=after),
-        ),
-    )
-    over_speed = Plot(
+    return Plot(
         slot="residual-speed",
-        title="Unexplained torque against speed",
-        x_label="Speed",
+        title="Unknown torque over speed",
+        x_label="speed",
         x_unit="rad/s",
-        **axis,
+        y_label="unknown torque",
+        y_unit="N m",
         traces=(
-            Trace(name="before", role="before", x=speed, y=before, points=True),
-            Trace(name="after", role="after", x=speed, y=after, points=True),
+            Trace(name="train_1.csv", role="before", x=speed, y=before, points=True, at=t, recording="heldout_1.csv"),
         ),
-        marks=(Mark(low=-12.0, high=12.0, label="reversals: 71 %"),),
+        marks=(Mark(low=-12.0, high=12.0, label="reversals"),),
+        shown=(-0.04, 0.04),
     )
-    return over_time, over_speed
 
 
 def _law() -> Plot:
@@ -76,11 +74,11 @@ def _law() -> Plot:
         Trace(name="Coulomb friction", role="corrected", x=w, y=law, low=law - 0.001, high=law + 0.001),
     )
     return Plot(
-        slot="torque-speed",
+        slot="law",
         title="Torque against speed",
-        x_label="Speed",
+        x_label="speed",
         x_unit="rad/s",
-        y_label="Torque",
+        y_label="torque",
         y_unit="N m",
         traces=traces,
     )
@@ -107,9 +105,7 @@ def _spectrum(rng: np.random.Generator) -> Plot:
     )
 
 
-def _row(
-    recording: str, region: str, errors: tuple[float, float, float | None], gain: float | None
-) -> HeldoutRow:
+def _row(recording: str, region: str, errors: tuple[float, float, float | None], gain: float | None) -> HeldoutRow:
     return HeldoutRow(
         recording=recording,
         region=region,
@@ -126,15 +122,11 @@ def _row(
 
 
 def _fit() -> NominalFit:
-    def parameter(
-        nominal: float, unit: str, doubt: float, refitted: float, corrected: float
-    ) -> FittedParameter:
+    def parameter(nominal: float, unit: str, doubt: float, refitted: float, corrected: float) -> FittedParameter:
         def near(value: float) -> Estimate:
             return Estimate(value=value, unit=unit, interval=(0.98 * value, 1.02 * value))
 
-        return FittedParameter(
-            nominal=nominal, uncertainty=doubt, refitted=near(refitted), corrected=near(corrected)
-        )
+        return FittedParameter(nominal=nominal, uncertainty=doubt, refitted=near(refitted), corrected=near(corrected))
 
     return NominalFit(
         parameters={
@@ -146,6 +138,14 @@ def _fit() -> NominalFit:
         },
         advice="Viscous friction tripled when refitted alone: it stood in for the dry friction.",
     )
+
+
+def acting(name: str, probability: float, share: float) -> Acting:
+    """An effect of the account."""
+    evidence = Evidence(
+        share=share, unseen=share, part=share, drift=0.01, certainty=40.0, odds=9.0, moved=0.5, law=0.0, left=1.0
+    )
+    return Acting(name=name, probability=probability, share=share, evidence=evidence)
 
 
 def found() -> Diagnosis:
@@ -162,20 +162,18 @@ def found() -> Diagnosis:
     regions = (
         Region(
             coordinate="speed",
-            low=-12,
-            high=12,
+            low=-12.0,
+            high=12.0,
             unit="rad/s",
             share=0.71,
             samples_share=0.09,
             name="reversals",
         ),
-        Region(
-            coordinate="speed", low=12, high=180, unit="rad/s", share=0.16, samples_share=0.45, name="forward"
-        ),
+        Region(coordinate="speed", low=12.0, high=180.0, unit="rad/s", share=0.16, samples_share=0.45, name="forward"),
         Region(
             coordinate="speed",
-            low=-180,
-            high=-12,
+            low=-180.0,
+            high=-12.0,
             unit="rad/s",
             share=0.13,
             samples_share=0.46,
@@ -206,7 +204,22 @@ def found() -> Diagnosis:
             _row("heldout_1.csv", "reversals", (31.0, 14.9, 0.91), 0.939),
             _row("heldout_2.csv", "all", (9.8, 4.42, 0.81), 0.817),
         ),
-        curves=(_response(rng), *_residuals(rng), _law()),
+        curves=(*_over_time(rng), _map(rng), _law()),
+        account=(acting("coulomb-friction", 0.97, 0.985),),
+        remainder=Remainder(share=0.015, error=1.02),
+        findings=(
+            Found(
+                kind="spikes",
+                recording="train_1.csv",
+                signals=("speed",),
+                count=3,
+                words="3 single samples of the speed are far off those beside them",
+                done="left out",
+            ),
+        ),
+        sensor_filters=(
+            FittedFilter(signal="speed", time_constant=Estimate(value=2.7e-3, unit="s", interval=(2.6e-3, 2.8e-3))),
+        ),
         next_experiment="None needed for this name. A slow ramp through zero would bound any Stribeck part.",
         sources=(
             Source(path="model.toml", use="model", sha256="8f14e45fceea167a5a36dedd4bea2543"),
@@ -238,7 +251,8 @@ def adequate() -> Diagnosis:
         alternatives=(),
         location=Location(),
         heldout=heldout,
-        curves=one.curves[:1],
+        curves=one.curves[:3],
+        account=(),
         next_experiment="",
         adequate_probability=0.96,
     )
@@ -247,9 +261,7 @@ def adequate() -> Diagnosis:
 def unexplained() -> Diagnosis:
     """Something without a name; the learned law is the correction."""
     one = found()
-    location = replace(
-        one.location, description="a torque that depends on angle, 14 periods per revolution, 3 mN m"
-    )
+    location = replace(one.location, description="a torque that depends on angle, 14 periods per revolution, 3 mN m")
     return replace(
         one,
         verdict="unexplained",
@@ -257,7 +269,9 @@ def unexplained() -> Diagnosis:
         set=(),
         alternatives=(),
         location=location,
-        curves=(*one.curves[:3], _spectrum(np.random.default_rng(2))),
+        curves=(*one.curves[:4], _spectrum(np.random.default_rng(2))),
+        account=(acting("unbalance", 0.31, 0.22), acting("coulomb-friction", 0.02, 0.04)),
+        remainder=Remainder(share=1.0, error=8.0, signals=("speed",)),
         warnings=("train_1.csv, line 812: 2 gap(s) of up to 4.0 sample times: input taken as held",),
         next_experiment="Turn the shaft slowly by hand over two revolutions, drive switched off.",
     )
@@ -282,9 +296,7 @@ def ambiguous() -> Diagnosis:
         effects=(backlash,),
         set=("backlash", "shaft-compliance", "presliding-hysteresis"),
         alternatives=(
-            Alternative(
-                effects=("shaft-compliance",), probability=0.34, separated_by="two reversal amplitudes"
-            ),
+            Alternative(effects=("shaft-compliance",), probability=0.34, separated_by="two reversal amplitudes"),
         ),
         next_experiment="Reverse with two amplitudes, 5 % and 50 % of the rated voltage, at 1 Hz.",
     )

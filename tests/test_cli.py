@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import subprocess
 import sys
 import time
@@ -19,6 +20,7 @@ from rwn.fit.intervals import Estimate
 from rwn.model.files import read_model
 from rwn.model.model import Model
 from rwn.recording.recording import Recording, read_recording, write_csv
+from rwn.report import identification
 from rwn.report.diagnosis import Diagnosis
 
 MODEL = """[motor]
@@ -46,6 +48,8 @@ class FakeIdentification:
     parameters: dict[str, Estimate]
     status: str = "converged"
     advice: str = ""
+    not_identifiable: tuple[str, ...] = ()
+    residual_over_noise: float = 1.0
 
 
 Run = Callable[..., tuple[int, str, str]]
@@ -79,26 +83,31 @@ def _fake_diagnose(calls: list[dict[str, Any]]) -> Callable[..., Diagnosis]:
     return fake
 
 
-def test_diagnose_writes_the_three_files(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_diagnose_writes_its_files(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     calls: list[dict[str, Any]] = []
     monkeypatch.setattr(rwn, "diagnose", _fake_diagnose(calls), raising=False)
     code, out, err = run(
         "diagnose", "a.csv", "--model", "model.toml", "--out", "new/out", "--heldout", "b.csv", "--seed", "4"
     )
-    assert (code, err) == (0, "")
+    assert (code, err) == (0, " 50 %  refit\n")
     (call,) = calls
     assert [r.name for r in call["recordings"]] == ["a.csv"]
     assert [r.name for r in call["heldout"]] == ["b.csv"]
     assert call["seed"] == 4
     folder = tmp_path / "new" / "out"
-    assert sorted(f.name for f in folder.iterdir()) == ["corrected.toml", "diagnosis.json", "report.html"]
+    assert sorted(f.name for f in folder.iterdir()) == [
+        "corrected.toml",
+        "curves.json",
+        "diagnosis.json",
+        "report.html",
+    ]
     assert read_model(folder / "corrected.toml") == read_model("model.toml")
     assert Diagnosis.from_json((folder / "diagnosis.json").read_bytes()).verdict == "missing-physics"
     report = (folder / "report.html").read_text(encoding="utf-8")
     assert "--heldout b.csv" in report
     assert hashlib.sha256((tmp_path / "a.csv").read_bytes()).hexdigest()[:12] in report
     assert out.startswith("The model lacks Coulomb friction")
-    assert "coulomb_torque = 20.8 ± 0.5 mN m" in out
+    assert "Coulomb friction: Coulomb torque T_c = 20.8 ± 0.5 mN m" in out
 
 
 def test_a_failure_half_way_leaves_nothing(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -107,7 +116,7 @@ def test_a_failure_half_way_leaves_nothing(run: Run, monkeypatch: pytest.MonkeyP
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("rwn.report.write_report", full)
+    monkeypatch.setattr("rwn.report.diagnosis.page", full)
     code, _, err = run("diagnose", "a.csv", "--model", "model.toml", "--out", "out")
     assert code == 2
     assert "No space left" in err
@@ -139,19 +148,114 @@ def test_simulate_writes_a_recording(run: Run, monkeypatch: pytest.MonkeyPatch) 
     np.testing.assert_allclose(simulated.signals["speed"], 2 * simulated.time)
 
 
-def test_identify_prints_and_writes_the_fitted_model(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def _fake_identify(**given: Any) -> Callable[..., FakeIdentification]:
     def fake(_: list[Recording], model: Model) -> FakeIdentification:
         fitted = replace(model, parameters={**model.parameters, "resistance": 0.9})
-        return FakeIdentification(fitted, {"resistance": Estimate(value=0.9, unit="ohm", interval=(0.88, 0.92))})
+        estimate = Estimate(value=0.9, unit="ohm", interval=(0.88, 0.92))
+        return FakeIdentification(fitted, {"resistance": estimate}, **given)
 
-    monkeypatch.setattr(rwn, "identify", fake, raising=False)
-    code, out, _ = run("identify", "a.csv", "b.csv", "--model", "model.toml", "--out", "fitted.toml")
-    assert code == 0
+    return fake
+
+
+@pytest.fixture
+def motor(run: Run, tmp_path: Path) -> None:
+    """a.csv as the motor of MODEL with a resistance of 0.9 ohm moves (`run` has written the model)."""
+    model = read_model(tmp_path / "model.toml")
+    true = replace(model, parameters={**model.parameters, "resistance": 0.9})
+    t = np.arange(3000) / 1000
+    run = Recording(name="a", time=t, signals={"voltage": 5.0 * np.sign(np.sin(6 * t + 0.1))})
+    signals = dict(rwn.simulate(true, run).signals)
+    write_csv(tmp_path / "a.csv", t, {"voltage": run.signals["voltage"], "speed": signals["speed"]})
+
+
+@pytest.mark.usefixtures("motor")
+def test_identify_prints_and_writes_the_fitted_model(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rwn, "identify", _fake_identify(residual_over_noise=3.2), raising=False)
+    code, out, err = run("identify", "a.csv", "--model", "model.toml", "--out", "fitted.toml")
+    assert (code, err) == (0, "")
     assert "0.900 ± 0.020 Ω" in out
+    assert "a.csv: 100 % of the variance of the speed is explained" in out
+    assert "3.2 times the rms of the noise" in out
     assert read_model("fitted.toml").parameters["resistance"] == 0.9
     code, _, err = run("identify", "a.csv", "--model", "model.toml", "--out", "fitted.toml")
     assert code == 2
     assert "exists" in err
+
+
+@pytest.mark.usefixtures("motor")
+def test_identify_fails_where_it_did_not_converge(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(
+        rwn, "identify", _fake_identify(status="iteration-limit", advice="Start closer."), raising=False
+    )
+    code, _, err = run("identify", "a.csv", "--model", "model.toml", "--out", "fitted.toml")
+    assert code == 3
+    assert "did not converge (iteration-limit): Start closer; fitted.toml was not written" in err
+    assert not (tmp_path / "fitted.toml").exists()
+
+
+def test_a_sign_error_is_no_identified_motor(run: Run, tmp_path: Path) -> None:
+    """The speed of the demonstration with its sign turned."""
+    demo = Path(rwn.__file__).parent / "demo"
+    recording = read_recording(demo / "train.csv")
+    turned = {"voltage": recording.signals["voltage"][:1500], "speed": -recording.signals["speed"][:1500]}
+    write_csv(tmp_path / "turned.csv", recording.time[:1500], turned)
+    code, _, err = run("identify", "turned.csv", "--model", str(demo / "model.toml"), "--out", "fitted.toml")
+    assert code == 3
+    assert "check signs" in err
+    assert "was not written" in err
+    assert not (tmp_path / "fitted.toml").exists()
+
+
+def test_identify_says_what_ran_into_a_bound_and_what_is_not_seen() -> None:
+    model = Model(kind="dc", parameters={"resistance": 1.0, "inertia": 1e-4}, uncertainty={"resistance": 0.1})
+    estimates = {"resistance": Estimate(value=14.6, unit="ohm", interval=(10.0, 14.6))}
+    fit = FakeIdentification(model, estimates, not_identifiable=("inertia",))
+    said = "\n".join(identification.lines(fit, (), model))  # type: ignore[arg-type]
+    assert "warning: resistance ran into a bound" in said
+    assert "say nothing of inertia" in said
+    assert "resistance moved by 27 times what was declared" in said
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        (["friction"], {"coulomb-friction", "stribeck-friction", "asymmetric-friction"}),
+        (["dry", "friction"], {"coulomb-friction", "stribeck-friction"}),
+        (["frcition"], {"coulomb-friction", "viscous-friction"}),
+        (["sensor"], {"sensor-bias", "speed-sensor-lag"}),
+    ],
+)
+def test_effects_are_found_by_a_word_and_by_one_like_it(run: Run, words: list[str], names: set[str]) -> None:
+    code, out, _ = run("effects", *words)
+    assert code == 0
+    shown = {line.split()[0] for line in out.splitlines()}
+    assert names <= shown
+    assert "input-delay" not in shown
+
+
+@pytest.mark.parametrize("word", ["Stribeck", "stribek"])
+def test_a_word_that_means_one_effect_shows_it(run: Run, word: str) -> None:
+    code, out, _ = run("effects", word)
+    assert code == 0
+    assert out.startswith("stribeck-friction: ")
+    assert "static_torque T_s [N m]" in out
+
+
+def test_a_word_that_means_none_is_refused(run: Run) -> None:
+    code, _, err = run("effects", "gravitation")
+    assert code == 2
+    assert "unknown effect 'gravitation'" in err
+
+
+def test_the_shell_completes_commands_and_effects() -> None:
+    def completed(line: str) -> list[str]:
+        asked = {"_RWN_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}
+        code = "import sys; sys.argv = ['rwn']; from rwn.cli import main; main()"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=os.environ | asked)
+        return done.stdout.split()
+
+    assert completed("rwn diag") == ["diagnose"]
+    assert completed("rwn effects stri") == ["stribeck-friction"]
 
 
 def test_effects_prints_the_table(run: Run) -> None:

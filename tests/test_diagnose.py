@@ -46,6 +46,32 @@ def test_the_demo_lacks_coulomb_friction_and_its_correction_predicts(demo: Diagn
     assert row.corrected < 1.2 * (row.noise_floor or np.inf)
 
 
+@pytest.mark.slow
+def test_the_demo_draws_its_proof_and_its_law(demo: Diagnosis) -> None:
+    heldout = [p for p in demo.curves if p.recording == "heldout.csv"]
+    assert [(p.slot, p.use) for p in heldout] == [
+        ("response", "heldout"), ("residual-time", "heldout"), ("input", "heldout"),
+    ]  # fmt: skip
+    assert demo.plots[0] == "heldout.csv"
+    response, errors, _ = heldout
+    assert [t.name for t in response.traces] == ["measured", "nominal as given", "nominal refitted", "corrected"]
+    before, after = (float(np.sqrt(np.mean(t.y**2))) for t in errors.traces)
+    assert after < 0.5 * before
+    (law,) = [p for p in demo.curves if p.slot == "law"]
+    points, line = law.traces
+    assert line.name == "Coulomb friction"
+    level = demo.effects[0].parameters["coulomb_torque"].value
+    fast = np.abs(line.x) > 20.0
+    np.testing.assert_allclose(line.y[fast], -level * np.sign(line.x[fast]), rtol=0.02)
+    assert np.sqrt(np.mean((points.y + level * np.sign(points.x)) ** 2)) < 0.5 * level
+    (where,) = [p for p in demo.curves if p.slot == "residual-speed"]
+    cloud = where.traces[0]
+    assert cloud.recording == "train.csv"
+    assert cloud.at is not None
+    assert (cloud.at.min(), cloud.at.max()) == (pytest.approx(0.0, abs=0.05), pytest.approx(4.999, abs=0.05))
+    assert len(demo.to_json()) < 20_000
+
+
 def test_the_corrected_model_has_nothing_missing(demo: Diagnosis) -> None:
     model = replace(demo.corrected, uncertainty={})
     again = rwn.diagnose(read(DEMO, model, "train.csv"), model)

@@ -51,7 +51,8 @@ def test_the_readme_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     monkeypatch.chdir(tmp_path)
     with contextlib.redirect_stdout(io.StringIO()) as out:
         exec(compile(code, "README.md", "exec"), {})
-    assert out.getvalue() == "missing-physics ['coulomb-friction']\n"
+    assert out.getvalue().startswith("The model lacks Coulomb friction of ")
+    assert (tmp_path / "result" / "report.html").exists()
 
 
 def test_the_readme_is_short() -> None:

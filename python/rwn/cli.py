@@ -6,6 +6,7 @@ import importlib
 import importlib.util
 import os
 import shlex
+import shutil
 import sys
 import threading
 from dataclasses import replace
@@ -23,14 +24,13 @@ app = typer.Typer(
     name="rwn",
     help="Says what physics a drive simulation leaves out, from recordings of the real drive.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
 
-Recordings = Annotated[
-    list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")
-]
+NO_RESULT = 3  # exit code of a computation that ran and has no result to stand by
+
+Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")]
 ModelFile = Annotated[Path, typer.Option("--model", help="The nominal model (TOML).")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace results that exist.")]
 
@@ -40,7 +40,7 @@ def diagnose(
     recordings: Recordings,
     model: ModelFile,
     out: Annotated[
-        Path, typer.Option("--out", help="Folder for diagnosis.json, corrected.toml, report.html.")
+        Path, typer.Option("--out", help="Folder for report.html, diagnosis.json, curves.json, corrected.toml.")
     ],
     heldout: Annotated[
         list[Path] | None, typer.Option("--heldout", help="A file to judge by, never fitted to; repeatable.")
@@ -68,7 +68,7 @@ def diagnose(
             *(source(r, "heldout") for r in judged),
         ]
         found = replace(found, sources=tuple(used), command=shlex.join(["rwn", *sys.argv[1:]]))
-        _write_results(found, aside)
+        found.write(aside)
     _print_verdict(found, out)
 
 
@@ -88,9 +88,7 @@ def _refuse_strays(arguments: list[str]) -> None:
 @app.command()
 def simulate(
     model: Annotated[Path, typer.Argument(metavar="MODEL.toml", help="A model file.")],
-    recording: Annotated[
-        Path, typer.Option("--input", help="Recording whose input signal drives the model.")
-    ],
+    recording: Annotated[Path, typer.Option("--input", help="Recording whose input signal drives the model.")],
     out: Annotated[Path, typer.Option("--out", help="CSV to write.")],
     overwrite: Overwrite = False,
     partial: Annotated[bool, typer.Option("--partial", help="Write a run that did not reach its end too.")] = False,
@@ -133,48 +131,87 @@ def identify(
     out: Annotated[Path | None, typer.Option("--out", help="Model file to write.")] = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Fit the parameters of a model, effects included, within their declared uncertainty."""
+    """Fit the parameters of a model, effects included, within their declared uncertainty.
+
+    Ends with exit code 3, and writes nothing, where the fit does not converge or describes no recorded signal.
+    """
     from contextlib import nullcontext
 
     from rwn.model.files import read_model, write_model
     from rwn.model.recordings import read_recordings
-    from rwn.report import text as words
+    from rwn.report import identification
     from rwn.report.files import output_file
 
     inputs = [model, *recordings]
     with output_file(out, overwrite=overwrite, inputs=inputs) if out else nullcontext() as aside:
         nominal = read_model(model)
-        fit = _rwn().identify(read_recordings(recordings, nominal), nominal)
+        files = read_recordings(recordings, nominal)
+        fit = _rwn().identify(files, nominal)
+        signals = identification.fitted_signals(fit, files)
+        for line in identification.lines(fit, signals, nominal):
+            typer.echo(line, err=line.startswith("warning"))
+        why = identification.failure(fit, signals)
+        if why:
+            typer.echo(f"rwn: {why}" + (f"; {out} was not written" if out else ""), err=True)
+            raise typer.Exit(NO_RESULT)
         if aside is not None:
             write_model(fit.model, aside)
-    for name, value in fit.parameters.items():
-        typer.echo(f"{name:<22} {words.estimate(value)}")
-    if fit.status != "converged":
-        typer.echo(f"{fit.status}: {fit.advice}")
+
+
+def _effect_names(incomplete: str) -> list[str]:
+    from rwn.model import vocabulary
+
+    return [name for name in vocabulary.table() if name.startswith(incomplete)]
 
 
 @app.command()
 def effects(
-    name: Annotated[str | None, typer.Argument(help="One effect, in detail.")] = None,
+    name: Annotated[
+        list[str] | None, typer.Argument(help="One effect, in detail, or a word of it.", autocompletion=_effect_names)
+    ] = None,
     model: Annotated[Path | None, typer.Option("--model", help="A model file: its own effects as well.")] = None,
 ) -> None:
-    """The effects that rwn can name: site, equation, parameters, source."""
+    """The effects that rwn can name: site, equation, parameters, source; also by a word: rwn effects friction."""
     from rwn.model import vocabulary as known
+    from rwn.model.effect_search import effects_by_word
     from rwn.model.files import read_model
+    from rwn.report.effect_text import lines
 
     table = read_model(model).effect_table if model else known.table()
-    if name is None:
-        for effect in table.values():
-            typer.echo(f"{effect.name:<28} {effect.site:<9} {effect.meaning}")
-        return
-    if name not in table:
-        raise unknown("effect", name, table, where="rwn effects")
-    effect = table[name]
-    typer.echo(f"{effect.name}: {effect.meaning}\nsite: {effect.site}\nequation: {effect.equation}")
-    for p in effect.parameters:
-        scale = f" x {p.scale.words} of the drive" if p.scale.powers else ""
-        typer.echo(f"  {p.name} [{p.unit}]: {p.meaning}; {p.lower:g} to {p.upper:g}{scale}")
-    typer.echo(f"source: {effect.source}")
+    wanted = " ".join(name or [])
+    found = [table[wanted]] if wanted in table else effects_by_word(wanted, table) if wanted else list(table.values())
+    if not found:
+        raise unknown("effect", wanted, table, where="rwn effects")
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    for line in lines(found, width=width):
+        typer.echo(line)
+
+
+@app.command()
+def report(
+    folders: Annotated[list[Path], typer.Argument(metavar="RESULT...", help="Folders that rwn diagnose wrote.")],
+    out: Annotated[Path, typer.Option("--out", help="HTML file to write.")],
+    compare: Annotated[bool, typer.Option("--compare", help="Set two results beside each other.")] = False,
+    overwrite: Overwrite = False,
+) -> None:
+    """Draw the report of a result anew, or compare two: before and after a repair."""
+    from rwn.report.comparison import comparison
+    from rwn.report.diagnosis import Diagnosis
+    from rwn.report.files import output_file
+    from rwn.report.page import page
+
+    if len(folders) != (2 if compare else 1):
+        raise InputError(
+            f"{len(folders)} result(s) {'with' if compare else 'without'} --compare",
+            where="rwn report",
+            expected="one result, or two and --compare",
+            fix="rwn report before after --compare --out comparison.html",
+        )
+    with output_file(out, overwrite=overwrite) as aside:
+        found = [Diagnosis.load(folder) for folder in folders]
+        text = comparison(found[0], found[1], (str(folders[0]), str(folders[1]))) if compare else page(found[0])
+        aside.write_text(text, encoding="utf-8")
+    typer.echo(f"Report: {out}")
 
 
 @app.command()
@@ -226,27 +263,12 @@ def _progress() -> Any:
     return Progress(sys.stderr)
 
 
-def _write_results(found: Diagnosis, folder: Path) -> None:
-    from rwn.model.files import write_model
-    from rwn.report import write_report
-
-    (folder / "diagnosis.json").write_bytes(found.to_json())
-    if found.corrected is not None:
-        write_model(found.corrected, folder / "corrected.toml")
-    write_report(found, folder / "report.html")
-
-
 def _print_verdict(found: Diagnosis, out: Path) -> None:
-    from rwn.report import text as words
+    from rwn.report.terminal import lines
 
-    typer.echo(words.verdict_sentence(found))
-    for finding in found.findings:
-        typer.echo(f"  {finding.recording}: {finding.words}; {finding.done}")
-    for effect in found.effects:
-        for name, value in effect.parameters.items():
-            typer.echo(f"  {effect.name} {name} = {words.estimate(value)}")
-    if found.next_experiment:
-        typer.echo(f"Next experiment: {found.next_experiment}")
+    plain = bool(os.environ.get("NO_COLOR"))  # https://no-color.org
+    for line in lines(found):
+        typer.echo(line, color=False if plain else None)
     for warning in found.warnings:
         typer.echo(f"warning: {warning}", err=True)
     typer.echo(f"Report: {out / 'report.html'}")

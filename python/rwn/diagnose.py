@@ -71,7 +71,7 @@ def diagnose(
         say("correcting the model", 0.9)
         correction = correct(decision, unseen, model, seed=seed)
         say("drawing", 0.95)
-        made = assemble(correction, found.faults, model, seed=seed, elapsed=time.perf_counter() - began)
+        made = assemble(correction, found.faults, model, unseen, seed=seed, elapsed=time.perf_counter() - began)
         layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
         made = replace(made, corrected=replace(made.corrected, recording=layout))
         return replace(made, findings=(*findings, *found.findings, *unseen_findings))

@@ -7,18 +7,44 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
-from rwn.report.figures import MOST_POINTS, _thin
+from rwn.report.thinning import MOST_POINTS, thin_cloud, thin_line, worth_seeing
 
 
 @pytest.mark.parametrize("length", [100, 20_001, 150_000])
 def test_no_spike_is_lost(length: int) -> None:
     y = np.zeros(length)
     y[length // 2 + 1] = 100.0
-    x, thin, flat = _thin(np.arange(length, dtype=np.float64), y, 0.0 * y)
-    assert x.size <= MOST_POINTS + 2
-    assert thin.max() == 100.0
-    assert thin.size == flat.size == x.size
-    assert (x[0], x[-1]) == (0.0, length - 1.0)
+    kept = thin_line([y, 0.0 * y])
+    assert kept.size <= MOST_POINTS + 2
+    assert y[kept].max() == 100.0
+    assert (kept[0], kept[-1]) == (0, length - 1)
+
+
+def test_the_stretch_that_is_looked_at_closely_keeps_more() -> None:
+    y = np.sin(np.arange(100_000) / 50.0)
+    plain, close = thin_line([y]), thin_line([y], whole=(40_000, 40_600))
+    inside = (close >= 40_000) & (close < 40_600)
+    assert inside.sum() == 600
+    assert ((plain >= 40_000) & (plain < 40_600)).sum() < 20
+
+
+def test_a_cloud_keeps_its_outermost_points() -> None:
+    y = np.zeros(50_000)
+    y[31_999] = -7.0
+    kept = thin_cloud(y)
+    assert kept.size < 1.2 * MOST_POINTS
+    assert y[kept].min() == -7.0
+
+
+def test_one_outlier_does_not_flatten_a_law() -> None:
+    rng = np.random.default_rng(0)
+    points = 4e-3 * rng.choice([-1.0, 1.0], 2000) + rng.normal(0, 3e-4, 2000)
+    law = np.array([-4e-3, 4e-3])
+    assert worth_seeing(np.clip(points, -5e-3, 5e-3), law) is None
+    points[7] = -0.15
+    low, high = worth_seeing(points, law) or (0.0, 0.0)
+    assert -0.01 < low < -4.5e-3
+    assert 4.5e-3 < high < 0.01
 
 
 @pytest.mark.slow

@@ -8,7 +8,10 @@ import pytest
 import made_up
 from rwn.decide.account import Remainder
 from rwn.fit.intervals import Estimate
+from rwn.locate.regions import Region
+from rwn.prove.proof import LEFT_OUT
 from rwn.report import text as words
+from rwn.report.sentences import before_after, headline, verdict_sentence
 
 
 @pytest.mark.parametrize(
@@ -25,38 +28,36 @@ from rwn.report import text as words
         (0.43, "1", (0.38, 0.48), "0.43 ± 0.05"),
     ],
 )
-def test_estimates_read_well(
-    value: float, unit: str, interval: tuple[float, float] | None, text: str
-) -> None:
+def test_estimates_read_well(value: float, unit: str, interval: tuple[float, float] | None, text: str) -> None:
     assert words.estimate(Estimate(value=value, unit=unit, interval=interval)) == text
 
 
 @pytest.mark.parametrize("state", made_up.ALL)
 def test_the_verdict_is_one_sentence_or_two(state: str) -> None:
-    sentence = words.verdict_sentence(made_up.ALL[state]())
+    sentence = verdict_sentence(made_up.ALL[state]())
     assert sentence.endswith(".")
     assert "  " not in sentence
-    assert 30 < len(sentence) < 250
+    assert 30 < len(sentence) < 300
 
 
 def test_a_set_names_every_member() -> None:
-    sentence = words.verdict_sentence(made_up.ambiguous())
+    sentence = verdict_sentence(made_up.ambiguous())
     assert "backlash, shaft compliance or presliding hysteresis" in sentence
     assert "cannot tell" in sentence
 
 
 def test_what_a_name_leaves_is_said_beside_it() -> None:
     found = made_up.found()
-    assert "no name here" not in words.verdict_sentence(found)
+    assert "no name here" not in verdict_sentence(found)
     left = replace(found, remainder=Remainder(share=0.12, error=3.0, signals=("speed",)))
-    assert words.verdict_sentence(left).startswith("The model lacks ")
-    assert "What they leave of the speed, 12 % of the mismatch, is not noise" in words.verdict_sentence(left)
+    assert verdict_sentence(left).startswith("The model lacks ")
+    assert "What they leave of the speed, 12 % of the mismatch, is not noise" in verdict_sentence(left)
 
 
 def test_a_loss_is_not_called_a_gain() -> None:
     found = made_up.found()
     worse = replace(found, heldout=(replace(found.heldout[0], gain=-0.2),))
-    assert "increases" in words.verdict_sentence(worse)
+    assert "increases" in verdict_sentence(worse)
 
 
 @pytest.mark.parametrize(
@@ -74,10 +75,52 @@ def test_no_probability_is_certainty(probability: float, text: str) -> None:
 
 def test_a_parameter_beyond_its_declared_uncertainty_is_said_to_be_so() -> None:
     fine = made_up.adequate()
-    assert "within their declared uncertainty" in words.verdict_sentence(fine)
+    assert "within their declared uncertainty" in verdict_sentence(fine)
     name, p = next((n, p) for n, p in fine.nominal_fit.parameters.items() if p.uncertainty > 0)
     off = replace(p, refitted=replace(p.refitted, value=p.nominal * math.exp(20.0 * p.uncertainty)))
     parameters = {**fine.nominal_fit.parameters, name: off}
-    said = words.verdict_sentence(replace(fine, nominal_fit=replace(fine.nominal_fit, parameters=parameters)))
-    assert said.endswith(f"But {name} had to move by 20 times its declared uncertainty: check it.")
+    said = verdict_sentence(replace(fine, nominal_fit=replace(fine.nominal_fit, parameters=parameters)))
+    assert said.endswith(f"But {words.plain_name(name)} had to move by 20 times its declared uncertainty: check it.")
     assert "within" not in said
+
+
+def test_a_signal_that_got_worse_is_said_beside_the_one_that_improves() -> None:
+    found = made_up.found()
+    bad = replace(
+        found.heldout[0], signal="current", unit="A", refitted=0.1, corrected=0.3, gain=-2.0, gain_interval=(-3, -1)
+    )
+    said = verdict_sentence(replace(found, heldout=(found.heldout[0], bad)))
+    assert "But the current error on heldout_1.csv gets worse, from 0.100 A to 0.300 A." in said
+    assert "worse" not in verdict_sentence(found)
+
+
+def test_the_two_numbers_are_those_that_the_gain_is_of() -> None:
+    found = made_up.found()
+    row = headline(found)
+    assert row is not None
+    assert before_after(row) == ("6.31 rad/s", "0.830 rad/s")
+    assert "from 6.31 rad/s to 0.830 rad/s" in verdict_sentence(found)
+    assert before_after(replace(row, corrected=None)) == ("14.2 rad/s", "6.31 rad/s")
+
+
+def test_a_part_that_was_left_out_does_not_read_as_an_error_in_seconds() -> None:
+    found = made_up.found()
+    row = replace(found.heldout[0], recording=f"last 30 % of train_1.csv {LEFT_OUT}")
+    said = verdict_sentence(replace(found, heldout=(row,)))
+    assert "the speed error on last 30 % of train_1.csv, left out of the fit, from 6.31 rad/s" in said
+
+
+def test_a_place_is_said_in_words() -> None:
+    fast = Region(coordinate="acceleration", low=403, high=6500, unit="rad/s^2", share=0.89, samples_share=0.17)
+    named = replace(fast, name="high acceleration")
+    assert words.located([named], [], linear=False) == (
+        "strongest at high acceleration, where 17 % of the samples hold 89 % of the mismatch"
+    )
+    assert "from 403 rad/s² to 6500 rad/s²" in words.located([fast], [], linear=False)
+    assert words.located([replace(fast, share=0.2)], [], linear=False) == ""
+
+
+def test_parameters_have_the_symbol_of_their_law() -> None:
+    assert words.parameter_name("stribeck-friction", "static_torque") == "static torque T_s"
+    assert words.parameter_name("backlash", "gap") == "gap"
+    assert words.parameter_name("my-own", "width") == "width"

@@ -65,9 +65,7 @@ def _stretch(name: str, x: Array, energy: Array, unit: str, bins: int = 12) -> R
     i, j = np.triu_indices(edges.size, 1)
     best = int(np.argmax(excess[j] - excess[i]))
     a, b = int(i[best]), int(j[best])
-    word = {"speed": ("low speed", "high speed"), "current": ("low current", "high current")}.get(
-        name, ("", "")
-    )
+    word = (f"low {name}", f"high {name}") if name in ("speed", "current", "acceleration") else ("", "")
     label = word[0] if a == 0 else word[1] if b == edges.size - 1 else ""
     return Region(
         coordinate=name,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, Protocol, cast
@@ -122,6 +122,10 @@ class Model:
             check_nominal(values, LOADS[name], linear=False, where=f"{where}, [load.{name}]")
         check_constants(self.own_effects, self.effects, where=where)
 
+    def __reduce__(self) -> tuple[Callable[[dict[str, Any]], Model], tuple[dict[str, Any]]]:
+        """For pickle and copy, which know nothing of read-only mappings."""
+        return _model_of, ({f.name: _plain(getattr(self, f.name)) for f in fields(self)},)
+
     @cached_property
     def effect_table(self) -> Mapping[str, Effect]:
         """Every effect that this model knows by name: those that come with rwn, then its own."""
@@ -158,6 +162,14 @@ class Model:
         """SI unit of a nominal parameter."""
         entry = next(p for p in self.nominal if p.name == parameter)
         return (entry.linear_unit if self.linear else entry.unit) or entry.unit
+
+
+def _model_of(values: dict[str, Any]) -> Model:
+    return Model(**values)
+
+
+def _plain(value: Any) -> Any:
+    return {key: _plain(inner) for key, inner in value.items()} if isinstance(value, Mapping) else value
 
 
 def _require(names: Iterable[str], kind: str, known: Iterable[str], *, where: str) -> None:

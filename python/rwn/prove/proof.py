@@ -89,6 +89,5 @@ def _folds(problem: Problem) -> Iterator[Fold]:
             yield replace(problem, runs=others), replace(run, name=f"{run.name} {LEFT_OUT}"), 0
         return
     first = int(FITTED_PART * whole[0].time.size)
-    begin = whole[0].time[first]
-    late = replace(whole[0], name=f"{whole[0].name} from {begin:.3g} s {LEFT_OUT}")
+    late = replace(whole[0], name=f"last {1.0 - FITTED_PART:.0%} of {whole[0].name} {LEFT_OUT}".replace("%", " %"))
     yield replace(problem, runs=(problem.runs[0].until(first),)), late, first

@@ -23,13 +23,17 @@ from rwn.name.weights import RankedFit
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report import figures
-from rwn.report.diagnosis import Alternative, Beneath, Diagnosis, Location
+from rwn.report.diagnosis import Diagnosis
+from rwn.report.diagnosis_data import Alternative, Beneath, Location
 from rwn.report.nominal_fit import nominal_fit
+from rwn.report.sensor_filter import FittedFilter, fitted_filters
+from rwn.report.text import located
+from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import unknown_inputs
 
 
 def assemble(
-    correction: Correction, faults: Sequence[Fault], model: Model, *, seed: int, elapsed: float
+    correction: Correction, faults: Sequence[Fault], model: Model, heldout: Sequence[Run], *, seed: int, elapsed: float
 ) -> Diagnosis:
     """The diagnosis, of a model that has the network among its own effects where one stands in."""
     decision = correction.decision
@@ -57,8 +61,9 @@ def assemble(
     where = regions(unknown, linear=model.linear)
     torque_unknown = verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
-    place = figures.describe(where, depends, linear=model.linear)
-    drawn = (figures.network_over_its_state(correction.network),) if correction.network else ()
+    place = located(where, depends, linear=model.linear)
+    filters = fitted_filters(chosen.final, ranking.counted)
+    drawn = figures.plots(ranking, chosen, heldout, unknown, depends, correction.network, linear=model.linear)
     return Diagnosis(
         verdict=verdict,
         equation=equation,
@@ -77,8 +82,9 @@ def assemble(
         location=Location(equation=equation, regions=where, description=place),
         nominal_fit=nominal_fit(ranking, chosen, model, widened=birge),
         heldout=rows,
-        curves=(*figures.plots(ranking, chosen, unknown, depends, linear=model.linear), *drawn),
-        warnings=(*_warnings(ranking, chosen, rows), *correction.warnings),
+        curves=drawn,
+        sensor_filters=filters,
+        warnings=(*_warnings(ranking, chosen, rows, filters), *correction.warnings),
         next_experiment=_next_experiment(ranking, verdict, names),
         adequate_probability=ranking.nothing_missing.probability,
         account=decision.account.effects,
@@ -106,14 +112,17 @@ def _does_not_run(ranking: Ranking) -> list[str]:
     return [f"the model as given does not run ({status}): {_core.simulation_advice(status)}" for status in failed]
 
 
-def _warnings(ranking: Ranking, chosen: RankedFit, rows: Sequence[HeldoutRow]) -> tuple[str, ...]:
+def _warnings(
+    ranking: Ranking, chosen: RankedFit, rows: Sequence[HeldoutRow], filters: Sequence[FittedFilter]
+) -> tuple[str, ...]:
     texts = _does_not_run(ranking)
     if chosen.added and rows and all(LEFT_OUT in r.recording for r in rows):
         texts.append(
             "no held-out recording was given: the proof is by cross-validation, each part simulated by fits without it"
         )
+    explained = {f.signal for f in filters}  # a filter that is fitted colours the noise that went through it
     for signal, noise in ranking.weighted.noise.items():
-        if noise.reflection:
+        if noise.reflection and signal not in explained:
             texts.append(
                 f"what is left of the {signal} lasts (its correlation from sample to sample is "
                 f"{noise.reflection[0]:.2f}): the corrected model was fitted to what is new in it"

@@ -1,159 +1,160 @@
-"""What a diagnosis found, as plain data: made by `diagnose`, drawn by the report, kept in diagnosis.json."""
+"""A diagnosis as its user has it: shown, drawn, tabulated, saved and read back."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Any, Literal
+from dataclasses import dataclass, replace
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import msgspec
-import numpy as np
-from numpy.typing import NDArray
 
-from rwn.decide.account import Acting, Remainder
-from rwn.decide.verdict import Verdict
-from rwn.locate.regions import Region
-from rwn.name.found_effect import FoundEffect
-from rwn.prove.heldout import HeldoutRow
-from rwn.recording.inspection import Finding
-from rwn.report.nominal_fit import NominalFit
+from rwn.errors import InputError, unknown
+from rwn.model.files import read_model, write_model
+from rwn.report.diagnosis_data import DiagnosisData
+from rwn.report.files import output_folder
+from rwn.report.page import page, panels, pictures
+from rwn.report.plots import figure, unpacked
+from rwn.report.sentences import sentences, verdict_sentence
+from rwn.report.text import estimate, likelihood, parameter_name, plain_name
 
-Slot = Literal[
-    "response", "residual-time", "residual-speed", "residual-angle", "torque-speed", "spectrum", "other"
-]
-Role = Literal["measured", "nominal", "refitted", "corrected", "before", "after", "reference", "noise-floor"]
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    import pandas
+    import plotly.graph_objects
 
-
-@dataclass(frozen=True, kw_only=True)
-class Alternative:
-    """Another explanation of the same recordings, with its probability."""
-
-    effects: tuple[str, ...]
-    probability: float
-    separated_by: str = ""  # the experiment that would tell it from the first
+RESULT, CURVES, MODEL, REPORT = "diagnosis.json", "curves.json", "corrected.toml", "report.html"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Location:
-    """The equation that carries unknown input, and the regions where the mismatch's energy sits."""
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
+class Diagnosis(DiagnosisData):
+    """The verdict, what it rests on, and the curves that show it.
 
-    equation: str = ""
-    regions: tuple[Region, ...] = ()
-    description: str = ""  # "a torque that depends on angle, 14 periods per revolution, 3 mN m"
+    Equal diagnoses are those that are saved alike; how long they took and the command that made them do not count.
+    """
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Diagnosis):
+            return NotImplemented
+        mine, its = ((d.to_json(), d.curves_json(), d.corrected) for d in (self, other))
+        return mine == its
 
-@dataclass(frozen=True, kw_only=True)
-class Trace:
-    """One line (or cloud) of a plot; `low`/`high` shade a band around it; NaN breaks the line."""
+    __hash__ = None  # type: ignore[assignment]  # what it holds has none
 
-    name: str
-    role: Role
-    x: Array
-    y: Array
-    low: Array | None = None
-    high: Array | None = None
-    points: bool = False  # a cloud instead of a line
+    def __repr__(self) -> str:
+        names = ", ".join(f"{e.name} ({likelihood(e.probability)})" for e in self.effects)
+        return f"<Diagnosis {self.verdict}{f': {names}' if names else ''}>"
 
+    def __str__(self) -> str:
+        return verdict_sentence(self)
 
-@dataclass(frozen=True, kw_only=True)
-class Mark:
-    """A stretch of the x axis to point at: the located region."""
-
-    low: float
-    high: float
-    label: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class Plot:
-    """One picture of the report, in SI units; the report picks prefixes. `slot` says where it belongs."""
-
-    slot: Slot
-    title: str
-    x_label: str
-    x_unit: str
-    y_label: str
-    y_unit: str
-    traces: tuple[Trace, ...]
-    marks: tuple[Mark, ...] = ()
-    note: str = ""
-    log_y: bool = False
-
-
-@dataclass(frozen=True, kw_only=True)
-class Source:
-    """A file that was used, and what for."""
-
-    path: str
-    use: Literal["model", "fit", "heldout"]
-    samples: int = 0
-    duration: float = 0.0  # [s]
-    sha256: str = ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Beneath:
-    """What is said of the drive once the mistakes in its recordings are undone."""
-
-    verdict: Verdict
-    set: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class Diagnosis:
-    """The verdict, what it rests on, and the curves that show it."""
-
-    verdict: Verdict
-    equation: str = ""
-    effects: tuple[FoundEffect, ...] = ()
-    set: tuple[str, ...] = ()  # names that these recordings cannot tell apart, the first is the first name
-    beneath: Beneath | None = None  # where the verdict is recording-mistake
-    alternatives: tuple[Alternative, ...] = ()
-    findings: tuple[Finding, ...] = ()  # what the check of the recordings found
-    location: Location = field(default_factory=Location)
-    nominal_fit: NominalFit = field(default_factory=NominalFit)
-    heldout: tuple[HeldoutRow, ...] = ()
-    curves: tuple[Plot, ...] = ()
-    warnings: tuple[str, ...] = ()
-    next_experiment: str = ""
-    adequate_probability: float | None = None  # that nothing is missing
-    account: tuple[Acting, ...] = ()  # the effects of the leading explanation, stated or not
-    remainder: Remainder = field(default_factory=Remainder)  # what the stated effects leave
-    sources: tuple[Source, ...] = ()
-    command: str = ""
-    seed: int = 0
-    version: str = ""
-    elapsed: float = 0.0  # [s]; like command, left out of the JSON
-    stand_in: str = ""  # what stands in corrected.toml for what has no name: "a wavelet network, a torque over speed"
-    corrected: Any = None  # the corrected rwn.Model; written to corrected.toml, left out of the JSON
-
-    def to_json(self) -> bytes:
-        """`diagnosis.json`: what depends on input and seed alone. NaN in a curve becomes null."""
-        plain = msgspec.to_builtins(
-            _without(self, ("command", "corrected", "elapsed")), enc_hook=_encode_array
+    def _repr_html_(self) -> str:
+        first, *others = sentences(self)
+        rows = "".join(
+            "<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in row.values()) + "</tr>" for row in self.rows()
         )
-        return msgspec.json.format(msgspec.json.encode(plain), indent=1) + b"\n"
+        table = (
+            "<table><tr><th>effect</th><th>probability</th><th>parameter</th><th>value</th></tr>" + rows + "</table>"
+        )
+        return f"<p><b>{escape(first)}</b> {escape(' '.join(others))}</p>{table if rows else ''}"
+
+    def rows(self) -> list[dict[str, Any]]:
+        """One row for each parameter of each effect, in words: effect, probability, parameter, value with interval."""
+        return [
+            {
+                "effect": plain_name(e.name), "probability": likelihood(e.probability),
+                "parameter": parameter_name(e.name, name) if name else "", "value": estimate(value) if value else "",
+            }
+            for e in self.effects
+            for name, value in (e.parameters.items() or [("", None)])
+        ]  # fmt: skip
+
+    def table(self) -> pandas.DataFrame | list[dict[str, Any]]:
+        """Every parameter of every effect in SI, a row each; a list of dictionaries where pandas is not installed.
+
+        Columns: effect, equation, probability, parameter, value, low and high (95 %), unit.
+        """
+        rows = [
+            {
+                "effect": e.name, "equation": e.equation, "probability": e.probability, "parameter": name,
+                "value": value.value, "low": (value.interval or (None, None))[0],
+                "high": (value.interval or (None, None))[1], "unit": value.unit,
+            }
+            for e in self.effects
+            for name, value in e.parameters.items()
+        ]  # fmt: skip
+        try:
+            import pandas as pd
+        except ModuleNotFoundError:
+            return rows
+        return pd.DataFrame(
+            rows, columns=["effect", "equation", "probability", "parameter", "value", "low", "high", "unit"]
+        )
+
+    @property
+    def plots(self) -> tuple[str, ...]:
+        """What `plot` can draw, in the report's order."""
+        return tuple(pictures(self.curves))
+
+    def plot(self, name: str | None = None) -> plotly.graph_objects.Figure:
+        """A figure of the report; `plots` lists the names (a recording, or what is drawn). Default: the first.
+
+        Raises InputError where there is no such figure, or plotly is not installed.
+        """
+        known = pictures(self.curves)
+        if not known:
+            raise InputError("this diagnosis has no curves", where="plot", expected="curves.json beside diagnosis.json",
+                             fix="load the folder that rwn diagnose wrote, or diagnose again")  # fmt: skip
+        wanted = next(iter(known)) if name is None else name
+        if wanted not in known:
+            raise unknown("figure", wanted, known, where="plot")
+        try:
+            from plotly.graph_objects import Figure
+        except ModuleNotFoundError as error:
+            raise InputError("plotly is not installed", where="plot", expected="the extra 'plot'",
+                             fix="pip install 'rwn[plot]'") from error  # fmt: skip
+        drawn = figure(panels(self.curves, known[wanted]))
+        return Figure(data=[unpacked(line) for line in drawn["data"]], layout={**drawn["layout"], "title": wanted})
+
+    def write(self, folder: Path) -> None:
+        """Write report.html, diagnosis.json, curves.json and corrected.toml into a folder that exists."""
+        (folder / RESULT).write_bytes(self.to_json())
+        (folder / CURVES).write_bytes(self.curves_json())
+        if self.corrected is not None:
+            write_model(self.corrected, folder / MODEL)
+        (folder / REPORT).write_text(page(self), encoding="utf-8")
+
+    def save(self, folder: str | Path, *, overwrite: bool = False) -> None:
+        """Write the files that `rwn diagnose` writes; `load` reads them back.
+
+        Raises InputError where the folder holds files and `overwrite` is false, or cannot be written.
+        """
+        with output_folder(Path(folder), overwrite=overwrite) as aside:
+            self.write(aside)
 
     @classmethod
-    def from_json(cls, text: bytes | str) -> Diagnosis:
-        """The inverse of `to_json`; raises `msgspec.ValidationError` with the path of what is wrong."""
-        return msgspec.convert(msgspec.json.decode(text), cls, dec_hook=_decode_array)
+    def load(cls, folder: str | Path) -> Diagnosis:
+        """The diagnosis that `save` or `rwn diagnose` wrote to a folder, with what is there of curves and model.
 
-
-def _without(diagnosis: Diagnosis, names: Sequence[str]) -> dict[str, Any]:
-    return {key: value for key, value in vars(diagnosis).items() if key not in names}
-
-
-def _encode_array(value: Any) -> Any:
-    if isinstance(value, np.ndarray):
-        return [float(x) if np.isfinite(x) else None for x in value]
-    if isinstance(value, np.generic):
-        return value.item()
-    raise TypeError(f"diagnosis.json cannot hold a {type(value).__name__}")
-
-
-def _decode_array(kind: Any, value: Any) -> Any:
-    if kind is np.ndarray or getattr(kind, "__origin__", None) is np.ndarray:
-        return np.array([np.nan if x is None else x for x in value], dtype=np.float64)
-    raise TypeError(f"cannot read a {kind}")
+        Raises InputError where a file is missing or is no diagnosis.
+        """
+        folder = Path(folder)
+        path = folder / RESULT
+        try:
+            curves = (folder / CURVES).read_bytes() if (folder / CURVES).exists() else b"{}"
+            found = cls.from_json(path.read_bytes(), curves)
+        except OSError as error:
+            why = (error.strerror or str(error)).lower()
+            raise InputError(
+                f"cannot read the diagnosis ({why})",
+                where=path,
+                expected="a folder that rwn diagnose wrote",
+                fix="name that folder",
+            ) from error
+        except (msgspec.DecodeError, ValueError) as error:
+            raise InputError(
+                f"this is no diagnosis of this version ({error})",
+                where=folder,
+                expected=f"{RESULT} and {CURVES} as rwn wrote them",
+                fix="diagnose again",
+            ) from error
+        return replace(found, corrected=read_model(folder / MODEL)) if (folder / MODEL).exists() else found

@@ -3,75 +3,147 @@
 from __future__ import annotations
 
 import base64
-import json
-from itertools import pairwise
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.report import text as words
-from rwn.report.diagnosis import Plot, Trace
+from rwn.report.plot import Plot, Role, Trace
 
 Array = NDArray[np.float64]
 
-COLOURS = {
-    "measured": "#2b2d33",
-    "nominal": "#c8384a",
-    "refitted": "#e09f3e",
-    "corrected": "#0b7285",
-    "before": "#c8384a",
-    "after": "#0b7285",
-    "reference": "#e8590c",
-    "noise-floor": "#adb5bd",
+# Told apart by dash and width as well as by colour.
+COLOURS: dict[Role, str] = {
+    "measured": "#4a4f57",
+    "nominal": "#8a6d00",
+    "refitted": "#c2410c",
+    "corrected": "#0b62a8",
+    "before": "#c2410c",
+    "after": "#0b62a8",
+    "reference": "#7a3e9d",
+    "noise-floor": "#8b9096",
 }
-_DASHES = {"reference": "dash", "noise-floor": "dot", "nominal": "dash"}
-_MAX_POINTS = 8000
+_DASHES: dict[Role, str] = {
+    "reference": "dash",
+    "noise-floor": "dot",
+    "nominal": "dot",
+    "refitted": "dash",
+    "before": "dash",
+}
+_WIDTHS: dict[Role, float] = {"measured": 1.2, "before": 1.1, "after": 1.6, "corrected": 2.0, "refitted": 1.6}
+_INK, _GRID, _LINE, _MARK, _MARK_TEXT = "#343a40", "#e4e7ea", "#9aa1a8", "#ffd43b", "#6b5300"
+DARK = {  # what stands for each colour on a dark page
+    "#4a4f57": "#c9ced6", "#8a6d00": "#d8b840", "#c2410c": "#ff9a62", "#0b62a8": "#6cb8ff", "#7a3e9d": "#d0a2f0",
+    "#8b9096": "#8b9096", _INK: "#d5d9de", _GRID: "#343b43", _LINE: "#6b737c", _MARK: "#8f7400", _MARK_TEXT: "#ffe08a",
+}  # fmt: skip
 _FONT = "Inter, 'Helvetica Neue', Arial, sans-serif"
+_HEIGHTS = {"response": 0.5, "residual-time": 0.28, "input": 0.16}  # of panels over one time axis
+_GAP = 0.03
+_PANELS = {"residual-time": "Error", "input": "Input"}  # short names of low panels
 
 
-def figure(plot: Plot) -> str:
-    """The figure of `plot` as JSON: {"data": [...], "layout": {...}}."""
-    x_scale, x_unit = _scale(plot.x_unit, [trace.x for trace in plot.traces])
-    y_scale, y_unit = _scale(plot.y_unit, [trace.y for trace in plot.traces if trace.role != "reference"])
-    data = [line for trace in plot.traces for line in _lines(trace, x_scale, y_scale)]
-    layout = {
-        "font": {"family": _FONT, "size": 13, "color": "#343a40"},
-        "margin": {"l": 68, "r": 18, "t": 34, "b": 48},
-        "height": 340,
-        "paper_bgcolor": "white",
-        "plot_bgcolor": "white",
+def figure(plots: Sequence[Plot]) -> dict[str, Any]:
+    """One Plotly figure: {"data", "layout"}, and "zoom", the changes of the layout that show the stretch of most.
+
+    Several plots are panels over one x axis, from the top down.
+    """
+    first = plots[0]
+    x_scale, x_unit = _scale(first.x_unit, [trace.x for plot in plots for trace in plot.traces])
+    layout: dict[str, Any] = {
+        "font": {"family": _FONT, "size": 13, "color": _INK},
+        "margin": {"l": 66, "r": 14, "t": 30, "b": 46},
+        "height": 330 if len(plots) == 1 else 470,
+        "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "rgba(0,0,0,0)",
         "hovermode": "closest",
-        "legend": {
-            "itemsizing": "constant",
-            "orientation": "h",
-            "x": 0,
-            "y": 1.02,
-            "yanchor": "bottom",
-            "bgcolor": "rgba(0,0,0,0)",
-        },
-        "xaxis": _axis(plot.x_label, x_unit),
-        "yaxis": {**_axis(plot.y_label, y_unit), "type": "log" if plot.log_y else "linear"},
-        "shapes": [_mark(mark.low * x_scale, mark.high * x_scale) for mark in plot.marks],
-        "annotations": [_label(mark.low * x_scale, mark.high * x_scale, mark.label) for mark in plot.marks],
+        "legend": {"itemsizing": "constant", "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"},
+        "xaxis": {**_axis(first.x_label, x_unit), "anchor": _name("y", len(plots) - 1), "automargin": False},
+        "shapes": [_mark(mark.low * x_scale, mark.high * x_scale) for mark in first.marks],
+        "annotations": [_label(mark.low * x_scale, mark.high * x_scale, mark.label) for mark in first.marks],
     }
-    return json.dumps({"data": data, "layout": layout}, separators=(",", ":")).replace("<", "\\u003c")
+    zoom: dict[str, Any] = {}
+    if first.zoom:
+        low, high = (bound * x_scale for bound in first.zoom)
+        zoom["xaxis.range"] = [low, high]
+        layout["shapes"].append(_mark(low, high))
+    data: list[dict[str, Any]] = []
+    legend: set[str] = set()
+    for k, (plot, domain) in enumerate(zip(plots, _domains(plots), strict=True)):
+        scale, unit = _scale(plot.y_unit, [trace.y for trace in plot.traces if trace.role != "nominal"])
+        label = _PANELS.get(plot.slot, plot.y_label) if len(plots) > 1 else plot.y_label
+        axis = {**_axis(label, unit), "type": "log" if plot.log_y else "linear", "domain": domain}
+        if plot.shown:
+            axis |= {"range": [bound * scale for bound in plot.shown]}
+        layout[_name("yaxis", k)] = axis
+        if plot.zoom:
+            zoom[f"{_name('yaxis', k)}.range"] = [bound * scale for bound in _seen_in(plot)]
+        for trace in plot.traces:
+            for line in _lines(trace, x_scale, scale):
+                data.append({**line, "yaxis": _name("y", k)} if k else line)
+                _in_legend(data[-1], _group(trace), legend, alone=plot.slot == "input")
+                if plot.slot == "input":
+                    data[-1]["line"] |= {"shape": "hv", "dash": "solid"}
+    return {"data": data, "layout": layout, "zoom": zoom}
 
 
-def _scale(unit: str, values: list[Array]) -> tuple[float, str]:
+def _name(axis: str, k: int) -> str:
+    return axis if k == 0 else f"{axis}{k + 1}"
+
+
+def _domains(plots: Sequence[Plot]) -> list[list[float]]:
+    if len(plots) == 1:
+        return [[0.0, 1.0]]
+    heights = [_HEIGHTS.get(plot.slot, 0.3) for plot in plots]
+    free = 1.0 - _GAP * (len(plots) - 1)
+    top, found = 1.0, []
+    for height in heights:
+        part = free * height / sum(heights)
+        found.append([max(top - part, 0.0), top])
+        top -= part + _GAP
+    return found
+
+
+def _group(trace: Trace) -> str:
+    return {"before": "refitted", "after": "corrected"}.get(trace.role, trace.role)
+
+
+def _in_legend(line: dict[str, Any], group: str, seen: set[str], *, alone: bool) -> None:
+    """A model has one entry for its lines in all panels; clouds of several recordings have one each."""
+    key = line.get("name", group)
+    line["legendgroup"] = group if line["mode"] == "lines" else key
+    if alone or key in seen or not line.get("showlegend", True):
+        line["showlegend"] = False
+    seen.add(key)
+
+
+def _scale(unit: str, values: Sequence[Array]) -> tuple[float, str]:
     largest = max((float(np.nanmax(np.abs(v))) for v in values if np.isfinite(v).any()), default=0.0)
     return words.prefix_for(largest, unit)
 
 
+def _seen_in(plot: Plot) -> tuple[float, float]:
+    """The range of y over the stretch that shows most; a nominal model that runs away does not set it."""
+    low, high = plot.zoom or (-np.inf, np.inf)
+    parts = [t.y[(t.x >= low) & (t.x <= high)] for t in plot.traces if t.role != "nominal"]
+    values = np.concatenate(parts)
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return plot.shown or (-1.0, 1.0)
+    margin = 0.06 * float(np.ptp(values)) or 1.0
+    return float(values.min()) - margin, float(values.max()) + margin
+
+
 def _axis(label: str, unit: str) -> dict[str, Any]:
-    label = label[:1].upper() + label[1:]
+    label = words.capital(label)
     return {
         "title": {"text": f"{label} [{unit}]" if unit else label, "standoff": 8},
-        "gridcolor": "#e9ecef",
-        "zerolinecolor": "#ced4da",
-        "linecolor": "#adb5bd",
+        "gridcolor": _GRID,
+        "zerolinecolor": _LINE,
+        "linecolor": _LINE,
         "ticks": "outside",
-        "tickcolor": "#adb5bd",
+        "tickcolor": _LINE,
         "automargin": True,
     }
 
@@ -82,8 +154,8 @@ def _mark(low: float, high: float) -> dict[str, Any]:
         "xref": "x",
         "yref": "paper",
         **{"x0": low, "x1": high, "y0": 0, "y1": 1},
-        "fillcolor": "#ffd43b",
-        "opacity": 0.22,
+        "fillcolor": _MARK,
+        "opacity": 0.25,
         "line": {"width": 0},
         "layer": "below",
     }
@@ -91,54 +163,42 @@ def _mark(low: float, high: float) -> dict[str, Any]:
 
 def _label(low: float, high: float, text: str) -> dict[str, Any]:
     place = {"x": (low + high) / 2, "y": 0.99, "xref": "x", "yref": "paper", "yanchor": "top"}
-    return {**place, "text": text, "showarrow": False, "font": {"size": 11, "color": "#8a6d00"}}
+    return {**place, "text": text, "showarrow": False, "font": {"size": 11, "color": _MARK_TEXT}}
 
 
 def _lines(trace: Trace, x_scale: float, y_scale: float) -> list[dict[str, Any]]:
     colour = COLOURS[trace.role]
-    kept = _kept(trace)
-    x = trace.x[kept] * x_scale
-    style: dict[str, Any] = {"type": "scatter", "name": trace.name, "x": _packed(x)}
+    x = _packed(trace.x * x_scale)
+    style: dict[str, Any] = {"type": "scatter", "name": trace.name, "x": x}
     if trace.points:
-        marker = {"color": colour, "size": 4, "opacity": 0.45}
-        style |= {"mode": "markers", "marker": marker}
+        style |= {"mode": "markers", "marker": {"color": colour, "size": 4, "opacity": 0.45}}
+        if trace.at is not None:
+            style |= {"customdata": _packed(trace.at), "meta": trace.recording}
     else:
-        width = 1.4 if trace.role in ("measured", "before", "after") else 1.8
-        style |= {
-            "mode": "lines",
-            "line": {"color": colour, "width": width, "dash": _DASHES.get(trace.role, "solid")},
-        }
-    lines = [{**style, "y": _packed(trace.y[kept] * y_scale)}]
+        line = {"color": colour, "width": _WIDTHS.get(trace.role, 1.6), "dash": _DASHES.get(trace.role, "solid")}
+        style |= {"mode": "lines", "line": line}
+    lines = [{**style, "y": _packed(trace.y * y_scale)}]
     if trace.low is not None and trace.high is not None:
-        edge = {
-            "type": "scatter",
-            "mode": "lines",
-            "line": {"width": 0},
-            "showlegend": False,
-            "hoverinfo": "skip",
-        }
-        upper = {**edge, "x": _packed(x), "y": _packed(trace.high[kept] * y_scale)}
-        lower = {**edge, "x": _packed(x), "y": _packed(trace.low[kept] * y_scale)}
+        edge = {"type": "scatter", "mode": "lines", "line": {"width": 0}, "showlegend": False, "hoverinfo": "skip"}
+        upper = {**edge, "x": x, "y": _packed(trace.high * y_scale)}
+        lower = {**edge, "x": x, "y": _packed(trace.low * y_scale)}
         lines = [upper, {**lower, "fill": "tonexty", "fillcolor": _faint(colour)}, *lines]
     return lines
-
-
-def _kept(trace: Trace) -> NDArray[np.intp]:
-    """Which samples to draw: all, or the extremes of equal stretches so that no spike is lost."""
-    n = len(trace.x)
-    if n <= _MAX_POINTS:
-        return np.arange(n)
-    if trace.points:
-        return np.linspace(0, n - 1, _MAX_POINTS).astype(np.intp)
-    edges = np.linspace(0, n, _MAX_POINTS // 2 + 1).astype(np.intp)
-    filled = np.where(np.isfinite(trace.y), trace.y, 0.0)
-    pairs = [(a + int(np.argmin(filled[a:b])), a + int(np.argmax(filled[a:b]))) for a, b in pairwise(edges)]
-    return np.unique(np.array(pairs, dtype=np.intp))
 
 
 def _packed(values: Array) -> dict[str, str]:
     """A typed array as Plotly reads it: small, and NaN breaks the line."""
     return {"dtype": "f4", "bdata": base64.b64encode(values.astype("<f4").tobytes()).decode("ascii")}
+
+
+def unpacked(line: dict[str, Any]) -> dict[str, Any]:
+    """A line of a figure with its values as arrays, for who works on with it."""
+    return {
+        key: np.frombuffer(base64.b64decode(value["bdata"]), dtype="<f4")
+        if isinstance(value, dict) and "bdata" in value
+        else value
+        for key, value in line.items()
+    }
 
 
 def _faint(colour: str) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from rwn.recording.recording import Recording
-from rwn.report.diagnosis import Source
+from rwn.report.diagnosis_data import Source
 
 
 def source(item: Recording | Path, use: Literal["model", "fit", "heldout"]) -> Source:

@@ -8,29 +8,44 @@ from html import escape
 from rwn.locate.regions import Region
 from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
+from rwn.recording.inspection import Finding
 from rwn.report import text as words
-from rwn.report.diagnosis import Diagnosis
+from rwn.report.diagnosis_data import DiagnosisData, Source
+from rwn.report.sentences import worse
+
+UNLIKELY = 0.01  # probability below which another explanation is none
 
 
-def table(head: Sequence[str], rows: Sequence[Sequence[str]], *, numbers_from: int = 1) -> str:
-    """An HTML table; columns from `numbers_from` on are aligned as numbers. Cells are HTML."""
+def table(
+    head: Sequence[str], rows: Sequence[Sequence[str]], *, numbers_from: int = 1, marked: Sequence[bool] = ()
+) -> str:
+    """An HTML table; columns from `numbers_from` on are aligned as numbers. Cells are HTML; `marked` rows stand out.
+
+    Every cell bears the name of its column, which a narrow screen shows in place of the head.
+    """
     if not rows:
         return ""
+    kinds = ["" if k < numbers_from else ' class="n"' for k in range(len(head))]
+    top = "".join(f'<th scope="col"{kind}>{escape(name)}</th>' for kind, name in zip(kinds, head, strict=True))
 
-    def cells(tag: str, values: Sequence[str]) -> str:
-        kinds = ["" if k < numbers_from else ' class="n"' for k in range(len(values))]
-        return "".join(f"<{tag}{kind}>{value}</{tag}>" for kind, value in zip(kinds, values, strict=True))
+    def line(cells: Sequence[str]) -> str:
+        return "".join(
+            f'<td data-label="{escape(name)}"{kind}>{cell}</td>'
+            for name, kind, cell in zip(head, kinds, cells, strict=True)
+        )
 
-    body = "".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
-    top = cells("th", head)
-    return f'<div class="scroll"><table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
+    flags = [*marked, *[False] * (len(rows) - len(marked))]
+    body = "".join(
+        f"<tr{' class=worse' if flag else ''}>{line(row)}</tr>" for row, flag in zip(rows, flags, strict=True)
+    )
+    return f"<table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table>"
 
 
-def bar(share: float, colour: str, text: str = "") -> str:
+def bar(share: float, text: str = "") -> str:
     """A share as a bar with its figure, or `text` in its place."""
     width = 100 * min(max(share, 0.0), 1.0)
-    fill = f'<span style="width:{width:.1f}%;background:{colour}"></span>'
-    return f'<span class="bar">{fill}</span> {escape(text or words.percent(share))}'
+    fill = f'<span style="width:{width:.1f}%"></span>'
+    return f'<span class="bar" aria-hidden="true">{fill}</span> {escape(text or words.percent(share))}'
 
 
 def effect_table(effects: Sequence[FoundEffect]) -> str:
@@ -38,36 +53,38 @@ def effect_table(effects: Sequence[FoundEffect]) -> str:
     rows = []
     for effect in effects:
         values = "<br>".join(
-            f"{escape(name.replace('_', ' '))} = <b>{escape(words.estimate(value))}</b>"
+            f"{_parameter(effect.name, name)} = <b>{escape(words.estimate(value))}</b>"
             for name, value in effect.parameters.items()
         )
-        name = f"<b>{escape(words.plain_name(effect.name))}</b><div class=note>{escape(effect.meaning)}</div>"
-        formula = f"<code>{escape(effect.formula)}</code>" if effect.formula else ""
-        rows.append(
-            [
-                name,
-                escape(effect.equation),
-                formula,
-                values or "–",
-                bar(effect.probability, "#0b7285", words.likelihood(effect.probability)),
-            ]
-        )
+        title = words.capital(words.plain_name(effect.name))
+        name = f"<b>{escape(title)}</b><div class=note>{escape(effect.meaning)}</div>"
+        formula = f"<code>{escape(effect.formula)}</code>" if effect.formula else "–"
+        probability = bar(effect.probability, words.likelihood(effect.probability))
+        rows.append([name, escape(effect.equation), formula, values or "–", probability])
     return table(("Effect", "Equation", "Law", "Parameters (95 %)", "Probability"), rows, numbers_from=9)
 
 
-def alternative_table(found: Diagnosis) -> str:
+def _parameter(effect: str, parameter: str) -> str:
+    """The name of a parameter, its symbol set as in the law."""
+    name = words.plain_name(parameter)
+    sign = words.parameter_name(effect, parameter).removeprefix(name).strip()
+    return escape(name) + (f" <code>{escape(sign)}</code>" if sign else "")
+
+
+def alternative_table(found: DiagnosisData) -> str:
     """The other explanations and what would tell them apart."""
     rows = [
         [
             escape(
-                words.listing([words.plain_name(name) for name in other.effects])
+                words.capital(words.listing([words.plain_name(name) for name in other.effects]))
                 if other.effects
                 else "nothing missing"
             ),
-            bar(other.probability, "#868e96", words.likelihood(other.probability)),
+            bar(other.probability, words.likelihood(other.probability)),
             escape(other.separated_by) or "–",
         ]
         for other in found.alternatives
+        if other.probability >= UNLIKELY
     ]
     return table(("Other explanation", "Probability", "What would tell them apart"), rows, numbers_from=9)
 
@@ -76,61 +93,89 @@ def region_table(regions: Sequence[Region]) -> str:
     """Where the residual's energy sits."""
     rows = [
         [
-            escape(region.name or region.coordinate),
-            f"{escape(region.coordinate)} {_range(region)}",
-            bar(region.share, "#f59f00"),
+            escape(words.capital(region.name or region.coordinate)),
+            _range(region),
+            bar(region.share),
             words.percent(region.samples_share),
         ]
         for region in regions
     ]
-    return table(("Region", "Range", "Share of the mismatch", "Share of the samples"), rows, numbers_from=3)
+    return table(("Where", "Range", "Share of the mismatch", "Share of the samples"), rows, numbers_from=3)
 
 
 def _range(region: Region) -> str:
+    if region.coordinate == "direction":
+        return "forward" if region.high > 0.0 else "backward"
     scale, unit = words.prefix_for(max(abs(region.low), abs(region.high)), region.unit)
-    return escape(f"{words.number(region.low * scale)} to {words.number(region.high * scale)} {unit}".strip())
+    text = f"{region.coordinate} {words.number(region.low * scale)} to {words.number(region.high * scale)} {unit}"
+    return escape(text.strip())
 
 
 def heldout_table(rows: Sequence[HeldoutRow]) -> str:
     """Free-run error on recordings not used for fitting, one row per recording, region and signal."""
-    return table(
-        (
-            "Recording",
-            "Region",
-            "Signal",
-            "Samples",
-            "Nominal",
-            "Refitted",
-            "Corrected",
-            "Noise floor",
-            "Gain (95 %)",
-        ),
-        [_heldout_row(row) for row in rows],
-        numbers_from=3,
+    head = (
+        "Recording",
+        "Region",
+        "Signal",
+        "Samples",
+        "As given",
+        "Refitted",
+        "Corrected",
+        "Noise floor",
+        "Gain (95 %)",
     )
+    return table(head, [_heldout_row(row) for row in rows], numbers_from=3, marked=[worse(row) for row in rows])
 
 
 def _heldout_row(row: HeldoutRow) -> list[str]:
     errors = (row.nominal, row.refitted, row.corrected, row.noise_floor)
-    scale, unit = words.prefix_for(max((abs(e) for e in errors if e is not None), default=0.0), row.unit)
+    scale, unit = words.prefix_for(_compared(row), row.unit)
     shown = ["–" if e is None else f"{words.number(e * scale)}&nbsp;{escape(unit)}" for e in errors]
-    if row.corrected is not None:
-        shown[2] = f"<b>{shown[2]}</b>"
+    said = (0, 1) if row.corrected is None else (1, 2)
+    shown = [f"<b>{text}</b>" if k in said else text for k, text in enumerate(shown)]
     gain = "–" if row.gain is None else words.percent(row.gain).replace("-", "−")
     if row.gain_interval is not None:
         digits = 1 if row.gain is not None and abs(row.gain) > 0.97 else 0
         low, high = (f"{100 * bound:.{digits}f}".replace("-", "−") for bound in row.gain_interval)
         gain += f" <span class=note>[{low}, {high}]</span>"
+    if worse(row):
+        gain = f'<b class="flag">▲ worse</b> {gain}'
     return [escape(row.recording), escape(row.region), escape(row.signal), str(row.samples), *shown, gain]
 
 
-def parameter_table(found: Diagnosis) -> str:
+def _compared(row: HeldoutRow) -> float:
+    """The larger of the two errors that the proof compares: the table has the same prefix as the headline."""
+    return max(row.nominal, row.refitted) if row.corrected is None else max(row.refitted, row.corrected)
+
+
+def parameter_table(found: DiagnosisData) -> str:
     """Nominal parameters as given, as refitted, and as fitted together with the found effects."""
     rows = []
     for name, p in found.nominal_fit.parameters.items():
         corrected = "–" if p.corrected is None else f"<b>{escape(words.estimate(p.corrected))}</b>"
         doubt = f"± {words.percent(p.uncertainty)}" if p.uncertainty else "exact"
         nominal = words.quantity(p.nominal, p.refitted.unit, 4)
-        label = escape(name.replace("_", " "))
+        label = escape(words.capital(words.plain_name(name)))
         rows.append([label, escape(nominal), doubt, escape(words.estimate(p.refitted)), corrected])
     return table(("Parameter", "Nominal", "Declared", "Refitted alone", "With the correction"), rows)
+
+
+def finding_table(findings: Sequence[Finding]) -> str:
+    """What was odd in the recordings before any physics, and what was done about it."""
+    rows = [[escape(f.recording), escape(words.capital(f.words)), escape(f.done) or "–"] for f in findings]
+    return table(("Recording", "Found before any physics", "What was done"), rows, numbers_from=9)
+
+
+def source_table(sources: Sequence[Source]) -> str:
+    """Every file that was used, with the hash of its bytes."""
+    rows = [
+        [
+            escape(s.path),
+            s.use,
+            str(s.samples or "–"),
+            words.quantity(s.duration, "s") if s.duration else "–",
+            f"<code>{escape(s.sha256[:12])}</code>" if s.sha256 else "–",
+        ]
+        for s in sources
+    ]
+    return table(("File", "Used as", "Samples", "Duration", "SHA-256"), rows, numbers_from=2)

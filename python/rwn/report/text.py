@@ -1,20 +1,17 @@
-"""Numbers and verdicts as people read them: SI prefixes, uncertainty, one sentence."""
+"""Numbers, names and places as people read them: SI prefixes, uncertainty, symbols."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
-from rwn.faults.fault import RECORDING
 from rwn.fit.intervals import Estimate
-from rwn.fit.prior_weight import BELIEVABLE
-from rwn.locate.dependence import Law
-from rwn.name.found_effect import FoundEffect
-from rwn.prove.heldout import HeldoutRow
-from rwn.report.diagnosis import Diagnosis
+from rwn.locate.dependence import CLEAR, Law
+from rwn.locate.regions import Region
+from rwn.model.symbols import symbol_of
 
-SLIGHT = 0.005  # share of the mismatch that is not worth a sentence
+STRONGEST = "strongest"  # begins what is said of the place alone
+CROWDED = 0.1  # share of the mismatch beyond that of the samples, from which a region is worth naming
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
     "V",
@@ -108,17 +105,26 @@ def percent(share: float) -> str:
 
 def likelihood(probability: float) -> str:
     """A probability as a percentage that never claims certainty."""
-    return (
-        "> 99 %" if probability > 0.99 else "< 1 %" if probability < 0.01 else percent(round(probability, 2))
-    )
+    return "> 99 %" if probability > 0.99 else "< 1 %" if probability < 0.01 else percent(round(probability, 2))
 
 
 def plain_name(effect: str) -> str:
-    """coulomb-friction -> Coulomb friction."""
-    text = effect.replace("-", " ")
+    """coulomb-friction -> Coulomb friction, coulomb_torque -> Coulomb torque."""
+    text = effect.replace("-", " ").replace("_", " ")
     for name in ("coulomb", "stribeck"):
         text = text.replace(name, name.capitalize())
     return text
+
+
+def parameter_name(effect: str, parameter: str) -> str:
+    """A parameter with its symbol in the effect's equation: Coulomb torque T_c."""
+    name, sign = plain_name(parameter), symbol_of(effect, parameter)
+    return name if not sign or sign == name.replace(" ", "_") else f"{name} {sign}"
+
+
+def capital(text: str) -> str:
+    """The text with its first letter large."""
+    return text[:1].upper() + text[1:]
 
 
 def listing(names: Sequence[str], joint: str = "and") -> str:
@@ -134,86 +140,34 @@ def law_in_words(law: Law, *, linear: bool) -> str:
     return f"a {'force' if linear else 'torque'} that depends on {place}, {size}"
 
 
-def verdict_sentence(found: Diagnosis) -> str:
-    """The verdict in one sentence."""
-    return {
-        "missing-physics": _missing,
-        "adequate": _adequate,
-        "unexplained": _unexplained,
-        "insufficient-excitation": _insufficient,
-        "recording-mistake": _mistake,
-    }[found.verdict](found)
-
-
-def _missing(found: Diagnosis) -> str:
-    parts = [f"{_with_parameters(e)} (probability {likelihood(e.probability)})" for e in found.effects]
-    if len(found.set) > 1:
-        names = listing([plain_name(name) for name in found.set], "or")
-        parts = [f"{names} (these recordings cannot tell which)", *parts[1:]]
-    return f"The model lacks {listing(parts)}.{_gain(found)}{_left(found)}"
-
-
-def _left(found: Diagnosis) -> str:
-    """What the stated effects leave, where it has structure."""
-    left = found.remainder
-    if not left.signals or left.share < SLIGHT:
-        return ""
-    where = listing(left.signals)
-    return f" What they leave of the {where}, {percent(left.share)} of the mismatch, is not noise and has no name here."
-
-
-def _with_parameters(effect: FoundEffect) -> str:
-    values = [estimate(value) for value in effect.parameters.values()]
-    return plain_name(effect.name) + (f" of {values[0]}" if len(values) == 1 else "")
-
-
-def _adequate(found: Diagnosis) -> str:
-    fitted = {name: p for name, p in found.nominal_fit.parameters.items() if p.uncertainty > 0}
-    far = {name: p.moved for name, p in fitted.items() if p.moved > BELIEVABLE}
-    where = "" if far else " within their declared uncertainty"
-    tail = f" once its parameters are refitted{where}" if fitted else ""
-    sentence = f"The model is adequate{tail}: nothing that these recordings can show is missing."
-    for name, times in far.items():
-        sentence += f" But {name} had to move by {number(times, 2)} times its declared uncertainty: check it."
-    return sentence
-
-
-def _unexplained(found: Diagnosis) -> str:
-    what = found.location.description or f"something in the {found.equation} equation"
-    drawn = f" In corrected.toml stands for it: {found.stand_in}." if found.stand_in else ""
-    return f"Something is missing that has no name here: {what}.{drawn}{_gain(found)}"
-
-
-def _insufficient(found: Diagnosis) -> str:
+def filter_in_words(signal: str, time_constant: Estimate) -> str:
+    """A filter of a sensor that was fitted beside whatever is missing."""
     return (
-        f"These recordings do not excite the drive enough to judge the model. {found.next_experiment}".strip()
+        f"The {signal} was measured through a first-order filter of {estimate(time_constant)}, seen in its noise: "
+        "it was fitted as part of the measurement, beside whatever is missing."
     )
 
 
-def _mistake(found: Diagnosis) -> str:
-    wrong = [effect for effect in found.effects if effect.equation == RECORDING]
-    sentence = f"The recordings hold a mistake: {listing([effect.meaning for effect in wrong])}."
-    if found.beneath is None:
-        return sentence
-    physics = tuple(effect for effect in found.effects if effect.equation != RECORDING)
-    rest = replace(found, verdict=found.beneath.verdict, set=found.beneath.set, effects=physics, beneath=None)
-    return f"{sentence} With it undone: {verdict_sentence(rest)}"
+def region_in_words(region: Region) -> str:
+    """Where a region is, for a sentence: "at high speed", "from 1.33 s to 1.67 s"."""
+    if region.name:
+        return ("around " if region.name == "reversals" else "at ") + region.name
+    if region.coordinate == "direction":
+        return "in forward motion" if region.high > 0.0 else "in backward motion"
+    if region.coordinate == "angle":
+        low, high = (math.degrees(bound) for bound in (region.low, region.high))
+        return f"between {low:.0f}° and {high:.0f}° of a turn"
+    scale, unit = prefix_for(max(abs(region.low), abs(region.high)), region.unit)
+    low_text, high_text = (f"{number(bound * scale)} {unit}".strip() for bound in (region.low, region.high))
+    return ("" if region.coordinate == "time" else f"at {region.coordinate} ") + f"from {low_text} to {high_text}"
 
 
-def headline(found: Diagnosis) -> HeldoutRow | None:
-    """The held-out row that says most in one figure: all of the first recording, speed before position."""
-    rows = [row for row in found.heldout if row.region == "all"]
-    order = ("speed", "position", "current")
-    rows = [row for row in rows if row.recording == rows[0].recording]
-    return min(
-        rows, key=lambda row: order.index(row.signal) if row.signal in order else len(order), default=None
-    )
-
-
-def _gain(found: Diagnosis) -> str:
-    row = headline(found)
-    if row is None or row.gain is None:
-        return ""
-    does = "reduces" if row.gain >= 0 else "increases"
-    where = f"the {row.signal} error on {row.recording}, not used for fitting"
-    return f" Adding it {does} {where}, by {percent(abs(row.gain))}."
+def located(where: Sequence[Region], laws: Sequence[Law], *, linear: bool) -> str:
+    """What the mismatch depends on and where it is strongest, as one clause; empty where neither is clear."""
+    parts = [law_in_words(laws[0], linear=linear)] if laws and laws[0].share > CLEAR else []
+    crowded = [r for r in where if r.share - r.samples_share > CROWDED]
+    if crowded:
+        r = crowded[0]
+        much = f"{percent(r.samples_share)} of the samples hold {percent(r.share)} of the mismatch"
+        parts.append(f"{STRONGEST} {region_in_words(r)}, where {much}")
+    return "; ".join(parts)

@@ -1,0 +1,30 @@
+"""Effects by a word of their name or meaning, also where it is misspelt."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Mapping
+
+from rwn.model.vocabulary import Effect
+
+ALIKE = 0.75  # likeness of two words from which one may be the other misspelt
+
+
+def effects_by_word(text: str, table: Mapping[str, Effect]) -> tuple[Effect, ...]:
+    """The effects that hold every word of `text` in name, meaning, equation or site; else those with words like it."""
+    wanted = _words(text)
+    if not wanted:
+        return ()
+    held = {e.name: " ".join((*_words(e.name), *_words(e.meaning), e.site, e.mismatch)) for e in table.values()}
+    found = [e for e in table.values() if all(word in held[e.name] for word in wanted)]
+    if not found:
+        found = [
+            e for e in table.values()
+            if all(difflib.get_close_matches(word, held[e.name].split(), n=1, cutoff=ALIKE) for word in wanted)
+        ]  # fmt: skip
+    return tuple(found)
+
+
+def _words(text: str) -> list[str]:
+    return re.findall(r"[a-z0-9]+", text.lower())

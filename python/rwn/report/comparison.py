@@ -1,0 +1,82 @@
+"""Two diagnoses beside each other: before and after a repair, or two machines of one kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+
+from rwn.fit.intervals import Estimate
+from rwn.name.found_effect import FoundEffect
+from rwn.report import text as words
+from rwn.report.account_picture import account_picture
+from rwn.report.diagnosis_data import DiagnosisData
+from rwn.report.page import document, figures, section
+from rwn.report.sentences import before_after, headline, sentences
+from rwn.report.tables import table
+
+
+def comparison(first: DiagnosisData, second: DiagnosisData, names: tuple[str, str]) -> str:
+    """A page with what each diagnosis says, what both name, and how parameters and laws differ."""
+    pair = (first, second)
+    head = tuple(escape(name) for name in names)
+    columns = "".join(
+        section(name, f"<p><b>{escape(sentences(found)[0])}</b></p>{account_picture(found)}")
+        for name, found in zip(names, pair, strict=True)
+    )
+    laws = "".join(
+        f"<div><h3>{name}</h3>{figures(found, ('law',), prefix=f'{k}-')}</div>"
+        for k, (name, found) in enumerate(zip(head, pair, strict=True))
+    )
+    drawn = any(plot.slot == "law" for found in pair for plot in found.curves)
+    parts = (
+        f'<div class="top even">{columns}</div>',
+        section("What differs", table(("What", *names, "Differs"), list(_rows(first, second)), numbers_from=9)),
+        section("Laws", f'<div class="top even">{laws}</div>' if drawn else ""),
+    )
+    body = "\n".join(parts)
+    title = f'<header><div class="kind">Comparison</div><h1>{head[0]} and {head[1]}</h1></header>'
+    return document(f"{names[0]} and {names[1]}", "#37474f", title + body)
+
+
+def _rows(first: DiagnosisData, second: DiagnosisData) -> Iterator[list[str]]:
+    """Label, what each says, and whether they differ by more than their intervals."""
+    yield ["Verdict", first.verdict, second.verdict, _differs(first.verdict != second.verdict)]
+    yield ["Error, proved", _proof(first), _proof(second), "–"]
+    effects = [{effect.name: effect for effect in found.effects} for found in (first, second)]
+    for name in dict.fromkeys((*effects[0], *effects[1])):
+        yield from _effect(name, effects[0].get(name), effects[1].get(name))
+    fits = [found.nominal_fit.parameters for found in (first, second)]
+    for name in (n for n in fits[0] if n in fits[1]):
+        best = [p.refitted if p.corrected is None else p.corrected for p in (fits[0][name], fits[1][name])]
+        yield [escape(words.capital(words.plain_name(name))), *map(_value, best), _apart(*best)]
+
+
+def _effect(name: str, first: FoundEffect | None, second: FoundEffect | None) -> Iterator[list[str]]:
+    both = (first, second)
+    title = f"<b>{escape(words.capital(words.plain_name(name)))}</b>"
+    said = [f"probability {words.likelihood(effect.probability)}" if effect else "not found" for effect in both]
+    yield [title, *said, _differs(first is None or second is None)]
+    for parameter in next(effect for effect in both if effect).parameters:
+        values = [effect.parameters.get(parameter) if effect else None for effect in both]
+        yield [escape(words.capital(words.parameter_name(name, parameter))), *map(_value, values), _apart(*values)]
+
+
+def _proof(found: DiagnosisData) -> str:
+    row = headline(found)
+    return "–" if row is None else escape(f"{row.signal}, {row.recording}: {' → '.join(before_after(row))}")
+
+
+def _value(value: Estimate | None) -> str:
+    return "–" if value is None else escape(words.estimate(value))
+
+
+def _apart(first: Estimate | None, second: Estimate | None) -> str:
+    """Whether two values differ by more than their intervals; one without an interval is taken as exact."""
+    if first is None or second is None:
+        return "–"
+    (a, b), (c, d) = (value.interval or (value.value, value.value) for value in (first, second))
+    return _differs(b < c or d < a)
+
+
+def _differs(differs: bool) -> str:
+    return '<b class="flag">yes</b>' if differs else "no"

@@ -1,0 +1,155 @@
+"""What a diagnosis found, as plain data: drawn by the report, kept in diagnosis.json and its curves in curves.json."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, Self
+
+import msgspec
+import numpy as np
+
+from rwn.decide.account import Acting, Remainder
+from rwn.decide.verdict import Verdict
+from rwn.locate.regions import Region
+from rwn.name.found_effect import FoundEffect
+from rwn.prove.heldout import HeldoutRow
+from rwn.recording.inspection import Finding
+from rwn.report.nominal_fit import NominalFit
+from rwn.report.plot import Plot
+from rwn.report.sensor_filter import FittedFilter
+
+FORMAT = 1  # of diagnosis.json and curves.json; a reader of another number cannot rely on what it knows
+LEFT_OUT = ("command", "corrected", "curves", "elapsed")  # of diagnosis.json
+
+
+@dataclass(frozen=True, kw_only=True)
+class Alternative:
+    """Another explanation of the same recordings, with its probability."""
+
+    effects: tuple[str, ...]
+    probability: float
+    separated_by: str = ""  # the experiment that would tell it from the first
+
+
+@dataclass(frozen=True, kw_only=True)
+class Location:
+    """The equation that carries unknown input, and the regions where the mismatch's energy sits."""
+
+    equation: str = ""
+    regions: tuple[Region, ...] = ()
+    description: str = ""  # "a torque that depends on angle, 14 periods per revolution, 3 mN m"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """A file that was used, and what for."""
+
+    path: str
+    use: Literal["model", "fit", "heldout"]
+    samples: int = 0
+    duration: float = 0.0  # [s]
+    sha256: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beneath:
+    """What is said of the drive once the mistakes in its recordings are undone."""
+
+    verdict: Verdict
+    set: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class DiagnosisData:
+    """The verdict, what it rests on, and the curves that show it."""
+
+    verdict: Verdict
+    equation: str = ""
+    effects: tuple[FoundEffect, ...] = ()
+    set: tuple[str, ...] = ()  # names that these recordings cannot tell apart, the first is the first name
+    beneath: Beneath | None = None  # where the verdict is recording-mistake
+    alternatives: tuple[Alternative, ...] = ()
+    sensor_filters: tuple[FittedFilter, ...] = ()  # found in the noise, fitted as part of the measurement
+    findings: tuple[Finding, ...] = ()  # what the check of the recordings found
+    location: Location = field(default_factory=Location)
+    nominal_fit: NominalFit = field(default_factory=NominalFit)
+    heldout: tuple[HeldoutRow, ...] = ()
+    curves: tuple[Plot, ...] = ()
+    warnings: tuple[str, ...] = ()
+    next_experiment: str = ""
+    adequate_probability: float | None = None  # that nothing is missing
+    account: tuple[Acting, ...] = ()  # the effects of the leading explanation, stated or not
+    remainder: Remainder = field(default_factory=Remainder)  # what the stated effects leave
+    sources: tuple[Source, ...] = ()
+    command: str = field(default="", compare=False)
+    seed: int = 0
+    version: str = ""
+    elapsed: float = field(default=0.0, compare=False)  # [s]; like command, left out of the JSON
+    stand_in: str = ""  # what stands in corrected.toml for what has no name: "a wavelet network, a torque over speed"
+    corrected: Any = None  # the corrected rwn.Model; written to corrected.toml, left out of the JSON
+
+    def to_json(self) -> bytes:
+        """`diagnosis.json`: what depends on input and seed alone, without the curves."""
+        kept = {name: value for name, value in vars(self).items() if name not in LEFT_OUT}
+        return _text({"format": FORMAT, **kept})
+
+    def curves_json(self) -> bytes:
+        """`curves.json`: the pictures, SI, to six digits. NaN becomes null."""
+        plots = msgspec.to_builtins(self.curves, enc_hook=_plain)
+        lines = b",\n".join(msgspec.json.encode(plot) for plot in plots)
+        return b'{"format": %d, "curves": [\n%b\n]}\n' % (FORMAT, lines)
+
+    @classmethod
+    def from_json(cls, text: bytes | str, curves: bytes | str = b"{}") -> Self:
+        """The inverse of `to_json` and `curves_json`.
+
+        Raises ValueError (`msgspec.ValidationError` with the path of what is wrong).
+        """
+        plain = msgspec.json.decode(text)
+        if isinstance(plain, dict):
+            if plain.get("format", FORMAT) != FORMAT:
+                raise ValueError(f"format {plain['format']}, this version reads {FORMAT}")
+            drawn = msgspec.json.decode(curves)
+            plain = {name: value for name, value in plain.items() if name not in LEFT_OUT}
+            plain["curves"] = drawn.get("curves", []) if isinstance(drawn, dict) else drawn
+        return msgspec.convert(plain, cls, dec_hook=_array)
+
+    @classmethod
+    def schema(cls) -> dict[str, Any]:
+        """JSON Schema (2020-12) of diagnosis.json."""
+        components: Mapping[str, Any]
+        (whole,), components = msgspec.json.schema_components((DiagnosisData,), schema_hook=_numbers)
+        parts = dict(components)
+        top = dict(parts.pop(whole["$ref"].rsplit("/", 1)[-1]))
+        kept = {name: rule for name, rule in top["properties"].items() if name not in LEFT_OUT}
+        for name in ("Plot", "Trace", "Mark"):
+            parts.pop(name)
+        return {
+            "$schema": "https://json-schema.org/draft/2020-12/schema", **top, "title": "diagnosis.json",
+            "properties": {"format": {"const": FORMAT}, **kept}, "required": ["format", *top["required"]],
+            "$defs": parts,
+        }  # fmt: skip
+
+
+def _text(plain: Mapping[str, Any]) -> bytes:
+    encoded = msgspec.json.encode(msgspec.to_builtins(plain, enc_hook=_plain))
+    return msgspec.json.format(encoded, indent=1) + b"\n"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return [float(f"{x:.6g}") if np.isfinite(x) else None for x in value]
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"diagnosis.json cannot hold a {type(value).__name__}")
+
+
+def _array(kind: Any, value: Any) -> Any:
+    if kind is np.ndarray or getattr(kind, "__origin__", None) is np.ndarray:
+        return np.array([np.nan if x is None else x for x in value], dtype=np.float64)
+    raise TypeError(f"cannot read a {kind}")
+
+
+def _numbers(_: type) -> dict[str, Any]:
+    return {"type": "array", "items": {"type": ["number", "null"]}}

@@ -1,0 +1,89 @@
+"""How well an identified model fits, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rwn.fit.identify import Identification
+from rwn.fit.intervals import Estimate
+from rwn.fit.prior_weight import BELIEVABLE
+from rwn.model.model import Model
+from rwn.recording.recording import Recording
+from rwn.report.nominal_fit import FittedParameter
+from rwn.report.text import estimate, listing, number, percent, plain_name
+from rwn.simulate.simulation import simulate
+
+DESCRIBES = 0.5  # share of a signal's variance that a model must explain, to be said to describe it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fitted:
+    """How much of one recorded signal the fitted model explains in free run."""
+
+    recording: str
+    signal: str
+    explained: float  # share of the variance; negative where it is worse than the mean
+
+
+def fitted_signals(fit: Identification, recordings: Sequence[Recording]) -> tuple[Fitted, ...]:
+    """What the fitted model explains of every recorded output."""
+    rows = []
+    for recording in recordings:
+        made = simulate(fit.model, recording).signals
+        for signal in (s for s in made if s in recording.signals):
+            measured = np.array(recording.signals[signal])
+            measured[recording.missing.get(signal, np.zeros(measured.size, dtype=bool))] = np.nan
+            spread = float(np.nanvar(measured))
+            error = float(np.nanmean((measured - made[signal]) ** 2))
+            explained = 1.0 - error / spread if spread > 0.0 else float(error == 0.0)
+            rows.append(Fitted(recording=recording.name, signal=signal, explained=explained))
+    return tuple(rows)
+
+
+def failure(fit: Identification, signals: Sequence[Fitted]) -> str:
+    """Why the fit is no model of these recordings; empty where it is one."""
+    said = [f"the fit did not converge ({fit.status}): {fit.advice.rstrip('.')}"] if fit.status != "converged" else []
+    explained = [row.explained if np.isfinite(row.explained) else -np.inf for row in signals]
+    if explained and max(explained) < DESCRIBES:
+        said.append(
+            f"the fitted model explains {_share(max(explained))} of the variance of any recorded signal: check signs, "
+            "units and columns (rwn check), or diagnose what is missing (rwn diagnose)"
+        )
+    return "; ".join(said)
+
+
+def lines(fit: Identification, signals: Sequence[Fitted], nominal: Model) -> Iterator[str]:
+    """Parameters with intervals, what is explained, and what to doubt."""
+    for name, value in fit.parameters.items():
+        yield f"{name:<22} {estimate(value)}"
+    for row in signals:
+        yield f"{row.recording}: {_share(row.explained)} of the variance of the {row.signal} is explained"
+    yield f"what is left has {number(fit.residual_over_noise, 2)} times the rms of the noise (1: nothing but noise)"
+    yield from (f"warning: {text}" for text in _doubts(fit, nominal))
+
+
+def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
+    at_bound = [name for name, value in fit.parameters.items() if _at_a_bound(value)]
+    if at_bound:
+        yield f"{listing([plain_name(n) for n in at_bound])} ran into a bound: the value is that of the bound"
+    if fit.not_identifiable:
+        names = listing([plain_name(n) for n in fit.not_identifiable])
+        yield f"these recordings say nothing of {names} that was not declared"
+    for name, value in fit.parameters.items():
+        if name in nominal.uncertainty and nominal.parameters.get(name):
+            moved = FittedParameter(
+                nominal=nominal.parameters[name], uncertainty=nominal.uncertainty[name], refitted=value
+            ).moved
+            if moved > BELIEVABLE:
+                yield f"{plain_name(name)} moved by {number(moved, 2)} times what was declared: check the data sheet"
+
+
+def _at_a_bound(value: Estimate) -> bool:
+    return value.interval is not None and value.value in value.interval
+
+
+def _share(explained: float) -> str:
+    return percent(explained) if explained > 0.0 else "nothing"

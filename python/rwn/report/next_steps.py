@@ -1,0 +1,78 @@
+"""What to do with a diagnosis: the next steps, the one that matters most first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rwn.decide.account import Acting
+from rwn.report.diagnosis_data import DiagnosisData
+from rwn.report.text import likelihood, listing, plain_name
+
+NEAR = 0.1  # probability from which a name that is not stated is worth mentioning
+
+
+def next_steps(found: DiagnosisData) -> tuple[str, ...]:
+    """Sentences that each say one thing to do; none where nothing is left to do."""
+    made = {
+        "missing-physics": _missing,
+        "adequate": _adequate,
+        "unexplained": _unexplained,
+        "insufficient-excitation": _insufficient,
+        "recording-mistake": _mistake,
+    }[found.verdict](found)
+    return tuple(made)
+
+
+def _missing(found: DiagnosisData) -> Iterator[str]:
+    if found.next_experiment:
+        yield f"To tell them apart: {found.next_experiment}" if len(found.set) > 1 else found.next_experiment
+    yield from _use_it("the effects that were found")
+    if not any(source.use == "heldout" for source in found.sources) and found.sources:
+        yield "Keep one recording back with `--heldout`: a proof on a run of its own is stronger than cross-validation."
+
+
+def _use_it(with_what: str) -> Iterator[str]:
+    command = "rwn simulate corrected.toml --input run.csv --out simulated.csv"
+    yield f"corrected.toml holds the model with {with_what}: `{command}`"
+
+
+def _adequate(found: DiagnosisData) -> Iterator[str]:
+    if found.next_experiment:
+        yield found.next_experiment
+    yield from _use_it("the refitted parameters")
+    yield "What these recordings do not excite is not judged: record the motion that matters before relying on it."
+
+
+def _unexplained(found: DiagnosisData) -> Iterator[str]:
+    laws = [plot for plot in found.curves if plot.slot == "law"]
+    if laws:
+        yield (
+            f"It is drawn over {laws[0].x_label} below. Where you know what does that, write it as a formula under "
+            "`[own_effects]` in the model file and diagnose again: it is then fitted and proved like any other name."
+        )
+    near = [e for e in found.account if e.together > NEAR]
+    if near:
+        yield f"Nearest names, not stated: {listing([_nearest(e) for e in near[:3]], 'and')}."
+    if found.next_experiment:
+        yield found.next_experiment
+    elif found.location.regions:
+        yield (
+            "Record again with more of the motion where it is strongest, and one run at half that amplitude: what "
+            "grows with it and what does not tells causes apart."
+        )
+    if found.stand_in:
+        yield from _use_it("what stands for it")
+
+
+def _nearest(effect: Acting) -> str:
+    return f"{plain_name(effect.name)} ({likelihood(effect.probability)})"
+
+
+def _insufficient(found: DiagnosisData) -> Iterator[str]:
+    yield found.next_experiment or "Record a run that moves both ways, through standstill, with changing input."
+
+
+def _mistake(found: DiagnosisData) -> Iterator[str]:
+    yield "Correct the recording, or the columns and units in the model file, and diagnose again."
+    if found.beneath is not None and found.beneath.verdict != "adequate":
+        yield "What is said beneath the mistake was found with the mistake undone, and holds if it was undone rightly."

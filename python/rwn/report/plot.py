@@ -1,0 +1,78 @@
+"""A picture of the report as data: what `figures` makes of a diagnosis and `plots` draws."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Slot = Literal["input", "response", "residual-time", "residual-speed", "law", "spectrum"]
+Role = Literal["measured", "nominal", "refitted", "corrected", "before", "after", "reference", "noise-floor"]
+Use = Literal["fit", "heldout"]
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trace:
+    """One line (or cloud) of a plot; `low`/`high` shade a band around it; NaN breaks the line.
+
+    Where the points of a cloud were measured in `recording` at the instants `at` [s], a click on one leads there.
+    """
+
+    name: str
+    role: Role
+    x: Array
+    y: Array
+    low: Array | None = None
+    high: Array | None = None
+    points: bool = False  # a cloud instead of a line
+    at: Array | None = None
+    recording: str = ""
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Trace):
+            return NotImplemented
+        return all(_same(value, getattr(other, name)) for name, value in vars(self).items())
+
+    __hash__ = None  # type: ignore[assignment]  # arrays have none
+
+
+def _same(a: object, b: object) -> bool:
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return np.array_equal(a, b, equal_nan=True)
+    return type(a) is type(b) and a == b
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mark:
+    """A stretch of the x axis to point at: the located region."""
+
+    low: float
+    high: float
+    label: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plot:
+    """One picture in SI units; the report picks prefixes. `slot` says where it belongs.
+
+    Pictures over the time of one `recording` share their time axis. `zoom`: the stretch of x that shows most. `shown`:
+    the y that are worth seeing, where a few points lie far outside.
+    """
+
+    slot: Slot
+    title: str
+    x_label: str
+    x_unit: str
+    y_label: str
+    y_unit: str
+    traces: tuple[Trace, ...]
+    marks: tuple[Mark, ...] = ()
+    note: str = ""
+    log_y: bool = False
+    recording: str = ""
+    use: Use | None = None  # what the recording served for
+    zoom: tuple[float, float] | None = None
+    shown: tuple[float, float] | None = None

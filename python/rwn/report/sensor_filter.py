@@ -1,0 +1,41 @@
+"""The filters of sensors that a diagnosis found in the noise and fitted beside whatever is missing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rwn.fit.fit import Fit
+from rwn.fit.intervals import Estimate, deviations
+from rwn.fit.residuals import Statistics
+from rwn.fit.sensor_filter import LAGS
+
+
+@dataclass(frozen=True, kw_only=True)
+class FittedFilter:
+    """A first-order filter of one measured signal; how it was measured, no physics that the model lacks."""
+
+    signal: str
+    time_constant: Estimate  # [s]
+
+
+def fitted_filters(this: Fit, left: Statistics) -> tuple[FittedFilter, ...]:
+    """The filters that a fit holds as part of the measurement, with 95 % intervals; none that a model has itself."""
+    unknowns = this.hypothesis.unknowns
+    fitted = {u.name: k for k, u in enumerate(unknowns) if u.nuisance}
+    spread = deviations(this, left)
+    rows = []
+    for signal, lag in LAGS.items():
+        k = fitted.get(f"{lag}.time_constant")
+        if k is None:
+            continue
+        value = float(this.minimum.values[k])
+        factor = float(np.exp(min(1.96 * spread[k] / value, 50.0)))
+        rows.append(
+            FittedFilter(
+                signal=signal,
+                time_constant=Estimate(value=value, unit=unknowns[k].unit, interval=(value / factor, value * factor)),
+            )
+        )
+    return tuple(rows)

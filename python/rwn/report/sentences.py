@@ -1,0 +1,135 @@
+"""The verdict and its proof in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from rwn.faults.fault import RECORDING
+from rwn.fit.prior_weight import BELIEVABLE
+from rwn.name.found_effect import FoundEffect
+from rwn.prove.heldout import HeldoutRow
+from rwn.prove.proof import LEFT_OUT
+from rwn.report.diagnosis_data import DiagnosisData
+from rwn.report.text import STRONGEST, estimate, likelihood, listing, number, percent, plain_name, prefix_for
+
+SLIGHT = 0.005  # share of the mismatch that is not worth a sentence
+
+
+def verdict_sentence(found: DiagnosisData) -> str:
+    """The verdict, its proof and what is left, in a few sentences."""
+    return " ".join(sentences(found))
+
+
+def sentences(found: DiagnosisData) -> tuple[str, ...]:
+    """The verdict in one sentence, then what goes with it."""
+    return {
+        "missing-physics": _missing,
+        "adequate": _adequate,
+        "unexplained": _unexplained,
+        "insufficient-excitation": _insufficient,
+        "recording-mistake": _mistake,
+    }[found.verdict](found)
+
+
+def _missing(found: DiagnosisData) -> tuple[str, ...]:
+    parts = [f"{_with_parameters(e)} (probability {likelihood(e.probability)})" for e in found.effects]
+    if len(found.set) > 1:
+        names = listing([plain_name(name) for name in found.set], "or")
+        parts = [f"{names} (these recordings cannot tell which)", *parts[1:]]
+    them = "it" if len(found.effects) == 1 else "them"
+    return (f"The model lacks {listing(parts)}.", *_proof(found, f"Adding {them}"), *_left(found))
+
+
+def _left(found: DiagnosisData) -> Iterator[str]:
+    """What the stated effects leave, where it has structure."""
+    left = found.remainder
+    if left.signals and left.share >= SLIGHT:
+        where = listing(left.signals)
+        share = f"{percent(left.share)} of the mismatch"
+        yield f"What they leave of the {where}, {share}, is not noise and has no name here."
+
+
+def _with_parameters(effect: FoundEffect) -> str:
+    values = [estimate(value) for value in effect.parameters.values()]
+    return plain_name(effect.name) + (f" of {values[0]}" if len(values) == 1 else "")
+
+
+def _adequate(found: DiagnosisData) -> tuple[str, ...]:
+    fitted = {name: p for name, p in found.nominal_fit.parameters.items() if p.uncertainty > 0}
+    far = {name: p.moved for name, p in fitted.items() if p.moved > BELIEVABLE}
+    where = "" if far else " within their declared uncertainty"
+    tail = f" once its parameters are refitted{where}" if fitted else ""
+    return (
+        f"The model is adequate{tail}: nothing that these recordings can show is missing.",
+        *(
+            f"But {plain_name(name)} had to move by {number(times, 2)} times its declared uncertainty: check it."
+            for name, times in far.items()
+        ),
+    )
+
+
+def _unexplained(found: DiagnosisData) -> tuple[str, ...]:
+    what = found.location.description or f"something in the {found.equation} equation"
+    drawn = (f"In corrected.toml stands for it: {found.stand_in}.",) if found.stand_in else ()
+    joint = "; it is" if what.startswith(STRONGEST) else ":"
+    return (f"Something is missing that has no name here{joint} {what}.", *drawn, *_proof(found, "Adding that"))
+
+
+def _insufficient(found: DiagnosisData) -> tuple[str, ...]:
+    said = "These recordings do not excite the drive enough to judge the model."
+    return (said, found.next_experiment) if found.next_experiment else (said,)
+
+
+def _mistake(found: DiagnosisData) -> tuple[str, ...]:
+    wrong = [effect for effect in found.effects if effect.equation == RECORDING]
+    said = f"The recordings hold a mistake: {listing([effect.meaning for effect in wrong])}."
+    if found.beneath is None:
+        return (said,)
+    physics = tuple(effect for effect in found.effects if effect.equation != RECORDING)
+    rest = replace(found, verdict=found.beneath.verdict, set=found.beneath.set, effects=physics, beneath=None)
+    first, *others = sentences(rest)
+    return (said, f"With it undone: {first}", *others)
+
+
+def headline(found: DiagnosisData) -> HeldoutRow | None:
+    """The held-out row that says most in one figure: all of the first recording, speed before position."""
+    rows = [row for row in found.heldout if row.region == "all"]
+    order = ("speed", "position", "current")
+    rows = [row for row in rows if row.recording == rows[0].recording]
+    return min(rows, key=lambda row: order.index(row.signal) if row.signal in order else len(order), default=None)
+
+
+def before_after(row: HeldoutRow) -> tuple[str, str]:
+    """The two errors that a proof compares: refitted and corrected, or where nothing is added as given and refitted."""
+    before, after = (row.nominal, row.refitted) if row.corrected is None else (row.refitted, row.corrected)
+    scale, unit = prefix_for(max(before, after), row.unit)
+    return f"{number(before * scale)} {unit}".strip(), f"{number(after * scale)} {unit}".strip()
+
+
+def worse(row: HeldoutRow) -> bool:
+    """Whether the correction certainly raises this error."""
+    if row.gain is None:
+        return False
+    return row.gain < 0.0 if row.gain_interval is None else row.gain_interval[1] < 0.0
+
+
+def recording_in_words(name: str) -> str:
+    """ "run3.csv, which was not fitted", or the part of a recording that cross-validation left out."""
+    if name.endswith(LEFT_OUT):
+        return f"{name.removesuffix(LEFT_OUT).strip()}, left out of the fit"
+    return f"{name}, not used for fitting"
+
+
+def _proof(found: DiagnosisData, how: str) -> Iterator[str]:
+    row = headline(found)
+    if row is None or row.gain is None:
+        return
+    before, after = before_after(row)
+    does = "reduces" if row.gain >= 0 else "increases"
+    where = f"the {row.signal} error on {recording_in_words(row.recording)},"
+    yield f"{how} {does} {where} from {before} to {after} ({percent(abs(row.gain))})."
+    for other in found.heldout:
+        if other is not row and other.region == "all" and worse(other):
+            before, after = before_after(other)
+            yield f"But the {other.signal} error on {other.recording} gets worse, from {before} to {after}."

@@ -1,0 +1,64 @@
+"""What a terminal says of a diagnosis, a line each; colours vanish where the output is no terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import typer
+
+from rwn.report.diagnosis_data import DiagnosisData
+from rwn.report.next_steps import next_steps
+from rwn.report.sentences import SLIGHT, sentences
+from rwn.report.text import capital, estimate, filter_in_words, likelihood, listing, parameter_name, percent, plain_name
+
+_COLOURS = {"missing-physics": "cyan", "adequate": "green", "recording-mistake": "red"}  # else yellow
+_BAR = 20  # characters of a share of one
+
+
+def lines(found: DiagnosisData) -> Iterator[str]:
+    """Verdict, account, parameters, what was odd, and what to do next."""
+    first, *others = sentences(found)
+    yield typer.style(first, fg=_COLOURS.get(found.verdict, "yellow"), bold=True)
+    yield from others
+    yield from _titled("What acts, as a share of the mismatch:", _account(found))
+    yield from _titled("Parameters, 95 %:", _parameters(found))
+    yield from _titled("How it was measured:", _measured(found))
+    yield from _titled("Next:", next_steps(found))
+
+
+def _titled(title: str, texts: Iterator[str] | tuple[str, ...]) -> Iterator[str]:
+    rows = list(texts)
+    if rows:
+        yield typer.style(title, bold=True)
+        yield from (f"  {row}" for row in rows)
+
+
+def _account(found: DiagnosisData) -> Iterator[str]:
+    if found.verdict in ("adequate", "insufficient-excitation"):
+        return
+    rows = []
+    for effect in found.account:
+        names = listing([plain_name(name) for name in (effect.name, *effect.rivals)], "or")
+        said = "" if effect.stated else ", not stated"
+        rows.append((capital(names), effect.share, f"probability {likelihood(effect.together)}{said}"))
+    left = found.remainder
+    if left.signals and left.share >= SLIGHT:
+        rows.append(("No name here", left.share, f"of the {listing(left.signals)}"))
+    width = max((len(name) for name, _, _ in rows), default=0)
+    for name, share, said in rows:
+        kept = min(max(share, 0.0), 1.0)
+        full = round(_BAR * kept)
+        yield f"{name:<{width}}  {'█' * full}{'·' * (_BAR - full)} {percent(kept):>8}  {said}"
+
+
+def _parameters(found: DiagnosisData) -> Iterator[str]:
+    for effect in found.effects:
+        for name, value in effect.parameters.items():
+            yield f"{capital(plain_name(effect.name))}: {parameter_name(effect.name, name)} = {estimate(value)}"
+
+
+def _measured(found: DiagnosisData) -> Iterator[str]:
+    for finding in found.findings:
+        yield f"{finding.recording}: {finding.words}" + (f"; {finding.done}" if finding.done else "")
+    for fitted in found.sensor_filters:
+        yield filter_in_words(fitted.signal, fitted.time_constant)

@@ -1,0 +1,122 @@
+"""Pictures over time: what each recording shows, what the models make of its input, and what they miss."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.fit.hypothesis import Hypothesis
+from rwn.fit.problem import Problem
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
+from rwn.recording.signals import SIGNALS
+from rwn.report.plot import Plot, Role, Slot, Trace, Use
+from rwn.report.thinning import thin_line
+from rwn.simulate.run import Run
+
+Array = NDArray[np.float64]
+
+DRAWN = 3  # recordings of each use
+STRETCH = 12  # part of a recording that is looked at closely: one of so many
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Model:
+    """One of the models that are compared, and how its lines are drawn."""
+
+    name: str
+    role: Role
+    vector: Array
+    active: Sequence[int]
+    error: Role | None = None
+
+
+def over_time(ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], *, linear: bool) -> tuple[Plot, ...]:
+    """Input, response and error over each recording, those that were not fitted first; at most three of each use."""
+    whole = ranking.problem.in_free_run()
+    models = _models(whole.as_given(), ranking, chosen)
+    pictures: list[Plot] = []
+    for use, runs in (("heldout", heldout), ("fit", whole.runs)):
+        for run in runs[:DRAWN]:
+            free = run.following_nothing()
+            pictures += _of_one(replace(whole, runs=(free,)), free, models, use, linear=linear)  # type: ignore[arg-type]
+    return tuple(pictures)
+
+
+def _models(given: Hypothesis, ranking: Ranking, chosen: RankedFit) -> list[_Model]:
+    refitted = ranking.nominal
+    models = [
+        _Model(name="nominal as given", role="nominal", vector=given.vector, active=given.active),
+        _Model(
+            name="nominal refitted", role="refitted", vector=refitted.vector, active=refitted.active, error="before"
+        ),
+    ]
+    if chosen.added:
+        final = chosen.final
+        models.append(
+            _Model(name="corrected", role="corrected", vector=final.vector, active=final.active, error="after")
+        )
+    return models
+
+
+def _of_one(problem: Problem, run: Run, models: Sequence[_Model], use: Use, *, linear: bool) -> list[Plot]:
+    signal = "speed" if run.speed.size else run.recorded[-1]
+    measured = run.signal(signal)
+    made = [problem.simulate(run, m.vector, m.active).signals[signal] for m in models]
+    made = [np.where(np.abs(y) < 1e6 * (1.0 + np.max(np.abs(measured))), y, np.nan) for y in made]
+    errors = [measured - y for y in made]
+    begin, end = _shows_most(errors, run.not_compared(signal))
+    kept = thin_line([measured, run.input, *made[1:], errors[-1]], whole=(begin, end))
+    time, unit = run.time[kept], _unit(signal, linear=linear)
+    zoom = (float(run.time[begin]), float(run.time[end - 1]))
+
+    def picture(slot: Slot, title: str, label: str, unit: str, lines: Sequence[tuple[str, Role, Array]]) -> Plot:
+        return Plot(
+            slot=slot, title=title, x_label="time", x_unit="s", y_label=label, y_unit=unit, recording=run.name, use=use,
+            zoom=zoom, traces=tuple(Trace(name=n, role=r, x=time, y=y[kept]) for n, r, y in lines),
+            shown=_shown(lines),
+        )  # fmt: skip
+
+    driven = problem.drive.input
+    of_models = [(m.name, m.role, y) for m, y in zip(models, made, strict=True)]
+    of_errors = [(m.name, m.error, y) for m, y in zip(models, errors, strict=True) if m.error]
+    return [
+        picture("response", f"{signal.capitalize()} in free run, {run.name}", signal, unit,
+                [("measured", "measured", measured), *of_models]),
+        picture("residual-time", f"Error of the {signal}, {run.name}", f"{signal} error", unit, of_errors),
+        picture("input", f"Input, {run.name}", driven, _unit(driven, linear=linear),
+                [("input", "reference", run.input)]),
+    ]  # fmt: skip
+
+
+def _unit(signal: str, *, linear: bool) -> str:
+    entry = SIGNALS[signal]
+    return (linear and entry.linear_unit) or entry.unit
+
+
+def _shows_most(errors: Sequence[Array], left_out: NDArray[np.bool_]) -> tuple[int, int]:
+    """First sample and end of the stretch where the refitted model errs most beyond what is left in the end."""
+    refitted, last = errors[1], errors[-1]
+    more = refitted**2 - (last**2 if len(errors) > 2 else 0.0)
+    more = np.where(np.isfinite(more) & ~left_out, more, 0.0)
+    length = max(more.size // STRETCH, min(more.size, 50))
+    sums = np.concatenate([[0.0], np.cumsum(more)])
+    begin = int(np.argmax(sums[length:] - sums[:-length]))
+    return begin, begin + length
+
+
+def _shown(lines: Sequence[tuple[str, Role, Array]]) -> tuple[float, float] | None:
+    """The range of all lines, where the nominal model runs away at most twice as high as the others."""
+    others = np.concatenate([y for _, role, y in lines if role != "nominal"])
+    others = others[np.isfinite(others)]
+    if not others.size or np.ptp(others) == 0.0:
+        return None
+    low, high = float(others.min()), float(others.max())
+    room = 0.5 * (high - low)
+    given = np.concatenate([np.empty(0), *(y for _, role, y in lines if role == "nominal")])
+    given = np.clip(given[np.isfinite(given)], low - room, high + room)
+    low, high = min([low, *given]), max([high, *given])
+    return float(low - 0.1 * room), float(high + 0.1 * room)

@@ -1,0 +1,43 @@
+"""Two diagnoses beside each other."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import made_up
+from rwn.report.comparison import comparison
+from rwn.report.diagnosis import Diagnosis
+
+
+def rows(first: Diagnosis, second: Diagnosis) -> dict[str, tuple[str, ...]]:
+    """The table of differences as text: what -> before, after, differs."""
+    text = comparison(first, second, ("before", "after")).split("What differs")[1].split("</table>")[0]
+    cells = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", text)]
+    plain = [[re.sub("<[^>]*>", "", cell) for cell in row] for row in cells if row]
+    return {row[0]: tuple(row[1:]) for row in plain}
+
+
+def test_a_repair_takes_an_effect_away() -> None:
+    told = rows(made_up.found(), made_up.adequate())
+    assert told["Verdict"] == ("missing-physics", "adequate", "yes")
+    assert told["Coulomb friction"] == ("probability 97 %", "not found", "yes")
+    assert told["Coulomb torque T_c"] == ("20.8 ± 0.5 mN m", "–", "–")
+
+
+def test_parameters_differ_where_their_intervals_are_apart() -> None:
+    found = made_up.found()
+    fit = found.nominal_fit
+    hot = replace(fit.parameters["resistance"].refitted, value=0.95, interval=(0.93, 0.97))
+    warm = replace(fit.parameters["resistance"], corrected=hot)
+    after = replace(found, nominal_fit=replace(fit, parameters={**fit.parameters, "resistance": warm}))
+    told = rows(found, after)
+    assert told["Resistance"][1:] == ("0.950 ± 0.020 Ω", "yes")
+    assert told["Inductance"][-1] == "no"
+
+
+def test_both_laws_are_drawn_apart() -> None:
+    text = comparison(made_up.found(), made_up.found(), ("a<b", "b"))
+    drawn = re.findall(r'data-figure="(figure-[^"]*)"', text)
+    assert len(drawn) == len(set(drawn)) == 2
+    assert "a<b" not in text.split("<main>")[1]

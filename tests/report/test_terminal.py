@@ -1,0 +1,72 @@
+"""What a terminal says of a diagnosis, and how it shows progress."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+import made_up
+from rwn.report.diagnosis import Diagnosis
+from rwn.report.progress import Progress, remaining
+from rwn.report.terminal import lines
+
+COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+
+
+@pytest.mark.parametrize("made", made_up.ALL.values(), ids=list(made_up.ALL))
+def test_the_verdict_comes_first_and_nothing_is_wide(made: Callable[[], Diagnosis]) -> None:
+    said = [COLOUR.sub("", line) for line in lines(made())]
+    assert said[0].startswith(("The model", "Something is missing", "The recordings", "These"))
+    assert not any("\n" in line for line in said)
+
+
+def test_the_account_the_findings_and_the_filters_are_said() -> None:
+    said = COLOUR.sub("", "\n".join(lines(made_up.unexplained())))
+    assert re.search(r"Unbalance +█+·+ +22 % +probability 31 %, not stated", said)
+    assert re.search(r"No name here +█{20} +100 % +of the speed", said)
+    assert "train_1.csv: 3 single samples of the speed are far off those beside them; left out" in said
+    assert "first-order filter of 2.70 ± 0.10 ms" in said
+
+
+def test_names_agree_with_the_headline() -> None:
+    said = COLOUR.sub("", "\n".join(lines(made_up.found())))
+    assert "The model lacks Coulomb friction of 20.8 ± 0.5 mN m" in said
+    assert "Coulomb friction: Coulomb torque T_c = 20.8 ± 0.5 mN m" in said
+    assert "coulomb-friction" not in said
+
+
+def test_an_adequate_model_has_no_account() -> None:
+    found = replace(made_up.adequate(), account=(made_up.acting("unbalance", 0.1, 0.2),))
+    assert "What acts" not in "\n".join(lines(found))
+
+
+def test_piped_progress_is_a_line_for_each_stage() -> None:
+    stream = io.StringIO()
+    with Progress(stream) as progress:
+        for stage, fraction in (("reading", 0.0), ("reading", 0.1), ("fitting", 0.5)):
+            progress(stage, fraction)
+    assert stream.getvalue() == "  0 %  reading\n 50 %  fitting\n"
+
+
+def test_a_terminal_sees_a_bar_that_vanishes() -> None:
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    stream = Terminal()
+    with Progress(stream) as progress:
+        progress("fitting", 0.5)
+    assert "fitting" in stream.getvalue()
+    assert stream.getvalue().rstrip("\n").endswith("\x1b[2K")
+
+
+@pytest.mark.parametrize(
+    ("elapsed", "fraction", "said"),
+    [(1.0, 0.01, ""), (10.0, 0.2, "about 40 s left"), (100.0, 0.1, "about 15 min left"), (9.0, 1.0, "")],
+)
+def test_the_time_that_is_left(elapsed: float, fraction: float, said: str) -> None:
+    assert remaining(elapsed, fraction) == said
