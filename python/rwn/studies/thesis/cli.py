@@ -83,14 +83,15 @@ def check(
 
 @app.command("real-machine")
 def real_machine(
-    folder: Annotated[Path, typer.Argument(help="The folder of EMPS: DATA_EMPS.mat, DATA_EMPS_PULSES.mat.")],
+    folder: Annotated[Path, typer.Argument(help="The folder of FRA233, with sine_1.mat, ramp_1.mat and others.")],
 ) -> None:
-    """The recurrent network for the friction of a real machine, beside a static one."""
-    from rwn.studies.thesis.real_machine import compare
+    """The network of chapter 4 for the friction of a real machine, recurrent and static."""
+    from rich.console import Console
 
-    typer.echo("error of the force, of its size")
-    for name, (fitted, heldout) in compare(folder).items():
-        typer.echo(f"{name:26} fitted {fitted:6.2f} %   not fitted {heldout:6.2f} %")
+    from rwn.studies.thesis.real_machine import compare, table
+
+    stands, heldout = compare(folder)
+    Console().print(table(stands, heldout))
 
 
 @app.command("table-20")
