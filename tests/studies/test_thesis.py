@@ -8,8 +8,10 @@ import shutil
 import struct
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -17,6 +19,8 @@ from typer.testing import CliRunner
 import rwn
 from rwn import _core
 from rwn.errors import InputError
+from rwn.studies.thesis.archive import ARCHIVE, Archived, numbers, read_archive
+from rwn.studies.thesis.check import differences
 from rwn.studies.thesis.cli import app
 from rwn.studies.thesis.comparison import markdown_table
 from rwn.studies.thesis.dependencies import sources
@@ -156,6 +160,7 @@ def test_a_result_depends_on_the_helpers_of_its_experiment() -> None:
 
 PATCHED = """
 import sys
+from collections import Counter
 from pathlib import Path
 from rwn.studies.thesis.registry import select
 from rwn.studies.thesis.runner import run
@@ -277,19 +282,60 @@ def test_check_names_what_differs_from_an_archive(tmp_path: Path) -> None:
     value = 1.0
 
     def run_it(_: Settings) -> Outcome:
-        time = Row(where="Table 0", case="time", ours=3.0 * value, judge="none", unit="s")  # not compared
-        return Outcome(rows=[row(1.0, value, answer=True), time])
+        return Outcome(rows=[row(1.0, value, answer=True), row(None, 3.0 * value, judge="none")])
 
-    experiment = Experiment(name="one", title="One", run=run_it)
-    run([experiment], tmp_path / "archive")
-    for value, code, text in ((1.04, 0, "0 differ"), (1.5, 0, "1 differ"), (9.0, 1, "1 archived, 9 found")):
+    experiment, archive = Experiment(name="one", title="One", run=run_it), tmp_path / "archive.json"
+    (done,) = run([experiment], tmp_path / "first")
+    kept = Archived(
+        name="one", count="full", fingerprint=done.fingerprint, made=done.made, seconds=1.0, numbers=numbers(done)
+    )
+    archive.write_bytes(msgspec.json.encode([kept]))
+    for value, code, text in ((1.04, 0, "0 differ"), (1.5, 0, "1 differ"), (9.0, 1, "1 (reproduced) archived, 9 (not")):
         out = tmp_path / f"{value}"
         run([experiment], out)
-        answer = CliRunner().invoke(app, ["check", str(tmp_path / "archive"), "--out", str(out)])
+        answer = CliRunner().invoke(app, ["check", "--archive", str(archive), "--out", str(out)])
         assert answer.exit_code == code, answer.output
         assert text in answer.output
-    missing = CliRunner().invoke(app, ["check", str(tmp_path / "nothing")])
-    assert isinstance(missing.exception, InputError)
+    run([experiment], tmp_path / "short", count="tiny")
+    shortened = CliRunner().invoke(app, ["check", "--archive", str(archive), "--out", str(tmp_path / "short")])
+    assert shortened.exit_code == 1
+    assert "missing found" in shortened.output, "shortened results say nothing of the archive's"
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        (["check", "--out", "{0}/nothing"], "no results here"),
+        (["check", "--archive", "{0}/nothing"], "no archive"),
+        (["archive", "--out", "{0}/one", "--to", "{0}/a.json"], "84 of 85 numbers missing"),
+    ],
+)
+def test_what_is_no_archive_and_no_result_is_refused(options: list[str], text: str, tmp_path: Path) -> None:
+    experiment = Experiment(name="one", title="One", run=lambda _: Outcome(rows=[row(1.0, 1.0, answer=True)]))
+    run([experiment], tmp_path / "one")
+    answer = CliRunner().invoke(app, [option.format(tmp_path) for option in options])
+    assert isinstance(answer.exception, InputError)
+    assert text in str(answer.exception)
+    assert not (tmp_path / "a.json").exists()
+
+
+def test_the_archive_holds_the_numbers_that_the_page_shows() -> None:
+    """`rwn thesis archive` writes the one, `rwn thesis run --all --page` the other."""
+    found = [n for archived in read_archive() for n in archived.numbers]
+    assert Counter(n.where for n in found) == NUMBERS
+    assert ARCHIVE.stat().st_size < 200_000
+    page = PAGE.read_text(encoding="utf-8")
+    for n in found:
+        (line,) = re.findall(rf"^\| {re.escape(f'{n.where} | {n.case} |')}.*\| {n.word} \|.*$", page, re.MULTILINE)[:1]
+        assert f"| {number(n.thesis, n.unit)} | {number(n.ours, n.unit)} |" in line
+
+
+def test_the_code_gives_the_archived_numbers(tmp_path: Path) -> None:
+    """Those of Table 19, in full; `rwn thesis check` runs every short experiment."""
+    (done,) = run([e for e in EXPERIMENTS if e.name == "three-parameters"], tmp_path)
+    old = [archived for archived in read_archive() if archived.name == done.name]
+    assert sum(len(archived.numbers) for archived in old) == 5
+    assert not list(differences(old, {done.name: done}))
 
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "thesis.md"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from rwn.recording.recording import read_recording
+from rwn.recording.recording import Recording, read_recording
 from rwn.studies.machines.machine import Machine, Outcome, Say, cut, data_file, error_of, judged, nominal_model
 
 LATE = (
@@ -14,19 +14,21 @@ LATE = (
 )
 
 
-def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
-    """Fitted on a sine and a ramp; judged by a step run and a stair run."""
-    model = nominal_model("fra233")
+def recordings(folder: Path) -> tuple[list[Recording], list[Recording]]:
+    """A sine and a ramp to fit, a step run and a stair run to judge by."""
+    layout = nominal_model("fra233").recording
     sine, ramp, step, stair = (
-        read_recording(data_file(folder, f"{name}_1.mat"), layout=model.recording)
-        for name in ("sine", "ramp", "step", "stair")
+        read_recording(data_file(folder, f"{name}_1.mat"), layout=layout) for name in ("sine", "ramp", "step", "stair")
     )
-    fitted = [cut(sine, 2000, 10000), cut(ramp, 1000)]  # 2 kHz: after a second, after half a second
-    heldout = [step, cut(stair, 2000)]
-    outcome = judged("FRA233", "linear motor", model, fitted, heldout, say)
-    errors = [
-        error_of(outcome.found, f"{name}_1.mat", "speed", f"speed, {name} run [rad/s]") for name in ("step", "stair")
-    ]
+    # 2 kHz: after a second, after half a second
+    return [cut(sine, 2000, 10000), cut(ramp, 1000)], [step, cut(stair, 2000)]
+
+
+def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
+    """The main job with these."""
+    fitted, heldout = recordings(folder)
+    outcome = judged("FRA233", "linear motor", nominal_model("fra233"), fitted, heldout, say)
+    errors = [error_of(outcome.found, r.name, "speed", f"speed, {r.name.split('_')[0]} run [rad/s]") for r in heldout]
     return (replace(outcome, errors=tuple(errors), notes=(LATE,)),)
 
 

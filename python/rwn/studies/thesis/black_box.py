@@ -6,8 +6,8 @@ and Coulomb"); T = 0.1 ms; 3 wavelets over the range of every input, w uniform i
 from least squares (from random a the Euler inputs never converge); running maxima at 0.2 of the bound of each
 group by itself; an iteration is a cycle: all 10 000 from one seed, 300 from 20. The thesis's errors are those
 met while learning, in the test too: with frozen weights they are a hundred times larger and more. "Choices" shows
-them after 1, 30 and 300 cycles, and at other fractions. The last lines are the plain least-squares network (w = 0),
-and its free run, which the thesis does not give.
+them after fewer cycles, from a smaller start and at other fractions. The last lines are the plain least-squares
+network (w = 0), and its free run, which the thesis does not give.
 """
 
 from __future__ import annotations
@@ -37,12 +37,9 @@ from rwn.studies.thesis.search import median, search
 from rwn.studies.thesis.within_cycle import SHAPES, first_cycle_panel, rates_figure
 
 PAGES = {"bilinear": (6.4572e-6, 1.2912e-5), "euler": (6.8587e-6, 1.6747e-5)}
-FRACTION = 0.2
+FRACTION, CYCLES = 0.2, 10_000
 RULE = thesis_rule(FRACTION)
-REASON = (
-    "what an iteration is, the start and the fraction are not said, and each moves the error by 10 or more; ours "
-    "passes the thesis's value and goes on falling"
-)
+REASON = "what an iteration is, the start and the fraction are not said, and each moves the error by 10 or more"
 FIGURES = {"bilinear": (46, 47, 49), "euler": (51, 52, 54)}
 
 
@@ -178,26 +175,33 @@ def rows(d: Data, full: Trained, short: list[Trained]) -> list[Row]:
     return found
 
 
+def choice(size: float, fraction: float, cycles: int) -> str:
+    """Its name in the search."""
+    return f"w {size}, fraction {fraction}, {cycles} cycles"
+
+
 def choices(d: Data, settings: Settings) -> Search:
     """Size of w, fraction and cycles."""
     trained, tested = PAGES[d.kind]
 
-    def values(size: float, fraction: float, cycles: int) -> list[float | None]:
-        runs = [learn(d, cycles, s, size=size, fraction=fraction) for s in range(settings.pick(10, 1))]
+    def values(size: float, fraction: float, cycles: int, seeds: int) -> list[float | None]:
+        runs = [learn(d, cycles, s, size=size, fraction=fraction) for s in range(seeds)]
         return [median([r.training.mse_learning[-1] for r in runs]), median([r.tested for r in runs])]
 
     tried = {
-        f"w {size}, fraction {fraction}, {cycles} cycles": partial(values, size, fraction, settings.pick(cycles, 1))
+        choice(size, fraction, settings.pick(cycles, 1)): partial(
+            values, size, fraction, settings.pick(cycles, 1), settings.pick(seeds, 1)
+        )
         for size in (0.001, 1.0)
-        for fraction in (0.05, 0.2, 0.5, 0.95)
-        for cycles in (1, 30, 300)
+        for fraction in (0.05, FRACTION, 0.5, 0.95)
+        for cycles, seeds in ((1, 10), (30, 10), (300, 10), (CYCLES, 1))
     }
     return search(
         f"Figures {FIGURES[d.kind][0]} and {FIGURES[d.kind][2]}, {d.kind}: size of w, fraction and cycles",
         {"trained, while learning": trained, "tested, learning on": tested},
         tried,
-        taken="",
-        count="10 seeds; the experiment goes on to 10 000 cycles with w 1.0 and 0.2",
+        taken=choice(1.0, FRACTION, settings.pick(CYCLES, 1)),
+        count=f"{settings.pick(10, 1)} seeds, with most cycles one",
     )
 
 
@@ -245,7 +249,7 @@ def run(settings: Settings) -> Outcome:
     searches = []
     for k, kind in enumerate(PAGES):
         d = data(kind)
-        full = learn(d, settings.pick(10_000, 2), 0)
+        full = learn(d, settings.pick(CYCLES, 2), 0)
         settings.progress((2 * k + 1) / 4)
         short = [learn(d, settings.pick(300, 1), s) for s in range(settings.pick(20, 2))]
         all_rows += rows(d, full, short)
@@ -260,5 +264,5 @@ EXPERIMENT = Experiment(
     title="Sections 3.5.1-3.5.2: black box",
     run=run,
     figures=(44, 46, 47, 49, 51, 52, 54),
-    minutes=2.5,
+    minutes=4.0,
 )

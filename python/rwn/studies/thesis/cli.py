@@ -65,33 +65,63 @@ def run(
 
 @app.command()
 def check(
-    archive: Annotated[Path, typer.Argument(help="A folder of archived results.")],
     *,
-    out: Annotated[Path, typer.Option(help="The results to hold against it.")] = Path("thesis-results"),
+    out: Annotated[
+        Path | None, typer.Option(help="Results to check; without, the short experiments are run anew, in full.")
+    ] = None,
+    archive: Annotated[Path | None, typer.Option(help="An archive; default the one of this package.")] = None,
 ) -> None:
-    """Holds results against an archived set; exit code 1 where a word changed or a number is missing."""
-    from rwn.studies.thesis.check import differences, read_archive
+    """Holds results against the archived numbers; exit code 1 where a word changed or a number is missing."""
+    from tempfile import TemporaryDirectory
 
-    old, new = read_archive(archive), read_archive(out)
-    found = list(differences(list(old.values()), new))
+    from rwn.studies.thesis.archive import ARCHIVE, read_archive, results
+    from rwn.studies.thesis.check import differences
+    from rwn.studies.thesis.registry import EXPERIMENTS
+    from rwn.studies.thesis.runner import SHORT
+
+    old = list(read_archive(archive or ARCHIVE))
+    if out is None:
+        full = {a.name for a in old if a.count == "full"}
+        short = [e for e in EXPERIMENTS if e.minutes <= SHORT and e.name in full]
+        with TemporaryDirectory() as folder:
+            new = {done.name: done for done in _with_progress(short, Path(folder), "full", os.cpu_count() or 1)}
+        old = [a for a in old if a.name in new]
+    else:
+        new = results(out)
+    for m in dict.fromkeys(a.made for a in old):
+        typer.echo(f"archived {m.date} from {m.commit} on {m.machine}")
+    found = list(differences(old, new))
     for d in found:
-        typer.echo(f"{d.experiment}: {d.where}, {d.case}: {d.archived} archived, {d.found} found")
-    changed = sum(d.changed for d in found)
-    rows = sum(len(done.rows) for done in old.values())
-    typer.echo(f"{rows} rows archived, {len(found)} differ by more than 5 %, {changed} in their word or missing")
+        typer.echo(f"{d.where}, {d.case}: {d.archived} archived, {d.found} found")
+    changed, of = sum(d.changed for d in found), sum(len(a.numbers) for a in old)
+    typer.echo(f"{of} numbers checked, {len(found)} differ by more than 5 %, {changed} in their word or missing")
     raise typer.Exit(1 if changed else 0)
+
+
+@app.command("archive")
+def archive_results(
+    *,
+    out: Annotated[Path, typer.Option(help="Results of every experiment.")] = Path("thesis-results"),
+    to: Annotated[Path | None, typer.Option(help="The file; default the one of this package.")] = None,
+) -> None:
+    """Writes the archive that `check` holds results against."""
+    from rwn.studies.thesis.archive import ARCHIVE, results, write_archive
+
+    kept = write_archive(results(out).values(), to or ARCHIVE)
+    typer.echo(f"{sum(len(a.numbers) for a in kept)} numbers: {to or ARCHIVE}")
 
 
 @app.command("real-machine")
 def real_machine(
-    folder: Annotated[Path, typer.Argument(help="The folder of EMPS: DATA_EMPS.mat, DATA_EMPS_PULSES.mat.")],
+    folder: Annotated[Path, typer.Argument(help="The folder of FRA233, with sine_1.mat, ramp_1.mat and others.")],
 ) -> None:
-    """The recurrent network for the friction of a real machine, beside a static one."""
-    from rwn.studies.thesis.real_machine import compare
+    """The network of chapter 4 for the friction of a real machine, recurrent and static."""
+    from rich.console import Console
 
-    typer.echo("error of the force, of its size")
-    for name, (fitted, heldout) in compare(folder).items():
-        typer.echo(f"{name:26} fitted {fitted:6.2f} %   not fitted {heldout:6.2f} %")
+    from rwn.studies.thesis.real_machine import compare, table
+
+    stands, heldout = compare(folder)
+    Console().print(table(stands, heldout))
 
 
 @app.command("table-20")
@@ -121,7 +151,7 @@ def _run(experiments: Sequence[Experiment], out: Path, *, count: Count, jobs: in
     console.print(rich_table(results))
     console.print(overview_table(results))
     seconds = sum(r.seconds for r in results)
-    console.print(f"{seconds:.0f} s of experiments" + ("" if count == "full" else "; shortened counts"))
+    console.print(f"{seconds:.0f} s of processor time" + ("" if count == "full" else "; shortened counts"))
     write_page(results, page)
     console.print(f"page: {page}")
 

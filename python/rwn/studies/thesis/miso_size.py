@@ -20,7 +20,7 @@ from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Panel, Se
 from rwn.studies.thesis.functions import grid, miso
 from rwn.studies.thesis.offline import MISO, Case, compare_initialisers
 
-SEEDS = "a start of small random weights decides within a factor of 4: see the range over the seeds"
+SEEDS = "the start of small random weights decides: see the range over the seeds"
 CASES = [
     Case(label="Nw 7", wavelets=7, rate=0.1, momentum=0.6, heuristic=0.0136, dyadic=0.0104, cause=SEEDS),
     Case(label="Nw 15", wavelets=15, rate=0.1, momentum=0.6, heuristic=5.0251e-4, dyadic=4.4011e-4, cause=SEEDS),

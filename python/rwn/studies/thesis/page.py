@@ -62,5 +62,5 @@ def _made(results: Sequence[Finished]) -> str:
     """When, from which commit and on which machine the results were made."""
     origins = dict.fromkeys((r.made.date, r.made.commit, r.made.machine) for r in results)
     lines = [f"Made {date} from {commit} on {machine}." for date, commit, machine in origins]
-    seconds = f"{sum(r.seconds for r in results) / 60:.0f} minutes of experiments; page written from {made().commit}."
-    return "\n".join([*lines, seconds])
+    minutes = sum(r.seconds for r in results) / 60
+    return "\n".join([*lines, f"{minutes:.0f} minutes of processor time; page written from {made().commit}."])

@@ -1,128 +1,128 @@
-"""The recurrent network of chapter 3 for the friction of a real machine (EMPS), beside a static one (ours).
+"""The structured network of chapter 4 for the friction of a real machine (FRA233), recurrent and static (ours).
 
-EMPS (Janot, Gautier, Brunot 2019) is a carriage of about 95 kg whose friction torque is not measured: the force of
-the motor is, and position. The model is F = M a + f(v), with f from least squares (Coulomb and viscous), from a
-static sum of wavelets, and from the recurrent network, whose wavelets feed back their own outputs. The networks
-start from the same wavelets over the speeds of DATA_EMPS and the same weights, and are trained together with M by
-Gauss-Newton with damping on every fifth sample of it; DATA_EMPS_PULSES is not fitted. Speed and acceleration are
-central differences of the position, smoothed over 41 samples as the force is.
+FRA233 is a small brushed motor of which commanded voltage and speed are recorded; nothing but speed tells of its
+friction. Its inertia, viscous friction and the wavelets are fitted to a sine and a ramp by this package's Gauss-Newton
+with damping (`StructuredLevenbergMarquardt`), resistance, inductance and torque constant being those of its users; a
+step run and a stair run judge. The static network has c = 0; the recurrent one, whose wavelets feed back their own
+outputs, starts from the same wavelets, or goes on from what the static one has found. Both are fed with the measured
+speed, as in the thesis; the error that counts is that of the free run, fed with the speed that the model itself finds.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import scipy.io
+from rich.table import Table
 
 import rwn
-from rwn.errors import InputError
 from rwn.networks.arrays import Array
-from rwn.studies.thesis.noisy import smoothed
+from rwn.networks.initialisation import StructuredSelection
+from rwn.networks.trainers import StructuredFit, StructuredLevenbergMarquardt
+from rwn.recording.recording import Recording
+from rwn.studies.machines.fra233 import recordings
+from rwn.studies.machines.machine import nominal_model
 
-FORCE = 35.15065  # N/V, of the benchmark
-WAVELETS, WIDTH, EVERY = 15, 41, 5
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Recording:
-    """Speed (n,) [m/s], acceleration (n,) [m/s^2] and force (n,) [N], smoothed alike."""
-
-    speed: Array
-    acceleration: Array
-    force: Array
+SIZES = (7, 15)
+MOTOR, SHAPE = ("v1", "v2"), ("w", "m", "d")
 
 
-def recording(path: Path) -> Recording:
-    """From a file of the benchmark. Raises InputError where it is not there."""
-    if not path.is_file():
-        raise InputError(
-            "no such recording",
-            where=str(path),
-            expected="the folder of EMPS, with DATA_EMPS.mat and DATA_EMPS_PULSES.mat",
-            fix="name the folder that holds them",
+@dataclass(frozen=True, kw_only=True)
+class Stand:
+    """A stand-in for the friction: rms errors of the speed [rad/s] by recording, fitted and not, with the network fed
+    with the speed that the model finds (`free`) and with the measured one (`fed`)."""
+
+    name: str
+    free: dict[str, float]
+    fed: dict[str, float]
+
+
+def compare(folder: Path, *, iterations: int = 200) -> tuple[list[Stand], set[str]]:
+    """Errors by stand-in, and the names of the recordings that were not fitted.
+
+    Raises InputError where the recordings are not in `folder`.
+    """
+    fitted, heldout = recordings(folder)
+    motor = _nominal(fitted[0])
+    voltage, speed = (np.concatenate([r.signals[name] for r in fitted]) for name in ("voltage", "speed"))
+    begin = _state(motor, fitted[0])  # of the first: what the others begin with is forgotten in 20 ms
+    free_trainer = StructuredLevenbergMarquardt(iterations=iterations)
+
+    def fit(network: rwn.StructuredNetwork, learn: Sequence[str], *, first: bool = True) -> StructuredFit:
+        trainer = replace(free_trainer, weights_first=first, gauge=network.wavelets > 0)
+        return trainer.fit(network, voltage, speed, learn=(*MOTOR, *learn), start=begin)
+
+    linear = fit(motor, (), first=False)
+    fits = {"no network": linear}
+    for count in SIZES:
+        start = StructuredSelection(levels=5).start(linear.network, voltage, speed, wavelets=count, linear=MOTOR)
+        static = fit(start, SHAPE)
+        fits[f"{count} wavelets, static"] = static
+        fits[f"{count} wavelets, recurrent"] = fit(start, (*SHAPE, "c"))
+        fits[f"{count} wavelets, recurrent, going on from the static"] = fit(
+            static.network, (*SHAPE, "c"), first=False
         )
-    content = scipy.io.loadmat(str(path), squeeze_me=True)
-    step = float(np.mean(np.diff(content["t"])))
-    speed = np.gradient(smoothed(np.asarray(content["qm"], dtype=np.float64), WIDTH), step)
-    force = smoothed(FORCE * np.asarray(content["vir"], dtype=np.float64), WIDTH)
-    inner = slice(WIDTH, -WIDTH)  # the ends of a moving average are its padding
-    return Recording(
-        speed=speed[inner], acceleration=np.gradient(speed, step)[inner], force=force[inner]
+        fits[f"{count} wavelets, static, fitted in free run"] = free_trainer.fit(
+            start, voltage, speed, learn=(*MOTOR, *SHAPE), start=begin, feed="simulated"
+        )
+    return [_stand(name, found, [*fitted, *heldout]) for name, found in fits.items()], {r.name for r in heldout}
+
+
+def table(stands: Sequence[Stand], heldout: set[str]) -> Table:
+    """Errors of the speed [rad/s] in free run, and in brackets fed with the measured speed."""
+    heads = [f"{name}{', not fitted' if name in heldout else ''}" for name in stands[0].free]
+    made = Table("friction", *heads, title="rms error of the speed in rad/s, free run (fed with the measured speed)")
+    for stand in stands:
+        made.add_row(stand.name, *(f"{stand.free[name]:.2f} ({stand.fed[name]:.2f})" for name in stand.free))
+    return made
+
+
+def free_run(fit: StructuredFit, voltage: Array, start: Array) -> Array:
+    """Speed (n,) [rad/s] for the voltage (n,) [V] from the state `start`, the network fed with that speed, with its
+    recurrence (`StructuredFit.free_run` has none)."""
+    network, state, phi = fit.network, start, np.zeros(fit.network.wavelets)
+    plant, v2, v4 = network.plant, float(network.v[1]), float(network.v[3])
+    speed = np.empty(len(voltage))
+    for n, volts in enumerate(voltage):
+        speed[n] = state[0]
+        phi = network.wavelet.value((state[0] + network.c * phi - network.m) / network.d)
+        torque = float(phi @ network.w) - fit.slope * state[0]
+        state = plant @ state + np.array([-v2 * torque, v4 * volts])
+    return speed
+
+
+def _nominal(recording: Recording) -> rwn.StructuredNetwork:
+    """The motor as its users have measured it, at the recording's sampling."""
+    values = nominal_model("fra233").motor
+    known = rwn.MotorParameters(
+        resistance=values["resistance"],
+        inductance=values["inductance"],
+        torque_constant=values["torque_constant"],
+        inertia=values["inertia"],
+        viscous_friction=values["viscous_friction"],
     )
+    step = float(np.mean(np.diff(recording.time)))
+    return rwn.StructuredNetwork.from_motor(known, sample_time=step)
 
 
-def start(train: Recording) -> rwn.RecurrentNetwork:
-    """b, a and w by least squares over wavelets that cover the speeds, half of them at low speed; c = 0."""
-    top = float(np.abs(train.speed).max())
-    wide, narrow = WAVELETS // 2, WAVELETS - WAVELETS // 2
-    m = np.concatenate([np.linspace(-top, top, wide), np.linspace(-top / 10, top / 10, narrow)])
-    d = np.concatenate([np.full(wide, top / 3), np.full(narrow, top / 30)])
-    z = (train.speed[:, None] - m) / d
-    columns = np.column_stack([train.acceleration, np.ones_like(train.speed), train.speed, -z * np.exp(-(z**2) / 2)])
-    ridge = 1e-3 * np.linalg.norm(columns, axis=0).max() * np.eye(columns.shape[1])
-    found = np.linalg.lstsq(
-        np.vstack([columns, ridge]), np.concatenate([train.force, np.zeros(len(ridge))]), rcond=None
-    )[0]
-    return rwn.RecurrentNetwork(
-        b=float(found[1]), a=found[2:3], w=found[3:], m=m[:, None], d=d[:, None], c=0 * m[:, None]
-    )
+def _state(motor: rwn.StructuredNetwork, recording: Recording) -> Array:
+    """Speed and current that begin a recording, the current having settled."""
+    voltage, speed = float(recording.signals["voltage"][0]), float(recording.signals["speed"][0])
+    kt, v4, v5 = (float(v) for v in motor.v[2:])
+    return np.array([speed, v4 / (1 - v5) * (voltage - kt * speed)])
 
 
-def predicted(network: rwn.RecurrentNetwork, mass: float, data: Recording) -> Array:
-    """Force [N]."""
-    return mass * data.acceleration + network.simulate(data.speed)
+def _stand(name: str, fit: StructuredFit, judged: Sequence[Recording]) -> Stand:
+    free, fed = {}, {}
+    for recording in judged:
+        voltage, speed = recording.signals["voltage"], recording.signals["speed"]
+        start = _state(fit.network, recording)
+        free[recording.name] = _rms(free_run(fit, voltage, start) - speed)
+        fed[recording.name] = _rms(fit.simulate(voltage, speed, start=start) - speed)
+    return Stand(name=name, free=free, fed=fed)
 
 
-def relative(force: Array, data: Recording) -> float:
-    """Error of the force in percent of its size."""
-    return 100 * float(np.linalg.norm(data.force - force) / np.linalg.norm(data.force))
-
-
-def trained(
-    network: rwn.RecurrentNetwork, mass: float, data: Recording, *, feedback: bool, iterations: int
-) -> tuple[rwn.RecurrentNetwork, float]:
-    """Damped Gauss-Newton on the mass and b, a, w, m, d, and with `feedback` c."""
-    count = len(network.theta) - (0 if feedback else network.wavelets)
-    damping = 1e-3
-    residual = data.force - predicted(network, mass, data)
-    for _ in range(iterations):
-        jacobian = np.column_stack([data.acceleration, network.sensitivities(data.speed)[1][:, :count]])[::EVERY]
-        normal = jacobian.T @ jacobian
-        step = np.linalg.solve(
-            normal + damping * np.diag(np.diag(normal) + 1e-12 * np.trace(normal)), jacobian.T @ residual[::EVERY]
-        )
-        theta = network.theta.copy()
-        theta[:count] += step[1:]
-        try:
-            moved = network.with_theta(theta)
-            left = data.force - predicted(moved, mass + step[0], data)
-        except ValueError:  # a dilation came to zero
-            damping *= 4
-            continue
-        if np.linalg.norm(left) < np.linalg.norm(residual):
-            network, mass, residual, damping = moved, mass + float(step[0]), left, damping / 3
-        else:
-            damping *= 4
-    return network, mass
-
-
-def compare(folder: Path, iterations: int = 100) -> dict[str, tuple[float, float]]:
-    """Relative error of the force [%] by model, on DATA_EMPS (fitted) and on DATA_EMPS_PULSES."""
-    train, test = (recording(folder / name) for name in ("DATA_EMPS.mat", "DATA_EMPS_PULSES.mat"))
-
-    def columns(data: Recording) -> Array:
-        return np.column_stack([data.acceleration, np.sign(data.speed), data.speed, np.ones_like(data.speed)])
-
-    plain = np.linalg.lstsq(columns(train), train.force, rcond=None)[0]
-    errors = tuple(relative(columns(data) @ plain, data) for data in (train, test))
-    found = {"Coulomb, viscous, offset": (errors[0], errors[1])}
-    begun = start(train)
-    for name, feedback in (("static sum of wavelets", False), ("recurrent network", True)):
-        network, mass = trained(begun, float(plain[0]), train, feedback=feedback, iterations=iterations)
-        found[name] = (
-            relative(predicted(network, mass, train), train),
-            relative(predicted(network, mass, test), test),
-        )
-    return found
+def _rms(error: Array) -> float:
+    return float(np.sqrt(np.mean(error**2)))

@@ -68,7 +68,7 @@ def online_rows(
     count = f"{len(run.mse_learning)} cycles; {run.status}"
     answer = how == SPEAKS
     stuck = "; ".join(run.report.warnings)
-    passing = "J passes the thesis's +11 % on its way to the truth: it depends on the fraction and where one stops"
+    passing = "the error of J follows the fraction of the bound and where its maxima come from, which are not said"
     gain = "v1 shares its slope with the network and acts as an observer gain: raw B is not determined by the data"
     return [
         Row(
