@@ -18,7 +18,7 @@ from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
 from rwn.name.forward import rank
-from rwn.report import text as words
+from rwn.report.sentences import verdict_sentence
 from rwn.simulate.run import judging_run
 
 pytestmark = pytest.mark.slow
@@ -83,7 +83,7 @@ def test_the_network_is_an_own_effect_of_the_file(waved: rwn.Diagnosis, tmp_path
 
 
 def test_the_sentence_says_so(waved: rwn.Diagnosis) -> None:
-    text = words.verdict_sentence(waved)
+    text = verdict_sentence(waved)
     assert "no name" in text
     assert "stands for it: a wavelet network, a torque over speed" in text
     assert "reduces" in text
@@ -128,7 +128,7 @@ def test_a_name_that_is_proved_and_not_the_whole_stands_in(monkeypatch: pytest.M
     assert found.stand_in.startswith("coulomb-friction, which helps")
     assert list(found.corrected.effects) == ["coulomb-friction"]
     assert all(r.gain is not None and r.gain > 0.1 for r in found.heldout if r.region == "all")
-    assert "stands for it: coulomb-friction" in words.verdict_sentence(found)
+    assert "stands for it: coulomb-friction" in verdict_sentence(found)
 
 
 def test_without_held_out_recordings_it_is_learned_anew_for_each() -> None:

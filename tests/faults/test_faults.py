@@ -16,8 +16,8 @@ from rwn.faults.resolve import resolved
 from rwn.faults.scale import wrong_scale
 from rwn.fit.preparation import prepare
 from rwn.name.forward import rank
-from rwn.report import text as words
-from rwn.report.diagnosis import Beneath
+from rwn.report.diagnosis_data import Beneath
+from rwn.report.sentences import verdict_sentence
 
 DEMO = Path(rwn.__file__).parent / "demo"
 MOTION = ("speed", "position")
@@ -235,7 +235,7 @@ def test_the_verdict_names_the_mistake_before_the_physics(model: rwn.Model) -> N
     assert [e.name for e in found.effects] == ["wrong-unit", "coulomb-friction"]
     assert found.effects[0].parameters["factor"].value == pytest.approx(9.5493, rel=1e-4)
     assert found.beneath == Beneath(verdict="missing-physics", set=("coulomb-friction",))
-    mistake, beneath = words.verdict_sentence(found).split(". With it undone: ")
+    mistake, beneath = verdict_sentence(found).split(". With it undone: ")
     assert mistake == "The recordings hold a mistake: speed in rpm taken for rad/s"
     assert beneath.startswith("The model lacks Coulomb friction")
 

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import copy
+import pickle
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -150,3 +152,12 @@ def test_effects_are_written_with_their_units(*, linear: bool, unit: str, tmp_pa
     )
     write_model(model, tmp_path / "model.toml")
     assert f"coulomb_torque = 20.4  # {unit}\n" in (tmp_path / "model.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
+def test_a_model_is_short_to_look_at_and_can_be_pickled_and_copied(model: Model) -> None:
+    assert repr(model).startswith(f"<Model {model.kind}: ")
+    assert len(repr(model)) < 200
+    assert pickle.loads(pickle.dumps(model)) == model
+    assert copy.deepcopy(model) == model
+    assert not hasattr(pickle.loads(pickle.dumps(model)).parameters, "update")  # it stays read-only

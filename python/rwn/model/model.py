@@ -57,7 +57,7 @@ LOADS = {
 NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Model:
     """Kind of drive, nominal `parameters` (SI) and relative standard deviations `uncertainty` (not listed:
     exact), `effects` name -> parameter values (SI), known `load`s, `recording` layout.
@@ -121,6 +121,11 @@ class Model:
             check_numbers(values, where=f"{where}, [load.{name}]")
             check_nominal(values, LOADS[name], linear=False, where=f"{where}, [load.{name}]")
         check_constants(self.own_effects, self.effects, where=where)
+
+    def __repr__(self) -> str:
+        with_what = f" with {', '.join(self.effects)}" if self.effects else ""
+        source = f", from {self.source}" if self.source else ""
+        return f"<Model {self.kind}: {len(self.parameters)} parameters{with_what}{source}>"
 
     def __reduce__(self) -> tuple[Callable[[dict[str, Any]], Model], tuple[dict[str, Any]]]:
         """For pickle and copy, which know nothing of read-only mappings."""
