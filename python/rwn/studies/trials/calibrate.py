@@ -19,7 +19,7 @@ from rwn.studies.trials.run import out_of, trial_folders
 
 Array = NDArray[np.float64]
 
-RIDGE = 1.0  # inverse variance of the weights' prior, per standard deviation of a feature
+RIDGES = (1.0, 3.0, 10.0, 30.0)  # inverse variances of the weights' prior, per standard deviation of a feature
 FOLDS = 10  # of the cross-validation; all names of a trial are in one
 
 
@@ -55,17 +55,19 @@ def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
             if trial.name not in answers or not found.exists():
                 continue
             answer = answers[trial.name]
-            true = {e["name"] for e in answer["effects"]} | set(answer.get("equivalent", ()))
+            named = answer["verdict"] == "missing-physics"
+            true = {e["name"] for e in answer["effects"]} | set(answer.get("equivalent", ())) if named else set()
+            true |= set(answer.get("also_true", ()))
             for e in Diagnosis.from_json(found.read_bytes()).account:
                 rows.append(features(e.evidence))
-                acts.append(float(answer["verdict"] == "missing-physics" and bool(true & {e.name, *e.rivals})))
+                acts.append(float(bool(true & {e.name, *e.rivals})))
                 trials.append(count)
             count += 1
     return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
 
 
 def calibrated(names: Names, *, what: str) -> Calibrated:
-    """The calibration by all names; its reliability by those of trials that were left out.
+    """The calibration by all names; its reliability, and the prior of its weights, by those of trials left out.
 
     Raises ValueError where there are too few names to learn from.
     """
@@ -73,14 +75,13 @@ def calibrated(names: Names, *, what: str) -> Calibrated:
         raise ValueError(f"{names.acts.size} names, {names.acts.sum():.0f} of which act, are too few to calibrate on")
     order = np.random.default_rng(0).permutation(names.trial.max() + 1)
     fold = order[names.trial] % FOLDS
-    unseen = np.empty(names.acts.size)
-    for k in range(FOLDS):
-        part = _fitted(names.features[fold != k], names.acts[fold != k], what)
-        unseen[fold == k] = [_probability(part, f) for f in names.features[fold == k]]
+    left_out = {ridge: _left_out(names, fold, ridge) for ridge in RIDGES}
+    ridge = max(RIDGES, key=lambda r: float(np.sum(np.log(np.where(names.acts > 0.0, left_out[r], 1.0 - left_out[r])))))
+    unseen = left_out[ridge]
     edges = np.array([0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 + 1e-9])
     bins = [(a, b, (unseen >= a) & (unseen < b)) for a, b in pairwise(edges)]
     return Calibrated(
-        calibration=_fitted(names.features, names.acts, what),
+        calibration=_fitted(names.features, names.acts, what, ridge),
         names=names.acts.size,
         trials=int(np.unique(names.trial).size),
         acting=int(names.acts.sum()),
@@ -90,6 +91,15 @@ def calibrated(names: Names, *, what: str) -> Calibrated:
             for a, b, here in bins
         ),
     )
+
+
+def _left_out(names: Names, fold: NDArray[np.int64], ridge: float) -> Array:
+    """The probability (n,) of each name by the trials of the other folds."""
+    unseen = np.empty(names.acts.size)
+    for k in range(FOLDS):
+        part = _fitted(names.features[fold != k], names.acts[fold != k], "", ridge)
+        unseen[fold == k] = [_probability(part, f) for f in names.features[fold == k]]
+    return unseen
 
 
 def write(found: Calibration, path: Path) -> None:
@@ -103,12 +113,12 @@ def commit() -> str:
     return done.stdout.strip()
 
 
-def _fitted(x: Array, y: Array, what: str) -> Calibration:
+def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:
     """Logistic regression with a ridge, Newton's method."""
     means, spreads = np.nanmean(x, axis=0), np.maximum(np.nanstd(x, axis=0), 1e-9)
     z = np.nan_to_num((x - means) / spreads)
     design = np.column_stack([np.ones(len(z)), z])
-    penalty = RIDGE * np.diag([0.0, *np.ones(z.shape[1])])
+    penalty = ridge * np.diag([0.0, *np.ones(z.shape[1])])
     weights = np.zeros(design.shape[1])
     for _ in range(100):
         p = 1.0 / (1.0 + np.exp(-np.clip(design @ weights, -40.0, 40.0)))
