@@ -12,8 +12,9 @@ from rwn.fit.intervals import Estimate
 from rwn.locate.regions import Region
 from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
+from rwn.recording.inspection import Finding
 from rwn.report.diagnosis import Diagnosis
-from rwn.report.diagnosis_data import Alternative, Beneath, Found, Location, Source
+from rwn.report.diagnosis_data import Alternative, Beneath, Location, Source
 from rwn.report.nominal_fit import FittedParameter, NominalFit
 from rwn.report.plot import Mark, Plot, Role, Slot, Trace
 from rwn.report.sensor_filter import FittedFilter
@@ -145,7 +146,7 @@ def acting(name: str, probability: float, share: float) -> Acting:
     evidence = Evidence(
         share=share, unseen=share, part=share, drift=0.01, certainty=40.0, odds=9.0, moved=0.5, law=0.0, left=1.0
     )
-    return Acting(name=name, probability=probability, share=share, evidence=evidence)
+    return Acting(name=name, probability=probability, together=probability, share=share, evidence=evidence)
 
 
 def found() -> Diagnosis:
@@ -208,7 +209,7 @@ def found() -> Diagnosis:
         account=(acting("coulomb-friction", 0.97, 0.985),),
         remainder=Remainder(share=0.015, error=1.02),
         findings=(
-            Found(
+            Finding(
                 kind="spikes",
                 recording="train_1.csv",
                 signals=("speed",),

@@ -207,7 +207,9 @@ def test_a_sign_error_is_no_identified_motor(run: Run, tmp_path: Path) -> None:
 
 
 def test_identify_says_what_ran_into_a_bound_and_what_is_not_seen() -> None:
-    model = Model(kind="dc", parameters={"resistance": 1.0, "inertia": 1e-4}, uncertainty={"resistance": 0.1})
+    motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 1e-4,
+             "viscous_friction": 1e-5}  # fmt: skip
+    model = Model(kind="dc", parameters=motor, uncertainty={"resistance": 0.1})
     estimates = {"resistance": Estimate(value=14.6, unit="ohm", interval=(10.0, 14.6))}
     fit = FakeIdentification(model, estimates, not_identifiable=("inertia",))
     said = "\n".join(identification.lines(fit, (), model))  # type: ignore[arg-type]

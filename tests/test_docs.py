@@ -46,8 +46,11 @@ def test_the_readme_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     (tmp_path / "own.toml").write_text(own)
     assert rwn.read_model(tmp_path / "own.toml").uncertainty
     (tmp_path / "motor.toml").write_text((DEMO / "model.toml").read_text())
-    for name, source in (("run1", "train"), ("run2", "train"), ("run3", "heldout")):
-        (tmp_path / f"{name}.csv").write_text((DEMO / f"{source}.csv").read_text())
+    head, *rows = (DEMO / "train.csv").read_text().splitlines(keepends=True)
+    half = len(rows) // 2
+    for name, part in (("run1", rows[:half]), ("run2", rows[half:])):
+        (tmp_path / f"{name}.csv").write_text(head + "".join(part))
+    (tmp_path / "run3.csv").write_text((DEMO / "heldout.csv").read_text())
     monkeypatch.chdir(tmp_path)
     with contextlib.redirect_stdout(io.StringIO()) as out:
         exec(compile(code, "README.md", "exec"), {})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.correct.network import network_correction, proved_network
+from rwn.decide.calibration import calibration
 from rwn.fit.network_formula import places
 from rwn.fit.preparation import prepare
 from rwn.model.drives.axis import LINEAR_AXIS
@@ -43,6 +45,15 @@ def once_a_turn(_: float, angle: float) -> float:
 def rubbing_and_caught(speed: float, angle: float) -> float:
     """Dry friction beside a torque that depends on speed and angle at once."""
     return -0.03 * float(np.tanh(speed / 0.3)) - 0.1 * float(np.sin(speed / 9.0) * np.sin(7 * angle))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def nothing_stated() -> Iterator[None]:
+    """What is corrected where no name is stated, whatever the calibration makes of a mimic."""
+    doubting = replace(calibration(), intercept=-50.0)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("rwn.decide.account.calibration", lambda: doubting)
+        yield
 
 
 @pytest.fixture(scope="module")

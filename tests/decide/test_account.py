@@ -37,7 +37,7 @@ def test_what_acts_is_stated_and_its_elaboration_is_not(ranking: Ranking) -> Non
     found = account(ranking, [], MODEL)
     assert [e.name for e in found.stated] == ["coulomb-friction"]
     (acting,) = found.stated
-    assert acting.probability > 0.75
+    assert acting.probability > 0.9
     assert acting.share > 0.9
     assert acting.evidence.drift is not None
     assert acting.evidence.drift < 0.1
@@ -80,8 +80,8 @@ def test_names_not_told_apart_are_stated_together() -> None:
 
 
 def test_the_calibration_tells_what_acts_from_a_mimic() -> None:
-    assert calibration().probability(CERTAIN) > 0.9
-    assert calibration().probability(MIMIC) < 0.25
+    assert calibration().probability(CERTAIN) > 0.95
+    assert calibration().probability(MIMIC) < 0.5, "it is not stated"
     assert calibration().fitted_on
 
 

@@ -245,7 +245,7 @@ def test_a_drive_that_is_hardly_moved_says_nothing(model: rwn.Model, right: rwn.
     rng = np.random.default_rng(2)
     n = len(right)
     signals = {
-        "voltage": np.zeros(n),
+        "voltage": np.append(np.zeros(n - 1), 1e-6),
         "current": 1e-2 * rng.standard_normal(n),
         "speed": 0.5 * rng.standard_normal(n),
     }

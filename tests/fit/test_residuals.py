@@ -65,7 +65,7 @@ def test_a_shaft_is_seen_beside_a_drag(stiffness: float, noise: float) -> None:
     }  # fmt: skip
     missing = {
         "quadratic-drag": {"drag_coefficient": 1e-6},
-        "shaft-compliance": {"stiffness": stiffness, "damping": 1e-3, "load_inertia": 8e-6},
+        "shaft-compliance": {"stiffness": stiffness, "damping": 1e-3, "load_inertia": 8e-6, "load_viscous_share": 0.0},
     }
     draw = np.random.default_rng(8)
     time = np.arange(3000) / 1000.0

@@ -256,7 +256,11 @@ def test_a_strong_cog_is_found() -> None:
 
 
 @pytest.mark.parametrize(
-    ("effect", "values"), [("sensor-bias", {"speed_offset": 2.0}), ("speed-sensor-lag", {"time_constant": 0.01})]
+    ("effect", "values"),
+    [
+        ("sensor-bias", {"speed_offset": 2.0, "current_offset": 0.0}),
+        ("speed-sensor-lag", {"time_constant": 0.01}),
+    ],
 )
 def test_the_angle_is_followed_without_what_the_sensor_adds(effect: str, values: dict[str, float]) -> None:
     motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,

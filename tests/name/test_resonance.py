@@ -30,7 +30,8 @@ def _seen(shaft: Resonance | None, *, without: tuple[str, ...] = ()) -> Problem:
     voltage = np.repeat(rng.uniform(-6.0, 6.0, 100), 40)
     run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
     names = ("stiffness", "damping", "load_inertia")
-    effects = {"shaft-compliance": dict(zip(names, shaft.of(MOTOR["inertia"]), strict=True))} if shaft else {}
+    share = {"load_viscous_share": 0.0}
+    effects = {"shaft-compliance": dict(zip(names, shaft.of(MOTOR["inertia"]), strict=True)) | share} if shaft else {}
     seen = rwn.simulate(Model(kind="dc", parameters=MOTOR, effects=effects), run).signals
     kept = [s for s in ("current", "speed", "position") if s not in without]
     noisy = {s: seen[s] + 0.01 * np.std(seen[s]) * rng.standard_normal(time.size) for s in kept}

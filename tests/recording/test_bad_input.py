@@ -399,7 +399,7 @@ def test_two_files_after_one_heldout(refuse: Callable[..., str]) -> None:
         (["diagnose", "a.csv", "--model", "m.toml", "--out", "o", "--seed", "x"], "--seed"),
         (["diagnose", "a.csv", "--model", "m.toml", "--out", "o", "--job", "2"], "--job"),
         (["diagnose", "a.csv", "--model", "m.toml", "--out", "o", "--jobs", "0"], "--jobs"),
-        (["effects", "coulomb-frictio"], "did you mean 'coulomb-friction'"),
+        (["effects", "nothing-of-the-kind"], "nothing-of-the-kind"),
     ],
 )
 def test_wrong_usage(

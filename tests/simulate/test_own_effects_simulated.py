@@ -268,7 +268,7 @@ def test_a_formula_without_a_value_ends_the_run_with_advice(tmp_path: Path) -> N
     write_csv(tmp_path / "run.csv", run.time, run.signals)
     line = ["simulate", str(tmp_path / "model.toml"), "--input", str(tmp_path / "run.csv"), "--out"]
     said = CliRunner().invoke(app, [*line, str(tmp_path / "sim.csv")])
-    assert said.exit_code == 0
+    assert said.exit_code == 3, "a run that ends with advice is no success"
     assert "formula-failed" in said.output
     problem = prepare([run], replace(model, effects={}))
     end = fit(problem, hypothesis(problem.prior, ("mine",), problem.scales))

@@ -1,15 +1,10 @@
-"""Damaged files of trials, and Ctrl-C: one line that names the file, and an end at once."""
+"""Damaged files of trials: one line that names the file."""
 
 from __future__ import annotations
 
 import gzip
 import hashlib
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 import zlib
 from pathlib import Path
 
@@ -61,21 +56,3 @@ def test_a_page_that_is_a_folder_is_refused(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     with pytest.raises(InputError, match="this is a folder"):
         thesis.table_20(page=tmp_path)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "arguments", [("trials", "make", "--seed", "1", "--count", "40", "--out", "set"), ("thesis", "run", "--table", "5")]
-)
-def test_ctrl_c_ends_it_at_once_with_one_line(arguments: tuple[str, ...], tmp_path: Path) -> None:
-    started = subprocess.Popen(
-        [sys.executable, "-m", "rwn", *arguments],
-        cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
-    )  # fmt: skip
-    time.sleep(8.0)
-    assert started.poll() is None, "it ended by itself: nothing was tried"
-    os.killpg(started.pid, signal.SIGINT)  # as a terminal does: to every process of the group
-    _, said = started.communicate(timeout=3.0 if os.getloadavg()[0] < 2.0 else 30.0)
-    assert started.returncode == 130
-    assert "Traceback" not in said
-    assert said.rstrip().splitlines()[-1] == "rwn: stopped"

@@ -9,12 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
-from scipy.sparse import csr_array, diags_array, vstack
-from scipy.sparse.linalg import spsolve
 
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.intersample import stating
@@ -27,6 +25,9 @@ from rwn.recording.intersample import HELD, INTERSAMPLE, Acting
 from rwn.recording.recording import Recording
 from rwn.recording.speed_measurement import SpeedMeasurement
 from rwn.simulate.run import Run
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 Array = NDArray[np.float64]
 
@@ -52,26 +53,30 @@ def with_unrecorded_input(recordings: Sequence[Recording], model: Model) -> list
         this = fit_nominal(problem)
         left = problem.residuals(this.vector, this.active)
         for k, (run, given) in enumerate(zip(problem.runs, acting, strict=True)):
-            if given is not None and given.spread.any():
+            if given is not None and given.spread.any() and not run.restart_every:
                 made[k] = replace(made[k], acting=_told(problem, this, run, left[k], given))
     return made
 
 
 def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], given: Acting) -> Acting:
     """`given` with its unknown values as the errors `left` of a simulation under those of `run` tell."""
-    group = _groups(given)
-    ends = np.append(given.instants, run.time[-1])
-    known = group < 0
-    count = int(group.max()) + 1
-    first = np.array([np.argmax(group == j) for j in range(count)])
-    last = given.spread.size - 1 - np.array([np.argmax(group[::-1] == j) for j in range(count)])
+    from scipy.signal import lfilter  # late: the command line starts without it
+    from scipy.sparse import diags_array, vstack
+    from scipy.sparse.linalg import spsolve
+
+    unknown = given.spread > 0.0  # neighbours that no row shows are one unknown
+    first = np.flatnonzero(unknown & ~np.concatenate([[False], unknown[:-1]]))
+    after = np.flatnonzero(~unknown & np.concatenate([[False], unknown[:-1]]))
+    ends = np.append(given.instants[after], run.time[-1])[: first.size]
     before = (run.acting - given.values)[first]  # what the errors have been told already
     responses, errors = [], []
     for signal, error in left.items():
         level = problem.noise[signal].deviation
-        response = _pulses(problem, this, run, signal, given.instants[first], ends[last + 1]) / level
+        response = _pulses(problem, this, run, signal, given.instants[first], ends) / level
         masked = run.masked(signal, error) / level
         compared = np.isfinite(masked)
+        if not compared.any():
+            continue
         filled = np.interp(run.time, run.time[compared], masked[compared])
         weight = diags_array(compared.astype(np.float64))
         responses.append(weight @ response)
@@ -83,19 +88,15 @@ def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], give
     limit = np.sqrt(3.0) * spread  # half the way from neighbour to neighbour
     moved = np.clip(found, -limit, limit)
     values = given.values.copy()
-    values[~known] += moved[group[~known]]
+    values[unknown] += moved[np.searchsorted(first, np.flatnonzero(unknown), side="right") - 1]
     return replace(given, values=values)
-
-
-def _groups(given: Acting) -> NDArray[np.int64]:
-    """Which unknown each value belongs to: neighbours that no row shows are one; -1 where a row does."""
-    unknown = given.spread > 0.0
-    begins = unknown & ~np.concatenate([[False], unknown[:-1]])
-    return np.where(unknown, np.cumsum(begins) - 1, -1)
 
 
 def _pulses(problem: Problem, this: Fit, run: Run, signal: str, begin: Array, end: Array) -> csr_array:
     """What an input of 1 from `begin` to `end` (m,) adds to the rows of a signal, (n, m), in the filter."""
+    from scipy.signal import lfilter
+    from scipy.sparse import csr_array
+
     step = run.sample_time / FINE
     table = _step_response(problem, this, run, signal, step)
     rows = np.searchsorted(run.time, begin, side="right")[:, None] + np.arange(LASTS)

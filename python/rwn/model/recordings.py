@@ -39,7 +39,8 @@ def check_recording(recording: Recording, model: Model, *, compared: bool = True
             expected="rad and rad/s" if wants == "rotary" else "m and m/s",
             fix="set linear in [motor], or map the column with a scale such as 0.01 m/rad",
         )
-    warnings = (*recording.warnings, *_check_movement(recording, model, where))
+    moved = _check_movement(recording, model, where) if compared else ()
+    warnings = (*recording.warnings, *moved)
     return replace(recording, warnings=tuple(dict.fromkeys(warnings)))
 
 
