@@ -1,7 +1,7 @@
 """The best physical fit that we can make by hand with scipy, machine by machine: what a diagnosis has to stand beside.
 
-Each machine has a short list of the physics that is obvious in its recordings, with a first guess of each number. What is
-fitted and what judges is as in the diagnosis.
+Each machine has a short list of the physics that is obvious in its recordings, with a first guess of each number. What
+is fitted and what judges is as in the diagnosis.
 """
 
 from __future__ import annotations
@@ -127,9 +127,9 @@ def _frc(folder: Path) -> Errors:
 
 
 def _hall(folder: Path) -> Errors:
-    """Coulomb friction, a delay, and the lag of a speed that is counted from one edge to the next."""
+    """Coulomb friction, a bridge that lets the motor coast between its pulses, and a speed that comes late."""
     train, test = hall.parts(folder)
-    guess = {"gain": 200.0, "damping": 20.0, "dry": 100.0, "delay": 2e-3, "lag": 5e-3}
+    guess = {"gain": 200.0, "damping": 1.0, "dry": 100.0, "coasting": 220.0, "delay": 2e-3}
     p = fitted(guess, [train], given="voltage", seen="speed")
     return {
         ("Hall BLDC", "speed, last rows [rad/s]"): rms(test, "speed", shown(p, test, given="voltage")["speed"])
