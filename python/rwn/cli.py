@@ -234,6 +234,12 @@ def evidence(
     names: Annotated[list[str] | None, typer.Argument(metavar="[NAME]...", help="Machines (default: all).")] = None,
     data: Annotated[Path, typer.Option("--data", help="Folder of the recordings.")] = Path("../shared/data"),
     out: Annotated[Path, typer.Option("--out", help="Folder for the table and reports.")] = Path("evidence-out"),
+    by_hand: Annotated[
+        bool, typer.Option("--by-hand", help="Also the error of a physical fit made by hand with scipy.")
+    ] = False,
+    page: Annotated[
+        Path | None, typer.Option("--page", help="Markdown page whose sections of these machines are written anew.")
+    ] = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Diagnose recordings of real machines: what was found, and the error on recordings that were not fitted."""
@@ -241,7 +247,7 @@ def evidence(
     from rwn.studies.machines.runner import run_machines
 
     with output_folder(out, overwrite=overwrite) as aside:
-        table = run_machines(names or [], data, aside)
+        table = run_machines(names or [], data, aside, by_hand=by_hand, page=page)
     typer.echo(table)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,24 @@ def test_a_model_that_is_exact_has_rows_of_zeros() -> None:
     )
     assert rows
     assert all(row.corrected == 0.0 and row.gain == 0.0 for row in rows)
+
+
+def test_what_was_not_measured_does_not_count_as_no_error() -> None:
+    run = recorded(3, lambda *_: 0.0)
+    off = rwn.Recording(
+        name="off",
+        time=run.time,
+        signals={"voltage": run.signals["voltage"], "speed": rwn.simulate(MODEL, run).signals["speed"] + 5.0},
+    )
+    held = np.arange(run.time.size) % 4 > 0
+    problem = prepare([off], MODEL)
+    given = problem.as_given()
+    for missing, samples in (({}, run.time.size), ({"speed": held}, int((~held).sum()))):
+        there = judging_run(replace(off, missing=missing), MODEL)
+        there = replace(there, start=problem.runs[0].start)
+        row = heldout_rows(problem, [there], given, given, None, units={"speed": "rad/s"}, seed=0)[0]
+        assert row.samples == samples
+        assert row.nominal == pytest.approx(5.0, rel=0.2)
 
 
 def test_the_interval_of_a_gain_covers_it() -> None:

@@ -7,13 +7,14 @@ signal, of its simulation and of their product, so that a factor is tried withou
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Fault, without
+from rwn.faults.likeness import FAR, Likeness
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
@@ -25,14 +26,12 @@ Array = NDArray[np.float64]
 
 REMOVED = {UNIT: 0.85, SIGN: 0.85, GEAR: 0.95}  # share of the misfit that undoing has to remove; a gear bends nothing
 LEFT = 0.3  # misfit that it may leave; 0.3 is a correlation of 0.85
-FAR = 1.4  # size of a signal against its simulation from which its scale is doubted
 SAME = 0.05  # relative difference between a size and a unit's factor that nothing has to account for
 WIDEST = 0.3  # the same where the data sheet is poor and physics is missing
 PLAIN = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
 GEARED = 2.0  # size from which a gear is believed: what slows a motor by so much does not leave its transients alike
 GEAR_LIKE = 1.5  # size from which a gear is tried beside physics
 SURELY = 3.0  # standard deviations of the data sheet that a gear ratio has to be away from 1
-ONE_SIDED = 0.02  # of a signal's largest value: as much of the other sign is noise
 SPEED_UNITS = {
     60.0 / (2.0 * np.pi): "rpm taken for rad/s",
     2.0 * np.pi / 60.0: "rad/s taken for rpm",
@@ -51,42 +50,6 @@ THOUSANDS = {1e3: "thousandths of the unit (milli) taken for the unit", 1e-3: "t
 LEAST_FORCE = 0.3  # correlation of a force with what the motion takes, below which nothing is said of its scale
 
 
-@dataclass(frozen=True)
-class Likeness:
-    """Of a signal and its simulation: the ratio of their sizes, and their correlation."""
-
-    ratio: float
-    correlation: float
-
-    @classmethod
-    def of(cls, pairs: Sequence[tuple[Array, Array]]) -> Likeness:
-        """From recorded and simulated samples of every recording; where no direction is shown, of the magnitudes."""
-        recorded = np.concatenate([r for r, _ in pairs])
-        simulated = np.concatenate([s for _, s in pairs])
-        known = np.isfinite(recorded) & np.isfinite(simulated)
-        recorded, simulated = recorded[known], simulated[known]
-        if _one_sided(recorded) and not _one_sided(simulated):
-            simulated = np.abs(simulated)
-        yy, xx = float(recorded @ recorded), float(simulated @ simulated)
-        if min(xx, yy) <= 0.0:
-            return cls(1.0, 0.0)
-        return cls(float(np.sqrt(yy / xx)), float(recorded @ simulated) / float(np.sqrt(xx * yy)))
-
-    @property
-    def far(self) -> bool:
-        return self.correlation < 0.0 or abs(np.log(self.ratio)) > np.log(FAR)
-
-    def misfit(self, factor: float) -> float:
-        """Mean square of what is left with `factor` undone, over the sizes of both; 0 if they are the same."""
-        ratio = self.ratio / abs(factor)
-        return float(ratio + 1.0 / ratio - 2.0 * np.sign(factor) * self.correlation)
-
-
-def _one_sided(signal: Array) -> bool:
-    least = ONE_SIDED * float(np.max(np.abs(signal), initial=0.0))
-    return bool(np.all(signal >= -least) or np.all(signal <= least))
-
-
 def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """A unit, sign or gear ratio that is plainly wrong; None where the scale of every signal is believable."""
     if model.drive.force:
@@ -96,6 +59,8 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
         return None
     best, least = None, np.inf
     for fault in _doubted(seen, model):
+        if not all(seen[s].bettered(fault.factor) for s in fault.signals if s in seen):
+            continue
         undone = _undone(fault, seen, recordings, model)
         judged = [s for s in seen if s in fault.signals] or list(seen)  # all signals depend on the voltage
         before = float(np.mean([seen[s].misfit(1.0) for s in judged]))
@@ -137,7 +102,7 @@ def _likeness(recordings: Sequence[Recording], model: Model) -> dict[str, Likene
         for s in run.recorded:
             alike = (_slope(run), simulated["speed"]) if s == "position" else (run.signal(s), simulated[s])
             pairs.setdefault(s, []).append(alike)
-    return {s: Likeness.of(of) for s, of in pairs.items()}
+    return {s: Likeness.of(of, levelled=s in MOTION) for s, of in pairs.items()}
 
 
 def _slope(run: Run) -> Array:
@@ -157,8 +122,10 @@ def _doubted(seen: Mapping[str, Likeness], model: Model) -> Iterator[Fault]:
 
 def _mean(of: Sequence[Likeness]) -> Likeness:
     """Geometric mean of the sizes."""
-    ratio = float(np.exp(np.mean([np.log(one.ratio) for one in of])))
-    return Likeness(ratio, float(np.mean([one.correlation for one in of])))
+    sizes = np.log([(one.ratio, one.whole[0]) for one in of])
+    ratio, whole = np.exp(np.mean(sizes, axis=0))
+    alike, as_whole = np.mean([(one.correlation, one.whole[1]) for one in of], axis=0)
+    return Likeness(float(ratio), float(alike), (float(whole), float(as_whole)))
 
 
 def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool) -> Iterator[Fault]:

@@ -64,9 +64,10 @@ def heldout_rows(
         floor = {s: n.deviation for s, n in noise_of([run], [errors[-1]]).items()}
         for signal in run.recorded:
             for region, chosen in (("all", late), ("low speed", slow)):
-                if chosen.sum() < FEWEST:
+                judged = chosen & ~run.not_compared(signal)  # the error of what was not measured is no zero
+                if judged.sum() < FEWEST:
                     continue
-                parts = [error[signal][chosen] for error in errors]
+                parts = [error[signal][judged] for error in errors]
                 rows.append(_row(run, region, signal, units, parts, floor[signal], corrected is not None, seed))
         if problem.drive.force and first == 0:
             rows += _force_row(problem, run, contenders, seed)

@@ -18,6 +18,7 @@ from rwn.studies.machines.machine import Error, Machine, Outcome, Say, cut, data
 STEP = 0.02  # [s]
 TRAINED = 400  # samples; the last 100 are the test
 WINDOWS = (10, 4)  # first samples that the state is estimated from
+MEASURE = "speed, last 100 samples, initial window {} [ticks/s]"
 AMPLITUDES = (
     ("low", "u11", "z11", 0.115, "0.115 (best), 0.103 SysIdentPy"),
     ("high", "u12", "z12", 0.095, "0.074 (best), 0.107 SysIdentPy"),
@@ -26,16 +27,21 @@ AMPLITUDES = (
 
 def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
     """Both amplitudes of the uniformly distributed input, with either initial window of the official protocol."""
+    return tuple(_amplitude(*record, say) for record in records(folder))
+
+
+def records(folder: Path) -> list[tuple[Recording, float, str]]:
+    """Each amplitude's whole record, the figure to reach and what is published."""
     import scipy.io
 
     content = scipy.io.loadmat(str(data_file(folder, "DATAUNIF.MAT")))
-    outcomes = []
+    found = []
     for name, u, z, wanted, published in AMPLITUDES:
         voltage, speed = (np.ravel(content[key]).astype(float) for key in (u, z))
         time = STEP * np.arange(voltage.size, dtype=np.float64)
         whole = Recording(name=f"{name} amplitude", time=time, signals={"voltage": voltage, "speed": speed})
-        outcomes.append(_amplitude(whole, wanted, published, say))
-    return tuple(outcomes)
+        found.append((whole, wanted, published))
+    return found
 
 
 def _amplitude(whole: Recording, wanted: float, published: str, say: Say) -> Outcome:
@@ -82,8 +88,7 @@ def _window(model: Model, samples: int) -> Model:
 
 
 def _error(outcome: Outcome, test: Recording, window: int, wanted: float, published: str) -> Error:
-    measure = f"speed, last 100 samples, initial window {window} [ticks/s]"
-    return error_of(outcome.found, test.name, "speed", measure, published=published, wanted=wanted)
+    return error_of(outcome.found, test.name, "speed", MEASURE.format(window), published=published, wanted=wanted)
 
 
 MACHINE = Machine(name="ced", folder="nonlinear_benchmarks/CED", source="Wigren, M. Schoukens 2017", run=run)

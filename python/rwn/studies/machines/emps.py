@@ -25,6 +25,8 @@ from rwn.studies.machines.machine import Error, Machine, Outcome, Say, data_file
 
 Array = NDArray[np.float64]
 NOMINAL = Path(__file__).parents[2] / "demo/emps.toml"
+FILES = ("DATA_EMPS", "DATA_EMPS_PULSES")  # fitted, judged by
+FREE_RUN = "free-running position, PULSES [mm]"
 WHOLE = 0
 WINDOWS = (50, 1000, 5000, WHOLE)  # samples of a window of the free-run fit, to choose from
 OFFICIAL = 20  # first samples, from which the state is taken and which are not judged
@@ -35,8 +37,8 @@ def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
     """DATA_EMPS is fitted, DATA_EMPS_PULSES judges."""
     model = read_model(NOMINAL)
     train, pulses = (
-        read_recording(data_file(folder, name), layout=model.recording)
-        for name in ("DATA_EMPS.mat", "DATA_EMPS_PULSES.mat")
+        read_recording(data_file(folder, f"{name}.mat"), layout=model.recording)
+        for name in FILES
     )
     outcome = judged("EMPS", "mass and viscous friction", model, [train], [pulses], say)
     errors = [
@@ -45,8 +47,9 @@ def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
     notes = list(drift(train, pulses))
     if outcome.found.effects:
         say("EMPS: free run in longer windows, position-periodic force")
-        error, own = free_run_error(outcome.found, model, train, pulses)
+        error, own, how = free_run_error(outcome.found, model, train, pulses)
         errors.append(error)
+        notes.append(f"the free run was fitted {how}")
         notes.append(f"the same model fitted to the free run of PULSES itself: {own:.2f} mm; the rest is the drift")
         notes.append(periodic_force(outcome.found, train, pulses))
     return (replace(outcome, errors=tuple(errors), notes=tuple(notes)),)
@@ -87,8 +90,8 @@ def drift(*recordings: Recording) -> tuple[str, ...]:
 
 def free_run_error(
     found: Diagnosis, model: Model, train: Recording, pulses: Recording
-) -> tuple[Error, float]:
-    """Rms of the free-running position, its window validated on the fitted file; and that of a fit to PULSES [mm].
+) -> tuple[Error, float, str]:
+    """Rms of the free-running position [mm], that of a fit to PULSES, and the window, validated on the fitted file.
 
     The second figure is no prediction: it says what the structure can do where its friction is that of the file.
     """
@@ -103,10 +106,10 @@ def free_run_error(
     own = fit(_in_windows(problem, judge, WHOLE), start.starting_at(fitted.minimum.values))
     how = "over the whole run" if best == WHOLE else f"in windows of {best} ms"
     error = Error(
-        measure=f"free-running position, PULSES [mm], fitted {how}", nominal=1e3 * row.nominal,
+        measure=FREE_RUN, nominal=1e3 * row.nominal,
         refitted=1e3 * row.refitted, corrected=1e3 * corrected, published="2.64 (dynoNet)", wanted=2.64,
     )  # fmt: skip
-    return error, 1e3 * _rms(problem, judge, own.vector, start.active)
+    return error, 1e3 * _rms(problem, judge, own.vector, start.active), how
 
 
 def _validated(problem: Problem, start: Hypothesis, length: int) -> float:

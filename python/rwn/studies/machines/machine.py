@@ -30,6 +30,7 @@ class Error:
     corrected: float | None
     published: str = ""  # by whom
     wanted: float | None = None  # the figure to reach
+    by_hand: float | None = None  # of the best physical fit made by hand (`hand_fit`)
 
 
 @dataclass(frozen=True, kw_only=True)

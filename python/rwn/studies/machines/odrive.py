@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from rwn.recording.recording import Recording
 from rwn.recording.smoothing import LENGTHS, smooth
-from rwn.studies.machines.machine import Error, Machine, Outcome, Say, data_file, error_of, judged, nominal_model
+from rwn.studies.machines.machine import Machine, Outcome, Say, data_file, error_of, judged, nominal_model
 
 Array = NDArray[np.float64]
 COUNTS = 8192  # per revolution
 SETTLED = 0.5  # [s] after the return
+CURRENT = "current that the motion needs, second revolution [%]"
 HARMONICS = (7, 14, 28, 84)  # of the cogging, as its users state them
 
 
@@ -22,39 +23,32 @@ def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
     """A revolution without compensation is fitted, the other one judges."""
     first, second = (read_revolution(data_file(folder, f"nocomp_{k}.npy")) for k in (0, 1))
     outcome = judged("ODrive", "inertia and friction", nominal_model("odrive"), [first], [second], say)
-    errors = [error_of(outcome.found, second.name, "position", "free-running position, second revolution [rad]")]
-    error, orders = current_error(first, second)
-    found = ", ".join(str(k) for k in orders)
+    errors = (
+        error_of(outcome.found, second.name, "position", "free-running position, second revolution [rad]"),
+        error_of(outcome.found, second.name, "driving force", CURRENT),
+    )
+    found = ", ".join(str(k) for k in blind_orders(first))
     notes = (
         f"harmonics of the current found blind on the first revolution: {found}; stated by its users: "
         + ", ".join(str(k) for k in HARMONICS),
         "a stiff position loop holds the speed constant: the free run from the current says nothing of what it was "
-        "for; the harmonics are therefore regressed on the current itself, beside acceleration and speed",
+        "for",
     )
-    return (replace(outcome, errors=(*errors, error), notes=notes),)
-
-
-def current_error(first: Recording, second: Recording) -> tuple[Error, list[int]]:
-    """Rms of the current not explained on the second revolution, from motion alone and with harmonics of the first."""
-    orders = blind_orders(first)
-    seen = second.signals["torque"]
-    rms = [float(np.sqrt(np.mean((seen - _predicted(first, second, chosen)) ** 2))) for chosen in ([], orders)]
-    measure = f"current, second revolution, with {len(orders)} harmonics [A]"
-    return Error(measure=measure, nominal=float(np.std(seen)), refitted=rms[0], corrected=rms[1]), orders
+    return (replace(outcome, errors=errors, notes=notes),)
 
 
 def blind_orders(recording: Recording, count: int = 5) -> list[int]:
     """Whole numbers per revolution, one after the other the one that explains most of what is left of the current."""
     chosen: list[int] = []
     for _ in range(count):
-        left = recording.signals["torque"] - _predicted(recording, recording, chosen)
+        left = recording.signals["torque"] - predicted(recording, recording, chosen)
         angle = recording.signals["position"]
         share = [abs(np.exp(1j * k * angle) @ left) for k in range(1, 121)]
         chosen.append(1 + int(np.argmax(share)))
     return chosen
 
 
-def _predicted(fitted: Recording, shown: Recording, orders: list[int]) -> Array:
+def predicted(fitted: Recording, shown: Recording, orders: list[int]) -> Array:
     """The current that acceleration, friction and harmonics fitted on one recording give on another."""
     weights = np.linalg.lstsq(_columns(fitted, orders), fitted.signals["torque"], rcond=None)[0]
     found: Array = _columns(shown, orders) @ weights

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from rwn.studies.machines import ced, emps, fra233, frc, odrive, xl330
+from rwn.studies.machines import ced, emps, fra233, frc, hall, laas, odrive, undc, xl330
 from rwn.studies.machines.machine import Machine
 
 MACHINES: dict[str, Machine] = {
-    m.name: m for m in (emps.MACHINE, ced.MACHINE, fra233.MACHINE, xl330.MACHINE, frc.MACHINE, odrive.MACHINE)
+    of.MACHINE.name: of.MACHINE for of in (emps, ced, fra233, xl330, frc, odrive, laas, undc, hall)
 }

@@ -8,8 +8,8 @@ from rwn.studies.machines.machine import Error, Outcome
 
 HEAD = (
     "| machine | begins with | found | error on recordings not fitted | nominal | refitted | corrected "
-    "| wanted | published |\n"
-    "|---|---|---|---|---|---|---|---|---|"
+    "| by hand | wanted | published |\n"
+    "|---|---|---|---|---|---|---|---|---|---|"
 )
 
 
@@ -20,7 +20,7 @@ def markdown(outcomes: Sequence[Outcome]) -> str:
         for k, error in enumerate(outcome.errors):
             begins = (outcome.machine, outcome.begins_with, found_words(outcome)) if k == 0 else ("", "", "")
             lines.append("| " + " | ".join((*begins, *_cells(error))) + " |")
-    notes = [f"- {outcome.machine}: {note}" for outcome in outcomes for note in outcome.notes]
+    notes = [f"- {outcome.machine}: {note}" for outcome in outcomes for note in (*_said(outcome), *outcome.notes)]
     return "\n".join([*lines, *(["", *notes] if notes else [])]) + "\n"
 
 
@@ -36,7 +36,12 @@ def found_words(outcome: Outcome) -> str:
     return names + same
 
 
+def _said(outcome: Outcome) -> list[str]:
+    """What the check of the recordings found."""
+    return [f"{of.recording}: {of.words} ({of.done})" for of in outcome.found.findings]
+
+
 def _cells(error: Error) -> tuple[str, ...]:
-    numbers = (error.nominal, error.refitted, error.corrected)
+    numbers = (error.nominal, error.refitted, error.corrected, error.by_hand)
     wanted = "" if error.wanted is None else f"<= {error.wanted:g}"
     return (error.measure, *("" if n is None else f"{n:.3g}" for n in numbers), wanted, error.published)

@@ -23,6 +23,7 @@ FITTED = ("10h28m10", "10h28m32")  # kp = 100: sin_sin, sin_time_square; in lift
 HELDOUT = ("10h29m14", "10h29m29", "10h29m37")  # kp = 400
 MODELS = tuple(f"m{k}" for k in range(1, 7))
 SUBSTEP = 5e-4  # [s] of the authors' models
+MEASURE = "position in closed loop, kp = 400, mean absolute [mrad]"
 GRAVITY = 9.80665
 MASS, LENGTH = 0.49, 0.1  # of the pendulum
 AUTHORS_GAIN, SUPPLY = 0.00246, 7.4  # duty per kp and rad, and bus voltage [V], as the authors have them
@@ -32,34 +33,44 @@ def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
     """kp = 100 is fitted, kp = 400 judges, in closed loop: at kp = 400 the voltage alone tips the pendulum over."""
     model = nominal_model("xl330")
     fitted, heldout = (
-        [read_log(data_file(folder, f"2026-01-15_{k}.json")) for k in keys] for keys in (FITTED, HELDOUT)
+        [read_log(log(folder, k)) for k in keys] for keys in (FITTED, HELDOUT)
     )
     outcome = judged("BAM XL330", "Coulomb and viscous friction", model, fitted, [heldout[-1]], say)
     say("BAM XL330: the servo in closed loop, the authors' models side by side")
-    servos = [read_servo(data_file(folder, f"2026-01-15_{k}.json")) for k in HELDOUT]
+    servos = [read_servo(log(folder, k)) for k in HELDOUT]
     theirs = {
         name: json.loads(data_file(folder, f"xl330_{name}.json").read_text(encoding="utf-8")) for name in MODELS
     }
     scores = {name: closed_loop_error(values, servos, AUTHORS_GAIN) for name, values in theirs.items()}
     best = min(scores, key=lambda name: scores[name])
-    gain = float(np.median([servo_gain(data_file(folder, f"2026-01-15_{k}.json")) for k in FITTED]))
-    error = replace(_error(outcome.found, model, servos, gain), published=f"{scores[best]:.1f} ({best.upper()})")
+    error = _error(outcome.found, model, servos, logged_gain(folder))
+    error = replace(error, published=f"{scores[best]:.1f} ({best.upper()})")
     notes = "the authors' parameters under the authors' control law, kp = 400 [mrad]: " + ", ".join(
         f"{name.upper()} {value:.1f}" for name, value in scores.items()
     )
     return (replace(outcome, errors=(error,), notes=(notes,)),)
 
 
+def log(folder: Path, key: str) -> Path:
+    """The file of a run."""
+    return data_file(folder, f"2026-01-15_{key}.json")
+
+
+def logged_gain(folder: Path) -> float:
+    """What the fitted runs say of the servo's own proportional law (see `servo_gain`)."""
+    return float(np.median([servo_gain(log(folder, k)) for k in FITTED]))
+
+
 def read_log(path: Path) -> Recording:
     """Voltage at the bridge (duty times bus voltage) and position of a log."""
-    log = json.loads(path.read_text(encoding="utf-8"))
-    rows = log["entries"]
+    content = json.loads(path.read_text(encoding="utf-8"))
+    rows = content["entries"]
     time, position, load, bus = (
         np.array([row[key] for row in rows], dtype=float) for key in ("timestamp", "position", "load", "input_volts")
     )
     load = np.where(load > 32767, load - 65536, load)
     voltage = load / PWM_LIMIT * bus
-    name = f"{log['trajectory']} kp={log['kp']}"
+    name = f"{content['trajectory']} kp={content['kp']}"
     return Recording(name=name, time=time - time[0], signals={"voltage": voltage, "position": position - OFFSET})
 
 
@@ -76,16 +87,16 @@ class Servo:
 
 def read_servo(path: Path) -> Servo:
     """Goal and position of a log."""
-    log = json.loads(path.read_text(encoding="utf-8"))
+    content = json.loads(path.read_text(encoding="utf-8"))
     columns = ("timestamp", "goal_position", "position", "input_volts")
-    time, goal, position, bus = (np.array([row[key] for row in log["entries"]], dtype=float) for key in columns)
-    return Servo(time=time - time[0], goal=goal, position=position, bus=bus, kp=float(log["kp"]))
+    time, goal, position, bus = (np.array([row[key] for row in content["entries"]], dtype=float) for key in columns)
+    return Servo(time=time - time[0], goal=goal, position=position, bus=bus, kp=float(content["kp"]))
 
 
 def servo_gain(path: Path) -> float:
     """Duty per kp and position error [1/rad], by least squares where the duty is not at its limit."""
-    servo, log = read_servo(path), json.loads(path.read_text(encoding="utf-8"))
-    load = np.array([row["load"] for row in log["entries"]], dtype=float)
+    servo, content = read_servo(path), json.loads(path.read_text(encoding="utf-8"))
+    load = np.array([row["load"] for row in content["entries"]], dtype=float)
     duty = np.where(load > 32767, load - 65536, load) / PWM_LIMIT
     error = servo.kp * (servo.goal - servo.position)
     free = np.abs(duty) < 0.98
@@ -103,8 +114,7 @@ def _error(found: Diagnosis, model: Model, servos: Sequence[Servo], gain: float)
     known = replace(model, parameters={**model.parameters, **refitted}, uncertainty={})
     rows = [closed_loop_error(_values(m), servos, gain) for m in (model, known)]
     corrected = closed_loop_error(_values(found.corrected), servos, gain) if found.corrected.effects else None
-    measure = "position in closed loop, kp = 400, mean absolute [mrad]"
-    return Error(measure=measure, nominal=rows[0], refitted=rows[1], corrected=corrected)
+    return Error(measure=MEASURE, nominal=rows[0], refitted=rows[1], corrected=corrected)
 
 
 def _values(model: Model) -> dict[str, float]:
