@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rwn.errors import InputError
-from rwn.studies.thesis.made import made
+from rwn.studies.made import made
 
 BEGIN, END = "<!-- rwn evidence {} -->", "<!-- end -->"
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import msgspec
 
 from rwn.errors import InputError
+from rwn.studies.made import Made
 from rwn.studies.thesis.experiment import Count
-from rwn.studies.thesis.made import Made
 from rwn.studies.thesis.overview import NUMBERS
 from rwn.studies.thesis.runner import Finished, read
 from rwn.studies.thesis.words import word

@@ -6,9 +6,9 @@ import inspect
 from collections.abc import Sequence
 from pathlib import Path
 
+from rwn.studies.made import made
 from rwn.studies.thesis.comparison import markdown_table
 from rwn.studies.thesis.experiment import SHORTER
-from rwn.studies.thesis.made import made
 from rwn.studies.thesis.overview import numbers_markdown, overview_markdown
 from rwn.studies.thesis.pictures import draw
 from rwn.studies.thesis.runner import Finished

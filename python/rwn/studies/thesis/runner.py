@@ -10,9 +10,9 @@ from pathlib import Path
 
 import msgspec
 
+from rwn.studies.made import Made, made
 from rwn.studies.thesis.dependencies import fingerprint
 from rwn.studies.thesis.experiment import Count, Experiment, Figure, Outcome, Row, Search, Settings
-from rwn.studies.thesis.made import Made, made
 
 SHORT = 0.3  # minutes of one core
 
