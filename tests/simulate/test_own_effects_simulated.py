@@ -291,4 +291,4 @@ def test_the_worked_example_of_the_documentation(tmp_path: Path, monkeypatch: py
     wanted = re.search(r"^The model lacks eddy brake.*$", page, re.MULTILINE)
     assert wanted
     assert wanted[0] in said
-    assert "eddy-brake peak = 5.8" in said
+    assert "Eddy brake: peak = 5.8" in said
