@@ -14,6 +14,7 @@ from rwn.model.model import Model
 from rwn.name.forward import Progress
 from rwn.name.ranking import Ranking
 from rwn.recording.inspection import Finding
+from rwn.recording.intersample import HELD
 from rwn.recording.recording import Recording
 
 
@@ -73,7 +74,9 @@ def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -
     faults, ranking = resolved(_as_acted(on, stated), stated, say=say)
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
-    again = stated if stated is model else stating(stated, intersample_beside(ranking.problem, best))
+    again = stated
+    if stated is not model and stated.recording.intersample != HELD:  # what is missing may look like another law
+        again = stating(stated, intersample_beside(ranking.problem, best))
     if (still, again) != (late, stated):
         faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)
