@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 PIP := $(PY) -m pip install -q --disable-pip-version-check
 
-.PHONY: demo demo-real test check test-cpp test-sanitize test-python mutants lint lint-only bench install install-tools \
+.PHONY: demo demo-real test check test-cpp test-sanitize test-sanitize-lint test-python mutants lint lint-only bench install install-tools \
   install-test stubs docs develop clean
 
 # Installed once; again only where something that goes into it has changed.
@@ -40,7 +40,9 @@ demo-real: install
 
 # Everything that CI runs. The sanitized build goes on beside pip, which waits for downloads much of its time.
 test: install-tools
-	@$(MAKE) -j2 --no-print-directory test-sanitize test-python
+	@$(MAKE) -j2 --no-print-directory test-sanitize-lint test-python
+
+test-sanitize-lint: test-sanitize
 	@$(MAKE) --no-print-directory lint-only
 
 # What to run while working: lint, types, imports, and every test that is not marked slow, on the checkout as it is (`make develop` built it).
