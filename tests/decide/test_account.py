@@ -10,7 +10,7 @@ import pytest
 
 import rwn
 from rwn.decide.account import Account, Acting, Remainder, account, remainder
-from rwn.decide.calibration import FEATURES, calibration, features
+from rwn.decide.calibration import calibration, features
 from rwn.decide.evidence import Evidence
 from rwn.decide.verdict import verdict_of
 from rwn.fit.preparation import prepare
@@ -19,10 +19,8 @@ from rwn.name.ranking import Ranking
 
 DEMO = Path(rwn.__file__).parent / "demo"
 MODEL = rwn.read_model(DEMO / "model.toml")
-CERTAIN = Evidence(
-    share=0.999, unseen=0.99, part=0.999, drift=0.003, certainty=200.0, odds=5000.0, moved=0.5, law=1e-4, left=1.0
-)
-MIMIC = Evidence(share=0.03, unseen=0.01, part=0.2, drift=1.0, certainty=3.0, odds=0.5, moved=3.0, law=1.0, left=30.0)
+CERTAIN = Evidence(share=0.999, unseen=0.99, part=0.999, certainty=200.0, odds=5000.0, moved=0.5)
+MIMIC = Evidence(share=0.03, unseen=0.01, part=0.2, certainty=3.0, odds=0.5, moved=3.0)
 
 
 @pytest.fixture(scope="module")
@@ -34,17 +32,15 @@ def ranking() -> Ranking:
 
 
 def test_what_acts_is_stated_and_its_elaboration_is_not(ranking: Ranking) -> None:
-    found = account(ranking, [], MODEL)
+    found = account(ranking, [])
     assert [e.name for e in found.stated] == ["coulomb-friction"]
     (acting,) = found.stated
     assert acting.probability > 0.9
     assert acting.share > 0.9
-    assert acting.evidence.drift is not None
-    assert acting.evidence.drift < 0.1
 
 
 def test_what_was_kept_back_may_withdraw_a_name(ranking: Ranking) -> None:
-    found = account(ranking, [], MODEL)
+    found = account(ranking, [])
     assert found.withdrawn().stated == ()
     assert len(found.withdrawn().effects) == len(found.effects)
 
@@ -53,12 +49,12 @@ def test_the_remainder_is_that_of_the_nominal_model_or_noise(ranking: Ranking) -
     nothing = remainder(ranking, ranking.nothing_missing.final)
     assert nothing.share == pytest.approx(1.0)
     assert nothing.signals
-    named = remainder(ranking, account(ranking, [], MODEL).leading.final)
+    named = remainder(ranking, account(ranking, []).leading.final)
     assert named.share < 0.01
 
 
 def test_the_verdict_follows_from_what_is_stated_and_what_is_left(ranking: Ranking) -> None:
-    leading = account(ranking, [], MODEL).leading
+    leading = account(ranking, []).leading
 
     def of(probability: float, left: Remainder) -> str:
         acting = Acting(
@@ -85,15 +81,6 @@ def test_the_calibration_tells_what_acts_from_a_mimic() -> None:
     assert calibration().fitted_on
 
 
-def test_what_is_unknown_counts_as_usual() -> None:
-    usual = calibration().means[FEATURES.index("drift")]
-    known = replace(CERTAIN, drift=float(10.0**usual))
-    assert calibration().probability(replace(CERTAIN, drift=None)) == pytest.approx(calibration().probability(known))
-
-
 def test_no_evidence_is_out_of_scale() -> None:
-    wild = Evidence(
-        share=-np.inf, unseen=np.inf, part=0.0, drift=0.0, certainty=np.inf, odds=-np.inf, moved=np.inf, law=np.inf,
-        left=np.inf,
-    )  # fmt: skip
+    wild = Evidence(share=-np.inf, unseen=np.inf, part=0.0, certainty=np.inf, odds=-np.inf, moved=np.inf)
     assert np.isfinite(features(wild)).all()

@@ -37,9 +37,9 @@ def test_a_cubic_drag_is_not_sure_to_be_a_quadratic_one(power: int, seen: str) -
 
 
 @pytest.mark.slow
-def test_a_name_beside_which_a_curve_is_seen_is_not_certain() -> None:
+def test_a_name_that_a_curve_goes_beyond_is_not_certain_and_the_curve_is_said() -> None:
     runs = [recorded(seed, lambda w, _: -0.03 * (w / 90.0) ** 3) for seed in range(3)]
     said = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
     drag = next(e for e in said.account if e.name == "quadratic-drag")
-    assert drag.evidence.law > 0.0
     assert drag.probability < 0.95
+    assert any("torque over speed explains most of what is left" in warning for warning in said.warnings)

@@ -14,7 +14,6 @@ from rwn.decide.calibration import calibration
 from rwn.decide.evidence import Evidence, evidence
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import join, structured, variance
-from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.simulate.run import Run
@@ -56,11 +55,7 @@ class Account:
 
     effects: tuple[Acting, ...]
     leading: RankedFit
-
-    @property
-    def birge(self) -> float:
-        """How much wider than its own the intervals of the leading explanation are."""
-        return max((e.evidence.birge for e in self.effects), default=1.0)
+    birge: float = 1.0  # how much wider than its own the intervals of the leading explanation are
 
     @property
     def stated(self) -> tuple[Acting, ...]:
@@ -73,13 +68,13 @@ class Account:
         return replace(self, effects=tuple(refused))
 
 
-def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
+def account(ranking: Ranking, heldout: Sequence[Run]) -> Account:
     """What acts, of the best explanation that has effects at all; empty where none was found."""
     leading = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
     rivals = {name: _rivals(ranking, leading, name) for name in leading.added}
-    found = evidence(ranking, leading, heldout, model, rivals=rivals)
-    rows = [_acting(name, e, rivals[name]) for name, e in found.items()]
-    return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading)
+    found = evidence(ranking, leading, heldout, rivals=rivals)
+    rows = sorted((_acting(name, e, rivals[name]) for name, e in found.evidence.items()), key=lambda row: -row.share)
+    return Account(effects=tuple(rows), leading=leading, birge=found.birge)
 
 
 def _acting(name: str, found: Evidence, rivals: Mapping[str, float]) -> Acting:

@@ -18,12 +18,12 @@ from rwn.decide.evidence import Evidence
 
 Array = NDArray[np.float64]
 
-FEATURES = ("share", "unseen", "part", "drift", "certainty", "odds", "moved", "law", "left")
+FEATURES = ("share", "unseen", "part", "certainty", "odds", "moved")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Calibration:
-    """P(acts) = 1 / (1 + exp(-(intercept + weights (f - mean) / deviation))); an unknown feature counts as its mean."""
+    """P(acts) = 1 / (1 + exp(-(intercept + weights (f - mean) / deviation)))."""
 
     intercept: float
     weights: tuple[float, ...]
@@ -34,13 +34,13 @@ class Calibration:
     def probability(self, found: Evidence) -> float:
         """That the effect acts, or a rival in its place."""
         z = (features(found) - np.array(self.means)) / np.array(self.deviations)
-        return float(1.0 / (1.0 + np.exp(-(self.intercept + float(np.array(self.weights) @ np.nan_to_num(z))))))
+        return float(1.0 / (1.0 + np.exp(-(self.intercept + float(np.array(self.weights) @ z)))))
 
 
 def features(found: Evidence) -> Array:
-    """The evidence on the scales on which it is added up, (9,); NaN: unknown."""
+    """The evidence on the scales on which it is added up, (6,)."""
     known = asdict(found)
-    return np.array([_SCALES[name](known[name]) if known[name] is not None else np.nan for name in FEATURES])
+    return np.array([_SCALES[name](known[name]) for name in FEATURES])
 
 
 def _log_odds(share: float) -> float:
@@ -53,12 +53,9 @@ _SCALES: dict[str, Callable[[float], float]] = {
     "share": _log_odds,
     "unseen": _log_odds,
     "part": _log_odds,
-    "drift": lambda x: float(np.log10(np.clip(x, 1e-3, 2.0))),
     "certainty": lambda x: float(np.log10(np.clip(x, 0.1, 1e4))),
     "odds": lambda x: float(np.arcsinh(np.clip(x, -100.0, 1e4))),
     "moved": lambda x: float(np.log1p(np.clip(x, 0.0, 1e3))),
-    "law": lambda x: float(np.log10(np.clip(x, 1e-4, 10.0))),
-    "left": lambda x: float(np.log10(np.clip(x, 1.0, 1e6))),
 }
 
 

@@ -1,8 +1,8 @@
 """What tells an effect that acts from a mimic: what it removes, also unseen, and whether its strength stays the same.
 
 A mimic absorbs what has another cause: it removes little beside the other effects, or on the samples that it was fitted
-to alone, and its strength drifts from one part of the recordings to another (../shared/reviews/decision-study.md has
-measured these features).
+to alone, or bends the declared parameters. The features are those that cross-validation of the calibration kept
+(docs/method.md).
 """
 
 from __future__ import annotations
@@ -13,14 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.decide.other_law import curve_beside
 from rwn.fit.budget import one_stage
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intervals import deviations
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import statistics, variance, variances
-from rwn.model.model import Model
+from rwn.fit.residuals import statistics, variances
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
@@ -29,24 +27,27 @@ from rwn.simulate.run import Run
 Array = NDArray[np.float64]
 
 ITERATIONS = 8  # of a fit that begins near its end
-UNSEEN = 1.96  # standard deviations from nothing, within which a half does not see an effect
 PARTS = 16  # of the work of a stage, for each of these fits
 
 
 @dataclass(frozen=True, kw_only=True)
 class Evidence:
-    """Features of one effect of an explanation; None where the recordings do not tell."""
+    """Features of one effect of an explanation."""
 
     share: float  # of what the nominal model leaves above the noise, that goes without the effect; mean of signals
     unseen: float  # the same on the halves that were not fitted, and on recordings kept back
     part: float  # of what the other effects leave above the noise, that goes with it; mean of signals
-    drift: float | None  # relative difference of its strength from half to half
     certainty: float  # strength in units of its standard deviation
     odds: float  # logarithm of the evidence for its explanation against the best without it and its rivals
     moved: float  # farthest move of a declared parameter, in declared deviations
-    law: float  # what a curve over one state explains beside all effects, in units of what goes with this one
-    left: float  # squared error that its explanation leaves, in units of the noise
-    birge: float = 1.0  # how much farther than its deviations the halves' values of its explanation lie apart
+
+
+@dataclass(frozen=True, kw_only=True)
+class Witnesses:
+    """What halves and recordings kept back say of an explanation."""
+
+    evidence: dict[str, Evidence]  # of each of its effects
+    birge: float  # how much farther than their deviations the halves' parameters lie apart
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,18 +59,14 @@ class _Half:
 
 
 def evidence(
-    ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model, *,
-    rivals: Mapping[str, Collection[str]],
-) -> dict[str, Evidence]:  # fmt: skip
+    ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], *, rivals: Mapping[str, Collection[str]]
+) -> Witnesses:
     """Features of every effect of the leading explanation; `rivals`: names by effect that may act in its place."""
     problem, this = ranking.weighted, leading.final
     after, nothing = variances(problem, this), variances(problem, ranking.nothing_missing.final)
     chance = float(np.sqrt(2.0 / max(statistics(problem, this).effective, 2.0)))  # deviation of a mean square
-    curve = None if ranking.left.at_the_floor else curve_beside(ranking.problem, leading.fit, model)
-    whole = variance(problem, this)
     halves = _halves(problem)
     seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(this, half)), halves)
-    birge = _birge(seen)
     judges = [replace(problem, runs=tuple(r.following_nothing() for r in heldout))] if heldout else []
 
     def one(name: str) -> Evidence:
@@ -80,21 +77,16 @@ def evidence(
         pairs += [(judge, without, this) for judge in judges]
         unseen = [_share(variances(on, a), variances(on, b), nothing, chance) for on, a, b in pairs]
         strength, spread = _strength(this, problem, name)
-        alone = max(variance(problem, without) - whole, chance)
         return Evidence(
             share=_share(before, after, nothing, chance),
             unseen=float(np.mean(unseen)),
             part=_share(before, after, before, chance),
-            drift=_drift(seen, name),
             certainty=abs(strength) / max(spread, 1e-12 * abs(strength), 1e-300),
             odds=_odds(ranking, leading, {name, *rivals[name]}),
             moved=this.farthest_move,
-            law=max(curve.gained, 0.0) / alone if curve else 0.0,
-            left=float(np.mean([max(v, 1.0) for v in after.values()])),
-            birge=birge,
         )
 
-    return {name: one(name) for name in leading.added}
+    return Witnesses(evidence={name: one(name) for name in leading.added}, birge=_birge(seen))
 
 
 def _share(
@@ -131,15 +123,6 @@ def _without(ranking: Ranking, leading: RankedFit, name: str) -> Fit:
 
 def _refit(this: Fit, half: Problem) -> Fit:
     return refit(this, half, iterations=ITERATIONS, share=one_stage(half.work) / PARTS)
-
-
-def _drift(halves: Sequence[_Half], name: str) -> float | None:
-    """Difference of the strength between halves, relative to their mean; None where one does not see the effect."""
-    found = [_strength(half.fit, half.problem, name) for half in halves]
-    if any(UNSEEN * spread > abs(strength) for strength, spread in found):
-        return None
-    (a, _), (b, _) = found
-    return float(2.0 * abs(a - b) / max(abs(a) + abs(b), 1e-300))
 
 
 def _birge(halves: Sequence[_Half]) -> float:

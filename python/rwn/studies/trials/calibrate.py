@@ -25,7 +25,7 @@ FOLDS = 10  # of the cross-validation; all names of a trial are in one
 
 @dataclass(frozen=True, kw_only=True)
 class Names:
-    """The effects of the leading explanations: features (n, 9), whether each or a rival acts (n,), its trial (n,)."""
+    """The effects of the leading explanations: features (n, 6), whether each or a rival acts (n,), its trial (n,)."""
 
     features: Array
     acts: Array
@@ -115,8 +115,8 @@ def commit() -> str:
 
 def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:
     """Logistic regression with a ridge, Newton's method."""
-    means, spreads = np.nanmean(x, axis=0), np.maximum(np.nanstd(x, axis=0), 1e-9)
-    z = np.nan_to_num((x - means) / spreads)
+    means, spreads = np.mean(x, axis=0), np.maximum(np.std(x, axis=0), 1e-9)
+    z = (x - means) / spreads
     design = np.column_stack([np.ones(len(z)), z])
     penalty = ridge * np.diag([0.0, *np.ones(z.shape[1])])
     weights = np.zeros(design.shape[1])
@@ -135,7 +135,7 @@ def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:
 
 
 def _probability(found: Calibration, x: Array) -> float:
-    z = np.nan_to_num((x - np.array(found.means)) / np.array(found.deviations))
+    z = (x - np.array(found.means)) / np.array(found.deviations)
     return float(1.0 / (1.0 + np.exp(-(found.intercept + np.array(found.weights) @ z))))
 
 
