@@ -35,6 +35,14 @@ def test_a_late_enable_is_found_to_the_sample_or_two(friction: float) -> None:
     assert np.array_equal(made.signals["voltage"][late.samples :], STEPS[late.samples :])
 
 
+def test_two_recordings_of_one_name_are_told_apart() -> None:
+    recordings = [_run(STEPS, 0), _run(STEPS, 130)]
+    (late,) = late_enables(recordings, MODEL)
+    on, off = powered(recordings, [late], MODEL)
+    assert np.array_equal(on.signals["voltage"], STEPS)
+    assert not np.any(off.signals["voltage"][: late.samples])
+
+
 def test_a_drive_that_is_on_from_the_beginning_has_none() -> None:
     assert late_enables([_run(STEPS, 0)], MODEL) == ()
 

@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.fit import Fit, fit_nominal
-from rwn.fit.noise import with_noise_of
-from rwn.fit.preparation import prepare
+from rwn.fit.fit import Fit
+from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.model.start import CERTAIN, resolution
@@ -31,6 +30,7 @@ TRIED = 64  # instants of enabling that are compared at a time
 class LateEnable:
     """The first `samples` of a recording had no power."""
 
+    place: int  # of the recording among those that were given
     recording: str
     samples: int
     time: float  # [s] after its first sample
@@ -44,33 +44,31 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
     still = [_still(r, model) for r in recordings]
     if model.drive.coefficients or not any(still):
         return ()
-    problem = prepare([_unpowered(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
-    problem = with_noise_of(problem, fit_nominal(problem))
-    nominal = fit_nominal(problem)
+    problem, nominal = nominal_of([_unpowered(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
     found = []
-    for recording, place, samples in zip(recordings, problem.runs, still, strict=True):
-        if samples and _moves(problem, nominal, recording, model, place, samples):
-            enabled = _enabled(problem, nominal, recording, model, place, samples)
+    for k, (recording, run, samples) in enumerate(zip(recordings, problem.runs, still, strict=True)):
+        if samples and _moves(problem, nominal, recording, model, run, samples):
+            enabled = _enabled(problem, nominal, recording, model, run, samples)
             time = float(recording.time[enabled] - recording.time[0])
-            found += [LateEnable(recording=recording.name, samples=enabled, time=time)] if enabled >= FEWEST else []
+            if enabled >= FEWEST:
+                found.append(LateEnable(place=k, recording=recording.name, samples=enabled, time=time))
     return tuple(found)
 
 
 def powered(recordings: Sequence[Recording], found: Sequence[LateEnable], model: Model) -> list[Recording]:
     """The recordings with no input where they had no power."""
-    samples = {late.recording: late.samples for late in found}
-    return [_unpowered(r, model, samples.get(r.name, 0)) for r in recordings]
+    samples = {late.place: late.samples for late in found}
+    return [_unpowered(r, model, samples.get(k, 0)) for k, r in enumerate(recordings)]
 
 
 def needed(
     found: Sequence[LateEnable], recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit
 ) -> tuple[LateEnable, ...]:
     """Those without which an explanation would move where the recordings stand still; `problem`: of `powered` ones."""
-    late = {each.recording: each for each in found}
     return tuple(
-        late[r.name]
-        for r, place in zip(recordings, problem.whole, strict=True)
-        if r.name in late and _moves(problem, this, r, model, place, late[r.name].samples)
+        late
+        for late in found
+        if _moves(problem, this, recordings[late.place], model, problem.whole[late.place], late.samples)
     )
 
 
@@ -82,10 +80,10 @@ def _still(recording: Recording, model: Model) -> int:
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
     moved = [np.abs(x - np.median(x[:FEWEST])) > CERTAIN * resolution(x, x.size) for x in measured]
     samples = min((int(np.argmax(m)) for m in moved), default=0)
-    if samples < FEWEST:
+    if samples <= FEWEST:
         return 0
     given = np.abs(np.asarray(recording.signals[model.drive.input])[: samples + 1])
-    begins = samples - samples // 4
+    begins = samples - FEWEST
     return samples if np.max(given[:begins]) >= np.max(given[begins:]) > 0.0 else 0
 
 
@@ -97,21 +95,21 @@ def _unpowered(recording: Recording, model: Model, samples: int) -> Recording:
     return replace(recording, signals={**recording.signals, model.drive.input: given})
 
 
-def _moves(problem: Problem, this: Fit, recording: Recording, model: Model, place: Run, samples: int) -> bool:
+def _moves(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
     """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded."""
-    run = replace(run_of(recording, model).until(samples), own=place.own)
+    run = replace(run_of(recording, model).until(samples), own=beside.own)
     if run.in_motion:
         return False
     out = problem.simulate(run, this.vector, this.active).signals
     error = {s: np.abs(out[s] - run.signal(s)) for s in run.recorded}
-    return any(np.max(e) > 2.0 * CERTAIN * problem.noise[s].deviation for s, e in error.items())
+    return any(np.max(e) > CERTAIN * problem.noise[s].deviation for s, e in error.items())
 
 
-def _enabled(problem: Problem, this: Fit, recording: Recording, model: Model, place: Run, samples: int) -> int:
+def _enabled(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> int:
     """The sample at which power came: that under which the fit errs least, until twice the time that it stood still."""
 
     def error(k: int) -> float:
-        run = replace(run_of(_unpowered(recording, model, k), model).until(2 * samples), own=place.own)
+        run = replace(run_of(_unpowered(recording, model, k), model).until(2 * samples), own=beside.own)
         return replace(problem, runs=(run,)).error(this.vector, this.active)
 
     low, high = 0, samples

@@ -15,6 +15,7 @@ from rwn.fit.coloured_noise import final_fits
 from rwn.fit.fit import Fit, fit, fit_nominal, foremost, refit, refit_all
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.noise import with_noise_of
+from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.part import look
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
@@ -138,8 +139,7 @@ def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:
 
 def _begun(problem: Problem) -> tuple[Problem, Fit]:
     """The problem, weighted by the noise that the refitted nominal model leaves, and that model."""
-    problem = with_noise_of(problem, fit_nominal(problem))
-    nominal = fit_nominal(problem)
+    problem, nominal = weighted_by_nominal(problem)
     within, _ = with_priors_weighed(problem, nominal)
     return (problem, nominal) if within is problem else (within, fit_nominal(within))
 
