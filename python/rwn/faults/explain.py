@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 from rwn.faults.fault import Fault
 from rwn.faults.resolve import resolved
-from rwn.fit.intersample import intersample_beside, stating, with_intersample, without_unknown
+from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
 from rwn.fit.late_enable import LateEnable, late_enables, needed, powered
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.name.forward import Progress
 from rwn.name.ranking import Ranking
 from rwn.recording.inspection import Finding
-from rwn.recording.intersample import HELD
+from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording
 
 
@@ -39,28 +39,19 @@ class Explained:
             )
             for late in self.late
         ]  # fmt: skip
-        words = _BETWEEN.get(self.model.recording.intersample)
-        if words:
+        law = self.model.recording.intersample
+        if law not in (AUTO, HELD):
             found.append(
                 Finding(
                     kind="intersample",
                     recording="all recordings",
                     signals=(given,),
                     count=0,
-                    words=f"the {given} acted otherwise than held from row to row: {words}",
+                    words=f"the {given} acted otherwise than held from row to row: {INTERSAMPLE[law].words}",
                     done="simulated so",
                 )
             )
         return tuple(found)
-
-
-_BETWEEN = {
-    "bridged": "it went on changing over the rows that are missing",
-    "halves": "it changed twice from row to row, as where every second row was kept",
-    "thirds": "it changed three times from row to row, as where every third row was kept",
-    "line": "it moved on a line from row to row",
-    "ticks": "it changed at the ticks of a clock beside which the rows were taken",
-}
 
 
 def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -> Explained:
@@ -76,7 +67,7 @@ def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -
     still = needed(late, recordings, stated, ranking.problem, best)
     again = stated
     if stated is not model and stated.recording.intersample != HELD:  # what is missing may look like another law
-        again = stating(stated, intersample_beside(ranking.problem, best))
+        again = stating(stated, likeliest(ranking.problem, best))
     if (still, again) != (late, stated):
         faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)

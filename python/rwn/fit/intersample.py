@@ -7,17 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn.fit.fit import Fit, fit_nominal, refit
+from rwn.fit.fit import Fit, refit
 from rwn.fit.likelihood import DECISIVE, log_likelihood
-from rwn.fit.noise import with_noise_of
-from rwn.fit.preparation import prepare
+from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.model.start import CERTAIN
 from rwn.parallel import side_by_side
 from rwn.recording.clock import clock_of
-from rwn.recording.columns import Intersample
-from rwn.recording.intersample import HELD, INTERSAMPLE
+from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording
 
 MOST_OFF = 0.5  # share of the rows: where more are off, that is the noise of the current
@@ -29,16 +27,16 @@ def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
 
     Raises InputError where a recording does not fit the model.
     """
-    if model.recording.intersample != "auto" or model.drive.coefficients:
+    if model.recording.intersample != AUTO or model.drive.coefficients:
         return model
-    problem = prepare(recordings, stating(model, HELD))
-    problem = with_noise_of(problem, fit_nominal(problem))
-    return stating(model, _likeliest(problem, fit_nominal(problem)))
+    return stating(model, likeliest(*nominal_of(recordings, stating(model, HELD))))
 
 
-def intersample_beside(problem: Problem, this: Fit) -> Intersample:
-    """The law that is likeliest under a fit; that of the problem where none is by far."""
-    return _likeliest(problem, this)
+def likeliest(problem: Problem, this: Fit) -> str:
+    """The law under which the errors of a fit, refitted, are likeliest; "held" where none is so by far."""
+    scores = _log_likelihoods(problem, this)
+    best = max(scores, key=lambda law: scores[law])
+    return best if scores[best] > scores[HELD] + DECISIVE else HELD
 
 
 def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recording]:
@@ -48,10 +46,9 @@ def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recor
     known to a twelfth of the square of what it will become.
     """
     recordings, law = list(recordings), model.recording.intersample
-    if law in ("auto", HELD) or not model.drive.winding or any("current" not in r.signals for r in recordings):
+    if law in (AUTO, HELD) or not model.drive.winding or any("current" not in r.signals for r in recordings):
         return recordings
-    problem = prepare(recordings, model)
-    problem = with_noise_of(problem, fit_nominal(problem))
+    problem, _ = nominal_of(recordings, model)
     known_to = CERTAIN * problem.noise["current"].deviation * model.motor["resistance"]  # [V]
     for k, run in enumerate(problem.runs):
         after = np.diff(clock_of(run.time).ticks, prepend=0) > 1 if law == "bridged" else np.full(run.time.size, True)
@@ -63,28 +60,18 @@ def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recor
     return recordings
 
 
-def stating(model: Model, law: Intersample) -> Model:
+def stating(model: Model, law: str) -> Model:
     """The model with a law in its recordings' layout."""
     return replace(model, recording=replace(model.recording, intersample=law))
 
 
-def _likeliest(problem: Problem, this: Fit) -> Intersample:
-    scores = _log_likelihoods(problem, this)
-    best = max(scores, key=lambda law: scores[law])
-    return best if scores[best] > scores[HELD] + DECISIVE else HELD
-
-
-def _log_likelihoods(problem: Problem, this: Fit) -> Mapping[Intersample, float]:
+def _log_likelihoods(problem: Problem, this: Fit) -> Mapping[str, float]:
     """Of a fit repeated under every law that says something else than "held" of these recordings."""
     under = {law: _under(problem, law) for law in INTERSAMPLE}
-    told = {law: p for law, p in under.items() if law == HELD or any(r.acting.size for r in p.runs)}
+    told = {law: p for law, p in under.items() if law == HELD or any(r.acting is not None for r in p.runs)}
     found = side_by_side(lambda p: log_likelihood(p, refit(this, p, iterations=ITERATIONS)), told.values())
     return dict(zip(told, found, strict=True))
 
 
-def _under(problem: Problem, law: Intersample) -> Problem:
-    return replace(
-        problem,
-        runs=tuple(r.with_intersample(law) for r in problem.runs),
-        whole=tuple(r.with_intersample(law) for r in problem.whole),
-    )
+def _under(problem: Problem, law: str) -> Problem:
+    return replace(problem, runs=tuple(r.with_intersample(law) for r in problem.runs))

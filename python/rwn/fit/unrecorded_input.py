@@ -14,14 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.fit import Fit, fit_nominal
-from rwn.fit.intersample import stating
-from rwn.fit.noise import with_noise_of
-from rwn.fit.preparation import prepare
+from rwn.fit.fit import Fit
+from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
-from rwn.recording.intersample import HELD, INTERSAMPLE, Acting
+from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE, Acting
 from rwn.recording.recording import Recording
 from rwn.recording.speed_measurement import SpeedMeasurement
 from rwn.simulate.run import Run
@@ -43,14 +41,12 @@ def with_unrecorded_input(recordings: Sequence[Recording], model: Model) -> list
     Raises InputError where a recording does not fit the model.
     """
     law = model.recording.intersample
-    if law in ("auto", HELD) or model.drive.coefficients:
+    if law in (AUTO, HELD) or model.drive.coefficients:
         return list(recordings)
-    acting = [INTERSAMPLE[law](r.time - r.time[0], np.asarray(r.signals[model.drive.input])) for r in recordings]
+    acting = [INTERSAMPLE[law].acting(r.time - r.time[0], np.asarray(r.signals[model.drive.input])) for r in recordings]
     made = [replace(r, acting=a) for r, a in zip(recordings, acting, strict=True)]
     for _ in range(ROUNDS):
-        problem = prepare(made, stating(model, law))
-        problem = with_noise_of(problem, fit_nominal(problem))
-        this = fit_nominal(problem)
+        problem, this = nominal_of(made, model)
         left = problem.residuals(this.vector, this.active)
         for k, (run, given) in enumerate(zip(problem.runs, acting, strict=True)):
             if given is not None and given.spread.any() and not run.restart_every:
@@ -68,7 +64,8 @@ def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], give
     first = np.flatnonzero(unknown & ~np.concatenate([[False], unknown[:-1]]))
     after = np.flatnonzero(~unknown & np.concatenate([[False], unknown[:-1]]))
     ends = np.append(given.instants[after], run.time[-1])[: first.size]
-    before = (run.acting - given.values)[first]  # what the errors have been told already
+    assumed = given if run.acting is None else run.acting
+    before = (assumed.values - given.values)[first]  # what the errors have been told already
     responses, errors = [], []
     for signal, error in left.items():
         level = problem.noise[signal].deviation

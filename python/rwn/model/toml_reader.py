@@ -17,6 +17,7 @@ from rwn.model.toml_own_effects import from_entry
 from rwn.model.toml_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
 from rwn.recording import units
 from rwn.recording.columns import Column, Layout
+from rwn.recording.intersample import known_law
 from rwn.recording.signals import COLUMNS, MEASURED, TIME
 
 
@@ -186,7 +187,8 @@ def _layout(given: RecordingTable, where: str) -> Layout:
     return Layout(
         columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples,
         start=start, end=end, decimate=given.decimate,
-        intersample=given.intersample, delays=_delays(given.delays, f"{where} delays"),
+        intersample=known_law(given.intersample, where=f"{where} intersample"),
+        delays=_delays(given.delays, f"{where} delays"),
     )  # fmt: skip
 
 

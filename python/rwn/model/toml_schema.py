@@ -10,7 +10,8 @@ import msgspec
 
 from rwn.errors import InputError, closest, unknown
 from rwn.model.toml_own_effects import EffectEntry, ParameterEntry
-from rwn.recording.columns import Initial, Intersample
+from rwn.recording.columns import Initial
+from rwn.recording.intersample import AUTO
 
 Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 
@@ -26,7 +27,7 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     sample_time: Number | None = None
     initial: Initial = "auto"
     initial_samples: int = 20
-    intersample: Intersample = "auto"
+    intersample: str = AUTO
     delays: dict[str, Number] = {}
     start: Number | None = msgspec.field(default=None, name="from")
     end: Number | None = msgspec.field(default=None, name="to")

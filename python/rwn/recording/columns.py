@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from rwn.errors import InputError, closest, plain
 from rwn.recording import units
 from rwn.recording.formats import Table
+from rwn.recording.intersample import AUTO, known_law
 from rwn.recording.signals import COLUMNS, Signal, meant
 
 Initial = Literal["auto", "rest", "estimate"]
-Intersample = Literal["auto", "held", "bridged", "halves", "thirds", "line", "ticks"]
 Array = NDArray[np.float64]
 
 
@@ -39,22 +39,26 @@ class Layout:
     `sample_time` [s]: of files without a time column. `initial`: whether recordings start at rest (no speed,
     no current), from a state that has to be estimated, or as each one's first samples show ("auto"). `initial_samples`:
     from how many samples that is read, and the state of a transfer function estimated on recordings that are not fitted
-    (which they do not judge). `intersample`: how the input acted between the rows, by a name of
-    `rwn.recording.intersample`; "auto": as the recordings show where they are fitted, and held where one is simulated.
-    `delays` [s]: by which measured signals come late.
-    `start`, `end` [s], in the file's own time: rows outside are left out; of the rest every
-    `decimate`-th row is kept.
+    (which they do not judge). `intersample`: how the input acted between the rows, by a name in
+    `rwn.recording.intersample.INTERSAMPLE`; "auto": as the recordings show where they are fitted, and held where one is
+    simulated. `delays` [s]: by which measured signals come late. `start`, `end` [s], in the file's own time: rows
+    outside are left out; of the rest every `decimate`-th row is kept. Raises InputError where `intersample` is
+    no name of these.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
     sample_time: float | None = None
     initial: Initial = "auto"
     initial_samples: int = 20
-    intersample: Intersample = "auto"
+    intersample: str = AUTO
     delays: Mapping[str, float] = field(default_factory=dict)
     start: float | None = None
     end: float | None = None
     decimate: int = 1
+
+    def __post_init__(self) -> None:
+        """Refuses what is no law."""
+        known_law(self.intersample, where="Layout, intersample")
 
 
 def column_map(table: Table, layout: Layout) -> dict[str, Column]:

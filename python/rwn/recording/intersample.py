@@ -1,7 +1,7 @@
 """How the input acted between the rows of a recording: held, bridged over lost rows, or changing at other instants.
 
 A law takes the rows' times (n,) and input (n,) and gives the instants from which the input had which values, or None
-where it says the same as "held".
+where it says the same as "held". Adding one is a function and its line in `INTERSAMPLE`.
 """
 
 from __future__ import annotations
@@ -13,15 +13,16 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.errors import unknown
 from rwn.recording.clock import clock_of
-from rwn.recording.columns import Intersample
 
 Array = NDArray[np.float64]
 
 JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
 FINE = 8  # parts of a sample that are as good as a line
 
-HELD: Intersample = "held"
+AUTO = "auto"  # as the recordings show
+HELD = "held"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +37,19 @@ class Acting:
     spread: Array
 
 
-Law = Callable[[Array, Array], Acting | None]
+@dataclass(frozen=True, kw_only=True)
+class Law:
+    """How an input acts between rows, and how that is said."""
+
+    acting: Callable[[Array, Array], Acting | None]
+    words: str
+
+
+def known_law(name: str, *, where: str) -> str:
+    """The name of a law, or "auto". Raises InputError where there is none of that name."""
+    if name not in (AUTO, *INTERSAMPLE):
+        raise unknown("law between rows", name, (AUTO, *INTERSAMPLE), where=where)
+    return name
 
 
 def _held(time: Array, values: Array) -> None:
@@ -90,11 +103,16 @@ def _on_lines(time: Array, values: Array, parts: NDArray[np.int64]) -> Acting:
     )
 
 
-INTERSAMPLE: dict[Intersample, Law] = {
-    HELD: _held,
-    "bridged": _bridged,
-    "halves": partial(_in_parts, parts=2),
-    "thirds": partial(_in_parts, parts=3),
-    "line": partial(_in_parts, parts=FINE),
-    "ticks": _at_ticks,
+INTERSAMPLE: dict[str, Law] = {
+    HELD: Law(acting=_held, words="each row's own, until the next"),
+    "bridged": Law(acting=_bridged, words="it went on changing over the rows that are missing"),
+    "halves": Law(
+        acting=partial(_in_parts, parts=2), words="it changed twice from row to row, as where every second row was kept"
+    ),
+    "thirds": Law(
+        acting=partial(_in_parts, parts=3),
+        words="it changed three times from row to row, as where every third row was kept",
+    ),
+    "line": Law(acting=partial(_in_parts, parts=FINE), words="it moved on a line from row to row"),
+    "ticks": Law(acting=_at_ticks, words="it changed at the ticks of a clock beside which the rows were taken"),
 }

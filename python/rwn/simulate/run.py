@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from rwn.model.model import Model
 from rwn.model.start import start_of
-from rwn.recording.columns import Intersample
 from rwn.recording.delays import in_time
-from rwn.recording.intersample import INTERSAMPLE, Acting
+from rwn.recording.intersample import AUTO, INTERSAMPLE, Acting
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -47,8 +46,7 @@ class Run:
     in_motion: bool = False  # it does not start at rest
     own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
     input_before: float = 0.0
-    acting_from: Array = field(default_factory=lambda: _NONE)  # (m,) instants [s] from which the input has the values
-    acting: Array = field(default_factory=lambda: _NONE)  # (m,); empty: each row's own, from its time on
+    acting: Acting | None = None  # the input as it acted; None: each row's own, from its time on
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
     angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
     follows: bool = True  # angle-dependent effects follow `angle`, else the simulated position
@@ -117,15 +115,9 @@ class Run:
         """The same, simulated from the input alone: angle-dependent effects follow the simulated position."""
         return replace(self, angle=np.empty(0))
 
-    def with_intersample(self, law: Intersample) -> Run:
+    def with_intersample(self, law: str) -> Run:
         """The same with the input acting between the rows by a law of `rwn.recording.intersample`."""
-        return self.driven(INTERSAMPLE[law](self.time, self.input))
-
-    def driven(self, acting: Acting | None) -> Run:
-        """The same under an input as it acted; None: from each row's time on the row's own."""
-        if acting is None:
-            return replace(self, acting_from=_NONE, acting=_NONE)
-        return replace(self, acting_from=acting.instants, acting=acting.values)
+        return replace(self, acting=INTERSAMPLE[law].acting(self.time, self.input))
 
     def quantisation(self, signal: str) -> float:
         """Standard deviation of the quantisation of a signal; 0 where its values are multiples of no step.
@@ -181,8 +173,8 @@ def run_of(recording: Recording, model: Model) -> Run:
     )
     law = model.recording.intersample
     if recording.acting is not None:
-        return run.driven(recording.acting)
-    return run if law == "auto" else run.with_intersample(law)
+        return replace(run, acting=recording.acting)
+    return run if law == AUTO else run.with_intersample(law)
 
 
 def judging_run(recording: Recording, model: Model) -> Run:

@@ -74,9 +74,9 @@ class Simulator:
 
     def task(self, run: Run) -> _core.Task:
         """A run under these equations, as the core takes it."""
+        given = (run.input, ()) if run.acting is None else (run.acting.values, run.acting.instants)
         return _core.Task(
-            self.kind, time=run.time, input=run.acting if run.acting.size else run.input, input_time=run.acting_from,
-            angle_per_position=self.angle_per_position,
+            self.kind, time=run.time, input=given[0], input_time=given[1], angle_per_position=self.angle_per_position,
             input_before=run.input_before, angle=run.followed, angle_from_speed=run.angle_from_speed,
             restart_every=run.restart_every, restart_speed=run.restart_speed, restart_position=run.restart_position,
             order=self.order, own=list(self.own),
