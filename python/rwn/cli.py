@@ -8,14 +8,14 @@ import os
 import shlex
 import shutil
 import sys
-import threading
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rwn.errors import InputError, plain, unknown
+from rwn.endings import NO_RESULT, run
+from rwn.errors import InputError, unknown
 
 if TYPE_CHECKING:
     from rwn.report.diagnosis import Diagnosis
@@ -27,8 +27,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-
-NO_RESULT = 3  # exit code of a computation that ran and has no result to stand by
 
 Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")]
 ModelFile = Annotated[Path, typer.Option("--model", help="The nominal model (TOML).")]
@@ -108,7 +106,7 @@ def simulate(
     if run.status != "ok":
         done = f"The signals in {out} are held from there on." if partial else "Nothing was written."
         typer.echo(f"rwn: {run.status}: {run.advice} {done}", err=True)
-        raise typer.Exit(3)
+        raise typer.Exit(NO_RESULT)
     typer.echo(f"{len(run.time)} samples of {', '.join(run.signals)} in {out}")
 
 
@@ -294,34 +292,4 @@ def main() -> None:
     """The entry point `rwn`."""
     for name in ("thesis", "trials"):
         _mount(name, f"rwn.studies.{name}.cli")
-    try:
-        status = app(standalone_mode=False)
-    except (ValueError, OSError) as error:
-        _refuse(error)
-    except typer.Abort:
-        print("rwn: stopped", file=sys.stderr, flush=True)
-        if threading.active_count() > 1:
-            os._exit(130)  # what still computes in threads would be waited for
-        sys.exit(130)
-    except Exception as error:
-        if not hasattr(error, "format_message"):  # what typer raises for wrong usage has it
-            raise
-        _refuse(error)
-    sys.exit(status if isinstance(status, int) else 0)
-
-
-def _refuse(error: Exception) -> None:
-    if os.environ.get("RWN_TRACEBACK"):
-        raise error
-    if hasattr(error, "format_message"):
-        if error.format_message().startswith("Usage:"):  # a group called without a command: its help, as it is
-            print(error.format_message(), file=sys.stderr)
-            sys.exit(2)
-        usage = getattr(getattr(error, "ctx", None), "command_path", "rwn")
-        text = f"{error.format_message().rstrip('.')}; fix: see {usage} --help"
-    elif isinstance(error, OSError) and error.filename is not None:
-        text = f"{error.filename}: {error.strerror}; expected a file in reach; fix: check path, permissions, disk space"
-    else:
-        text = str(error)
-    print("rwn: " + plain(" ".join(text.split()), longest=4000), file=sys.stderr)
-    sys.exit(2)
+    run(lambda: app(standalone_mode=False))

@@ -60,3 +60,20 @@ def test_workers_end_with_a_killed_parent(tmp_path: Path, by: signal.Signals) ->
         parent.kill()
         for pid in filter(lives, workers):
             os.kill(pid, signal.SIGKILL)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", [("trials", "make", "--seed", "7", "--count", "50"), ("thesis", "run", "--all")])
+def test_ctrl_c_ends_a_study_soon_with_one_line(tmp_path: Path, command: tuple[str, ...]) -> None:
+    told, out = tmp_path / "told", tmp_path / "out"
+    with told.open("w") as stream:
+        study = subprocess.Popen([sys.executable, "-m", "rwn", *command, "--out", str(out)], stderr=stream)
+        try:
+            assert until(out.exists, 60), "at work"
+            time.sleep(1.0)
+            study.send_signal(signal.SIGINT)
+            assert study.wait(timeout=3) == 130
+        finally:
+            study.kill()
+    assert told.read_text().endswith("rwn: stopped\n")
+    assert "Traceback" not in told.read_text()

@@ -20,9 +20,9 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     try:
         yield pool
     except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
         for process in set(active_children()) - before:
             process.kill()
+        pool.shutdown(cancel_futures=True)
         raise
     pool.shutdown()
 
