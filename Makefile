@@ -24,7 +24,7 @@ install-tools:
 	@$(PIP) --group test --group dev
 
 install-test: install-tools
-	@$(PIP) '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON
+	@$(PIP) '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON -C cmake.define.RWN_KERNELS_FOR=this
 
 # The main job on the embedded recording, whose missing effect is known.
 demo: install
@@ -56,14 +56,14 @@ test-cpp: install-tools
 	cmake --build --preset release -j $(JOBS) -- --quiet
 	build/release/rwn_tests --gtest_brief=1
 
-# The C++ tests with the address and undefined-behaviour sanitizers; EVERY_ISA=ON: with the kernels of every instruction set.
-EVERY_ISA ?= OFF
-ISAS_OFF := baseline
-ISAS_ON := baseline avx2 avx512
+# The C++ tests with the address and undefined-behaviour sanitizers; KERNELS_FOR=every: with the kernels of every instruction set.
+KERNELS_FOR ?= any
+ISAS_any := baseline
+ISAS_every := baseline avx2 avx512
 test-sanitize: install-tools
-	cmake --preset sanitize -DRWN_EVERY_ISA=$(EVERY_ISA) >/dev/null
+	cmake --preset sanitize -DRWN_KERNELS_FOR=$(KERNELS_FOR) >/dev/null
 	cmake --build --preset sanitize -j $(JOBS) -- --quiet
-	for isa in $(ISAS_$(EVERY_ISA)); do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
+	for isa in $(ISAS_$(KERNELS_FOR)); do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
 
 test-python: install-test
 	$(PY) -m pytest -n $(JOBS) --dist worksteal
@@ -108,4 +108,4 @@ docs: install-test
 # For work on rwn itself: quick rebuilds, no build isolation.
 develop: install-tools
 	@$(PY) -c 'import scikit_build_core' 2>/dev/null || $(PIP) scikit-build-core pybind11 cmeel-eigen
-	@$(PIP) --no-build-isolation '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON
+	@$(PIP) --no-build-isolation '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON -C cmake.define.RWN_KERNELS_FOR=this

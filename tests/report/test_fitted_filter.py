@@ -23,7 +23,7 @@ MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_e
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
 
-def recorded(samples: int = 4000) -> rwn.Recording:
+def recorded(samples: int = 2000) -> rwn.Recording:
     """A run of the model itself whose speed, with its noise, went through a digital filter of first order."""
     rng, time = np.random.default_rng(7), STEP * np.arange(samples)
     voltage = np.repeat(3.0 * rng.uniform(-1.0, 1.0, samples // 50), 50)

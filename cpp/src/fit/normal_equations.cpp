@@ -14,10 +14,12 @@ namespace rwn {
 namespace baseline {
 void accumulate(NormalSlice& slice);
 }
-#ifdef RWN_X86
+#ifdef RWN_AVX2
 namespace avx2 {
 void accumulate(NormalSlice& slice);
 }
+#endif
+#ifdef RWN_AVX512
 namespace avx512 {
 void accumulate(NormalSlice& slice);
 }
@@ -26,8 +28,10 @@ void accumulate(NormalSlice& slice);
 namespace {
 
 void accumulate(NormalSlice& slice) {
-#ifdef RWN_X86
+#ifdef RWN_AVX512
   if (isa() == Isa::avx512) return avx512::accumulate(slice);
+#endif
+#ifdef RWN_AVX2
   if (isa() == Isa::avx2) return avx2::accumulate(slice);
 #endif
   return baseline::accumulate(slice);

@@ -6,20 +6,24 @@ namespace rwn {
 namespace baseline {
 extern const StructuredKernels structured_step;
 }
-#ifdef RWN_X86
+#ifdef RWN_AVX2
 namespace avx2 {
 extern const StructuredKernels structured_step;
 }
+#endif
+#ifdef RWN_AVX512
 namespace avx512 {
 extern const StructuredKernels structured_step;
 }
 #endif
 
 const StructuredKernels& structured_kernels() {
-#ifdef RWN_X86
+#ifdef RWN_AVX512
   if (isa() == Isa::avx512) {
     return avx512::structured_step;
   }
+#endif
+#ifdef RWN_AVX2
   if (isa() == Isa::avx2) {
     return avx2::structured_step;
   }

@@ -7,11 +7,13 @@ namespace rwn {
 namespace {
 
 Isa best_isa() {
-#ifdef RWN_X86
+#ifdef RWN_AVX512
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512bw")) {
     return Isa::avx512;
   }
+#endif
+#ifdef RWN_AVX2
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
     return Isa::avx2;
   }

@@ -12,10 +12,12 @@ namespace rwn {
 namespace baseline {
 int simulate_slice(int drive, const SimulationSlice& slice);
 }
-#ifdef RWN_X86
+#ifdef RWN_AVX2
 namespace avx2 {
 int simulate_slice(int drive, const SimulationSlice& slice);
 }
+#endif
+#ifdef RWN_AVX512
 namespace avx512 {
 int simulate_slice(int drive, const SimulationSlice& slice);
 }
@@ -37,8 +39,10 @@ const std::array<int, effect_count + 1>& offsets() {
 }
 
 int simulate_slice(int drive, const SimulationSlice& slice) {
-#ifdef RWN_X86
+#ifdef RWN_AVX512
   if (isa() == Isa::avx512 && slice.width % 8 == 0) return avx512::simulate_slice(drive, slice);
+#endif
+#ifdef RWN_AVX2
   if (isa() != Isa::baseline) return avx2::simulate_slice(drive, slice);  // vectors that would stay half empty
 #endif
   return baseline::simulate_slice(drive, slice);
