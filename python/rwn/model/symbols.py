@@ -12,6 +12,7 @@ _OF_EFFECT: dict[str, dict[str, str]] = {
     "asymmetric-friction": {"coulomb_torque_plus": "T_c+", "coulomb_torque_minus": "T_c-"},
     "viscous-asymmetry": {"difference": "d"},
     "quadratic-drag": {"drag_coefficient": "k"},
+    "power-law-drag": {"drag_torque": "T_d", "exponent": "n", "reference_speed": "w_r"},
     "load-dependent-friction": {"friction_ratio": "mu"},
     "presliding-hysteresis": {"bristle_stiffness": "s0", "bristle_damping": "s1", "coulomb_torque": "T_c"},
     "position-dependent-friction": {"coulomb_torque": "T_c", "variation": "a", "phase": "p"},

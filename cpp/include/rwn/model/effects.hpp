@@ -17,6 +17,7 @@
 #include "rwn/model/effects/load_disturbance.hpp"
 #include "rwn/model/effects/magnetic_saturation.hpp"
 #include "rwn/model/effects/position_dependent_friction.hpp"
+#include "rwn/model/effects/power_law_drag.hpp"
 #include "rwn/model/effects/presliding_hysteresis.hpp"
 #include "rwn/model/effects/quadratic_drag.hpp"
 #include "rwn/model/effects/resistance_heating.hpp"
@@ -36,8 +37,8 @@ namespace rwn {
 
 using Effects =
     std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
-               LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque, Unbalance,
-               ConstantLoad, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation, BrushVoltageDrop,
+               PowerLawDrag, LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque,
+               Unbalance, ConstantLoad, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation, BrushVoltageDrop,
                ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation, InputDelay,
                SpeedSensorLag, CurrentSensorLag, SensorRectification, SensorBias, SensorQuantization>;
 

@@ -14,6 +14,7 @@ from rwn.studies.trials.adapter import heldout_files, refitted_file, simulated_f
 from rwn.studies.trials.bench_trials.plan import BACKGROUND_ALONE, NOTHING
 from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.dossier import read_columns
+from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.grade import (
     LARGEST_SET,
     NO_RESULT,
@@ -156,7 +157,7 @@ def _accepted(answer: Mapping[str, Any], truth: Sequence[str]) -> tuple[set[str]
     meant = {*truth, *answer["equivalent"]} if truth else set()
     beside = set(answer["also_true"])
     beside |= {LATE_RECORDING} if beside & LATE else set()
-    beside |= {str(answer["background"]["kind"])} if answer["background"] else set()
+    beside |= known_as(str(answer["background"]["kind"])) if answer["background"] else set()
     return meant, beside - meant
 
 

@@ -14,3 +14,9 @@ EFFECTS: dict[str, Effect] = {
 NAMED: tuple[str, ...] = tuple(name for name, effect in EFFECTS.items() if effect.named)
 UNNAMED: tuple[str, ...] = tuple(name for name, effect in EFFECTS.items() if not effect.named)
 BACKGROUND: dict[str, Effect] = {effect.name: effect for site in (unnamed, background) for effect in site.EFFECTS}
+
+
+def known_as(kind: str) -> set[str]:
+    """The names of the vocabulary that are right for physics which the trials conceal without one."""
+    effect = BACKGROUND.get(kind)
+    return {kind, effect.known_as} if effect is not None and effect.known_as else {kind}

@@ -55,7 +55,8 @@ class Effect:
 
     `scale(values, f)` gives an effect f times as strong, and is None for one without strength. `linear` names
     parameters that may change sign in a fit, `fixed` those that a fit leaves alone. `replaces_coulomb`: holds
-    the nominal Coulomb friction in its own parameters.
+    the nominal Coulomb friction in its own parameters. `known_as`: the name that the vocabulary has for what these
+    trials conceal as physics without one.
     """
 
     name: str
@@ -73,6 +74,7 @@ class Effect:
     slow: bool = False  # shows best at low speed: the bench uses a small voltage
     two_mass: bool = False
     named: bool = True
+    known_as: str = ""
 
     def believable(self, values: Values) -> bool:
         return all(low <= values[name] <= high for name, (low, high) in self.limits.items())

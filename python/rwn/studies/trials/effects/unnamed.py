@@ -71,6 +71,7 @@ EFFECTS = (
         scale=times("coefficient"),
         rivals=("quadratic-drag", "voltage-saturation", "magnetic-saturation"),
         named=False,
+        known_as="power-law-drag",
     ),
     Effect(
         name="square-root-drag",
@@ -81,6 +82,7 @@ EFFECTS = (
         scale=times("coefficient"),
         rivals=("coulomb-friction", "stribeck-friction", "quadratic-drag", "brush-voltage-drop"),
         named=False,
+        known_as="power-law-drag",
     ),
     Effect(
         name="torque-constant-drift",

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "rwn/model/effect.hpp"
+
+namespace rwn {
+
+struct PowerLawDrag {
+  static constexpr EffectInfo info{"power-law-drag", Site::torque, "T = -T_d |w / w_r|^n sign(w)",
+                                   "drag by a power of the speed: grease, magnets (n below 1), churning (above 2)",
+                                   "W. Ostwald 1925; A. de Waele 1923"};
+  static constexpr std::array parameters{Parameter{.name = "drag_torque",
+                                                   .unit = "N m",
+                                                   .meaning = "torque at the reference speed",
+                                                   .lower = 0.0,
+                                                   .upper = 2.0,
+                                                   .start = 0.1,
+                                                   .scale = scale::torque,
+                                                   .strength = true},
+                                         Parameter{.name = "exponent",
+                                                   .unit = "1",
+                                                   .meaning = "power of the speed; 0 is dry friction, 1 viscous",
+                                                   .lower = 0.2,
+                                                   .upper = 5.0,
+                                                   .start = 3.0,
+                                                   .scan = {0.5, 3.0}},
+                                         Parameter{.name = "reference_speed",
+                                                   .unit = "rad/s",
+                                                   .meaning = "speed at which the torque is stated; a choice",
+                                                   .lower = 0.0,
+                                                   .upper = 10.0,
+                                                   .start = 1.0,
+                                                   .scale = scale::speed,
+                                                   .fixed = true}};
+  static constexpr EffectTraits traits{.hooks = Hook::apply};
+
+  /// Below a hundredth of the reference speed it is viscous, so that its slope is finite.
+  template <class S>
+  static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
+    using std::pow;
+    const S ratio = x.speed / p[2];
+    t.torque -= p[0] * ratio * pow(ratio * ratio + 1e-4, 0.5 * (p[1] - 1.0));
+  }
+};
+
+}  // namespace rwn
