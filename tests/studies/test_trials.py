@@ -216,7 +216,7 @@ def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Pat
     grades = grade_folder(made[0], results=tmp_path).grades
     assert not any(g.exact for g in grades if "backlash" not in g.truth)
     assert all(g.false_alarm for g in grades if g.mode == "null")
-    assert all(g.confidently_named for g in grades if g.mode == "novel")
+    assert all(g.confidently_wrong for g in grades if g.mode == "novel")
     brier, count = score.brier(grades)
     assert count == COUNT
     assert brier == pytest.approx(0.81) or any("backlash" in g.truth + g.equivalent for g in grades)
@@ -291,7 +291,7 @@ def test_example_cases_can_be_scored(shared: Path, tmp_path: Path) -> None:
     grades = grade_folder(shared / "cases", results=tmp_path).grades
     assert len(grades) == 14
     assert all(g.exact for g in grades if g.mode in (*SINGLE, "double"))
-    assert not any(g.false_alarm or g.confidently_named for g in grades if g.mode in ("null", "novel"))
+    assert not any(g.false_alarm or g.confidently_wrong for g in grades if g.mode in ("null", "novel"))
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -15,6 +15,7 @@ from rwn.faults.fault import RECORDING
 from rwn.studies.trials.adapter import heldout_files, simulated_file
 from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.dossier import read_columns
+from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.plant import simulate
 from rwn.studies.trials.run import out_of, trial_folders
 from rwn.studies.trials.seal import ANSWERS, unseal
@@ -80,9 +81,11 @@ class Grade:
         return self.mode == "null" and self.verdict not in ("adequate", "insufficient-excitation")
 
     @property
-    def confidently_named(self) -> bool:
+    def confidently_wrong(self) -> bool:
+        """Claims to know one name, which is not right."""
         sure = self.probability is None or self.probability >= CONFIDENT
-        return self.verdict == "missing-physics" and bool(self.names) and sure and not self.ambiguous
+        single = self.verdict == "missing-physics" and bool(self.names) and not self.ambiguous
+        return single and sure and not self.first
 
 
 @dataclass(frozen=True)
@@ -152,7 +155,7 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     named = answer["verdict"] == "missing-physics"
     truth = tuple(str(effect["name"]) for effect in answer["effects"])
     equivalent = tuple(answer.get("equivalent", []))
-    accepted = {*truth, *equivalent} if named else set()
+    accepted = {*truth, *equivalent} if named else {name for kind in truth for name in known_as(kind)}
     timing = out / "timing.json"
     return Grade(
         case=trial.name,

@@ -117,7 +117,7 @@ def targets(grades: Sequence[Grade]) -> list[Target]:
         _share_target(
             "unnamed given a confident wrong name",
             "<= 10 %",
-            (g.confidently_named for g in novel),
+            (g.confidently_wrong for g in novel),
             _at_most(0.1),
         ),
         _share_target("two effects, both found", ">= 80 %", map(both_found, doubles), _at_least(0.8)),

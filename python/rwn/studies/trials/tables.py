@@ -98,7 +98,7 @@ def _missed(g: Grade) -> bool:
     if g.mode == "double":
         return not score.both_found(g)
     if g.mode == "novel":
-        return g.confidently_named
+        return g.confidently_wrong
     return g.false_alarm if g.mode == "null" else not score.named_right(g)
 
 
