@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "rwn/model/effect.hpp"
 
 namespace rwn {
@@ -31,14 +34,22 @@ struct PowerLawDrag {
                                                    .start = 1.0,
                                                    .scale = scale::speed,
                                                    .fixed = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate};
+  static constexpr double viscous_below = 0.01;  // of the reference speed, so that its slope is finite
 
-  /// Below a hundredth of the reference speed it is viscous, so that its slope is finite.
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
     using std::pow;
     const S ratio = x.speed / p[2];
-    t.torque -= p[0] * ratio * pow(ratio * ratio + 1e-4, 0.5 * (p[1] - 1.0));
+    t.torque -= p[0] * ratio * pow(ratio * ratio + viscous_below * viscous_below, 0.5 * (p[1] - 1.0));
+  }
+  /// How fast it brakes the motor by itself, or passes from viscous to its power.
+  template <class S>
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double) {
+    const double n = value_of(p[1]), w_r = value_of(p[2]), ratio = value_of(x.speed) / w_r;
+    const double slope = std::pow(ratio * ratio + viscous_below * viscous_below, 0.5 * (n - 1.0));
+    const double bends = std::abs(ratio) < 4.0 * viscous_below ? std::abs(acceleration) / (viscous_below * w_r) : 0.0;
+    return std::max(n * value_of(p[0]) / w_r * slope / value_of(m[inertia]), bends);
   }
 };
 
