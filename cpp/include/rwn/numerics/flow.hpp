@@ -24,6 +24,35 @@ double norm_of(const SmallMatrix<S, n>& a) {
   return norm;
 }
 
+/// The same once every state is measured so that its row and its column weigh alike (Osborne 1960): it bounds how fast
+/// anything changes, whatever the units of the states.
+template <int n>
+double balanced_norm(SmallMatrix<double, n> a) {
+  for (int sweep = 0; sweep < 4; ++sweep) {
+    for (std::size_t i = 0; i < n; ++i) {
+      double row = 0.0, column = 0.0;
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j == i) continue;
+        row += std::abs(a[i * n + j]);
+        column += std::abs(a[j * n + i]);
+      }
+      if (row == 0.0 || column == 0.0) continue;
+      const double scale = std::sqrt(column / row);
+      for (std::size_t j = 0; j < n; ++j) {
+        a[i * n + j] *= scale;
+        a[j * n + i] /= scale;
+      }
+    }
+  }
+  double norm = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double row = 0.0;
+    for (std::size_t j = 0; j < n; ++j) row += std::abs(a[i * n + j]);
+    norm = std::max(norm, row);
+  }
+  return norm;
+}
+
 /// Parts in which a length is gone along, of which each has |A| h < 1.
 template <class S>
 int parts_of_flow(double reach) {

@@ -2,6 +2,7 @@
 // along the way for a length that does not.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "rwn/simulate/equations.hpp"
@@ -29,6 +30,7 @@ class Operators {
     Matrix a{};
     SmallMatrix<double, n> value{};
     double norm = 0.0;
+    double fastest = 0.0;  // bound on the rates of its solutions
   };
 
   /// In scalar T: S, or values alone.
@@ -98,17 +100,26 @@ class Operators {
     slot = {.regime = regime, .a = equations_.system_matrix(regime)};
     for (std::size_t k = 0; k < slot.a.size(); ++k) slot.value[k] = value_of(slot.a[k]);
     slot.norm = norm_of<S, n>(slot.a);
+    slot.fastest = balanced_norm<n>(slot.value);
     return slot;
   }
 
   const Step<S>& over(double h, const Regime& regime) {
-    for (std::size_t k = 0; k < made_; ++k) {
-      const Step<S>& o = steps_[k];
-      if (std::abs(o.h - h) <= 1e-9 * h && o.regime == regime) return o;
-    }
-    Step<S>& slot = steps_[made_ < most_steps ? made_++ : std::exchange(next_step_, (next_step_ + 1) % most_steps)];
-    make(slot, h, regime);
-    return slot;
+    if (const Step<S>* known = find(h, regime)) return *known;
+    const std::size_t k = made_ < most_steps ? made_++ : std::exchange(next_step_, (next_step_ + 1) % most_steps);
+    lengths_[k] = h;
+    make(steps_[k], h, regime);
+    return steps_[k];
+  }
+
+  /// The step of an interval between samples: made for a length that comes back, between those of a grid for one that
+  /// does not, as of rows that are off their clock.
+  const Step<S>& of_interval(double h, const Regime& regime) {
+    if (const Step<S>* known = find(h, regime)) return *known;
+    const bool again = std::any_of(missed_.begin(), missed_.end(), [h](double m) { return std::abs(m - h) <= same_length * h; });
+    if (!again) next_of(missed_, next_missed_) = h;
+    const System& s = system(regime);
+    return again || made_ < most_returning || s.fastest * h > longest_between ? over(h, regime) : between(h, s);
   }
 
   /// The values, of a length that does not come back.
@@ -174,12 +185,73 @@ class Operators {
     o.f3 = scaled(combine<T, n>(-1.0, f.p2, 4.0, f.p3), h);
   }
 
+  /// By Lagrange's polynomial through six lengths of a grid, whose spacing is exact to 1e-9.
+  const Step<S>& between(double h, const System& s) {
+    const double spacing = spacing_between / s.fastest, at = h / spacing, first = std::floor(at);
+    const double t = at - first;
+    const std::array<double, 6> weights{
+        -(t + 1.0) * t * (t - 1.0) * (t - 2.0) * (t - 3.0) / 120.0, (t + 2.0) * t * (t - 1.0) * (t - 2.0) * (t - 3.0) / 24.0,
+        -(t + 2.0) * (t + 1.0) * (t - 1.0) * (t - 2.0) * (t - 3.0) / 12.0, (t + 2.0) * (t + 1.0) * t * (t - 2.0) * (t - 3.0) / 12.0,
+        -(t + 2.0) * (t + 1.0) * t * (t - 1.0) * (t - 3.0) / 24.0, (t + 2.0) * (t + 1.0) * t * (t - 1.0) * (t - 2.0) / 120.0};
+    std::array<const Step<S>*, 6> nodes;
+    for (std::size_t j = 0; j < nodes.size(); ++j) nodes[j] = &node(static_cast<int>(first) + static_cast<int>(j) - 2, spacing, s);
+    blend(&Step<S>::e, weights, nodes);
+    if (equations_.varies()) {
+      for (const auto matrix : {&Step<S>::eh, &Step<S>::p1h, &Step<S>::f1, &Step<S>::f2, &Step<S>::f3}) blend(matrix, weights, nodes);
+    } else {
+      for (const auto matrix : {&Step<S>::p1, &Step<S>::p2}) blend(matrix, weights, nodes);
+    }
+    between_.h = h;
+    between_.regime = s.regime;
+    ++counts.between;
+    return between_;
+  }
+
+  void blend(Matrix Step<S>::*matrix, const std::array<double, 6>& weights, const std::array<const Step<S>*, 6>& nodes) {
+    Matrix& sum = between_.*matrix;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      S entry = weights[0] * ((*nodes[0]).*matrix)[k];
+      for (std::size_t j = 1; j < nodes.size(); ++j) entry += weights[j] * ((*nodes[j]).*matrix)[k];
+      sum[k] = entry;
+    }
+  }
+
+  /// The step over `index` spacings.
+  const Step<S>& node(int index, double spacing, const System& s) {
+    const auto of_system = static_cast<std::size_t>(&s - systems_.data()) * (most_nodes / 2);
+    const std::size_t place = (static_cast<std::size_t>(index + 2) + of_system) % most_nodes;
+    if (!node_made_[place] || node_of_[place] != index || nodes_[place].regime != s.regime) {
+      make(nodes_[place], index * spacing, s.regime);
+      node_of_[place] = index;
+      node_made_[place] = true;
+    }
+    return nodes_[place];
+  }
+
+  const Step<S>* find(double h, const Regime& regime) const {
+    for (std::size_t k = 0; k < made_; ++k) {
+      if (std::abs(lengths_[k] - h) <= same_length * h && steps_[k].regime == regime) return &steps_[k];
+    }
+    return nullptr;
+  }
+
+  static constexpr double same_length = 1e-9;  // relative
+  // times the fastest rate: Lagrange's remainder, 0.07^6 times 3.5 / 6!, is below 1e-9; a grid to 4 has room in the nodes
+  static constexpr double spacing_between = 0.07, longest_between = 4.0;
+  static constexpr std::size_t most_returning = 16, most_nodes = 64;
+
   const Equations<S, Drive, masses>& equations_;
   std::array<System, 6> systems_{};
-  static constexpr std::size_t most_steps = 64;  // that a sampling off its clock takes, on a grid of so many parts
+  static constexpr std::size_t most_steps = 32;
   Room<Step<S>, most_steps> steps_;              // the first `made_`, the oldest replaced
+  std::array<double, most_steps> lengths_{};     // theirs, side by side for the search
+  std::array<double, 4> missed_{};               // the last lengths that had not come back
+  Room<Step<S>, most_nodes> nodes_;              // of grids
+  std::array<int, most_nodes> node_of_{};        // how many spacings each is
+  std::array<bool, most_nodes> node_made_{};
+  Step<S> between_{};
   Step<Value> passing_{};
-  std::size_t next_system_ = 0, next_step_ = 0, made_ = 0;
+  std::size_t next_system_ = 0, next_step_ = 0, next_missed_ = 0, made_ = 0;
 };
 
 }  // namespace rwn

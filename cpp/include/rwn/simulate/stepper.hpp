@@ -47,7 +47,7 @@ class Stepper {
     const double length = value_of(h);
     ++operators_.counts.nonlinear;
     if (equations_.electrical()) ++operators_.counts.electrical;
-    if (use_ == Use::intervals) return nonlinear_step(s, h, level, operators_.over(length, regime));
+    if (use_ == Use::intervals) return nonlinear_step(s, h, level, operators_.of_interval(length, regime));
     const double reach = operators_.system(regime).norm * length;
     if (use_ == Use::search) {
       if (reach > longest_flow_of_values) return nonlinear_step(s, h, level, operators_.values_over(length, regime));
@@ -65,7 +65,7 @@ class Stepper {
     if (use_ != Use::intervals || !is_constant(h)) {
       linear_rest(s, h, regime, f, x, position);
     } else {
-      go(operators_.over(value_of(h), regime), s, f, x, position);
+      go(operators_.of_interval(value_of(h), regime), s, f, x, position);
     }
   }
 
@@ -134,7 +134,9 @@ class Stepper {
       } else {
         go_along<Value>(s, length, regime, f, x, position);
       }
-    } else if (use_ == Use::intervals || reach > longest_flow) {
+    } else if (use_ == Use::intervals) {
+      go(operators_.of_interval(length, regime), s, f, x, position);
+    } else if (reach > longest_flow) {
       go(operators_.over(length, regime), s, f, x, position);
     } else {
       go_along<S>(s, length, regime, f, x, position);
