@@ -38,7 +38,7 @@ def test_the_time_constant_is_reported_with_its_interval() -> None:
     problem = filtered(problem, [seen])
     problem = with_noise_of(problem, fit_nominal(problem))
     this = fit_nominal(problem)
-    (fitted,) = fitted_filters(this, statistics(problem, this))
+    (fitted,) = fitted_filters(this, statistics(problem, this), problem.filters)
     assert fitted.signal == "speed"
     # a digital filter passes 1 - phi of the present sample at once: it is half a sample less late than the analog one
     assert fitted.time_constant.value == pytest.approx(-STEP / np.log(SHARE) - 0.5 * STEP, rel=0.2)
@@ -49,7 +49,16 @@ def test_the_time_constant_is_reported_with_its_interval() -> None:
 def test_a_fit_without_a_filter_reports_none() -> None:
     problem = prepare([recorded()], MODEL)
     this = fit_nominal(problem)
-    assert fitted_filters(this, statistics(problem, this)) == ()
+    assert fitted_filters(this, statistics(problem, this), problem.filters) == ()
+
+
+def test_a_filter_that_is_undone_is_reported_too() -> None:
+    problem = prepare([recorded()], MODEL)
+    problem = filtered(problem, [SensorFilter(signal="speed", share=SHARE, time_constant=2e-3, digital=True)])
+    this = fit_nominal(problem)
+    (undone,) = fitted_filters(this, statistics(problem, this), problem.filters)
+    assert undone.time_constant.value == 2e-3
+    assert undone.time_constant.interval is None
 
 
 @pytest.mark.slow

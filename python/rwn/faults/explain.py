@@ -9,6 +9,7 @@ from rwn.faults.fault import Fault
 from rwn.faults.resolve import resolved
 from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
 from rwn.fit.late_enable import LateEnable, late_enables, needed, powered
+from rwn.fit.sensor_filter import stating_filters
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.name.forward import Progress
@@ -70,6 +71,7 @@ def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -
         again = stating(stated, likeliest(ranking.problem, best))
     if (still, again) != (late, stated):
         faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say)
+    again = stating_filters(again, ranking.problem.filters)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)
 
 

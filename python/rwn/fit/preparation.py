@@ -36,7 +36,7 @@ def prepare(recordings: Sequence[Recording], model: Model, *, work: _core.Work |
     if not model.drive.coefficients:  # a transfer function's initial state is eliminated from every fit
         runs, starts = _unknown_starts(runs)
         prior = replace(prior, of_runs=starts)
-    problem = _problem(runs, model, prior, work)
+    problem = replace(_problem(runs, model, prior, work), filters=model.recording.filters)
     if model.drive.coefficients and not model.parameters:
         problem = replace(problem, prior=_guessed(problem, first_guesses(runs, model.order)))
     vector = hypothesis(problem.prior, (), {}).vector

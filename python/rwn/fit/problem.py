@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +39,7 @@ class Problem:
     noise: Mapping[str, Noise]  # of each recorded signal
     prior: Prior
     scales: Mapping[str, float]  # quantities that parameters are measured against
+    filters: Mapping[str, float] = field(default_factory=dict)  # digital ones [s] by signal, undone in the runs
     colour: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
     @property

@@ -1,8 +1,8 @@
-"""First-order filters of the sensors, seen in the noise that went through them: nuisance parameters of every fit.
+"""First-order filters of the sensors, seen in the noise that went through them.
 
 Noise that a filter y_k = phi y_{k-1} + (1 - phi) x_k has passed goes from sample to sample with phi = exp(-T / tau).
-A fit that is right but for that leaves such noise and nothing else; differences of the residual show it, since what
-else may be missing is smooth between its sharp instants, and few windows hold one.
+Differences of the residual show it, since what else may be missing is smooth between its sharp instants, and few
+windows hold one. Whether the motion went through it too, sample by sample or as an analog signal, the likelihood tells.
 """
 
 from __future__ import annotations
@@ -12,19 +12,29 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
+from rwn.fit.budget import one_stage
+from rwn.fit.fit import Fit, fit, refit
+from rwn.fit.hypothesis import hypothesis
+from rwn.fit.likelihood import log_likelihood
 from rwn.fit.prior import Nuisance
 from rwn.fit.problem import Problem
+from rwn.fit.residuals import statistics
+from rwn.model.model import Model
 from rwn.recording.noise import rough_noise
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
-LAGS = {"speed": "speed-sensor-lag", "current": "current-sensor-lag"}  # signal -> effect that is its filter
+LAGS = {"speed": "speed-sensor-lag", "current": "current-sensor-lag"}  # signal -> effect that is its analog filter
 WINDOW = 64  # samples
 CERTAIN = 5.0  # standard deviations of the autocorrelation of white noise
-LEAST, MOST = 0.1, 0.95  # of phi: a filter faster than half a sample changes nothing
+LEAST, MOST = 0.1, 0.95  # of phi: a filter faster than half a sample changes nothing, a slower one is physics
 NOTHING_ELSE = 2.0  # variance of what is new in a residual against its rough noise, up to which it is noise alone
+ITERATIONS = 8  # of a fit that begins near its end
+EXACT = 0.01  # to which it is told; its noise tells it to about as much (N = 10 000)
+ROUNDS = 2  # in which the filters of several signals are told beside each other
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,35 +44,147 @@ class SensorFilter:
     signal: str
     share: float  # phi: of a sample's noise that was in the sample before
     time_constant: float  # [s]
+    digital: bool = False  # it takes samples, as a drive's program does; else it is fitted as a law of the sensor
 
 
-def sensor_filters(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> tuple[SensorFilter, ...]:
-    """The filters that the noise of a fit's residuals shows; none of signals that the model filters by itself."""
+def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
+    """The filters that the errors of a fit show; none of signals that the model filters by itself."""
+    residuals = problem.residuals(this.vector, this.active)
+    seen = coloured_signals(problem, residuals)
+    hidden = not seen or any(one.share >= MOST for one in seen)
+    if hidden and not statistics(problem, this).at_the_floor:
+        slow = _with_lags(problem, this)
+        residuals = problem.residuals(slow.vector, slow.active)
+        seen = coloured_signals(problem, residuals) or seen
+    if not seen:
+        return ()
+    base = _without_lags(problem, this)
+    found: dict[str, SensorFilter] = {}
+    for _ in range(ROUNDS if len(seen) > 1 else 1):  # what one signal tells depends on the others' filters
+        for one in seen:
+            others = [f for f in found.values() if f.signal != one.signal]
+            on = filtered(problem, others)
+            told = _likeliest(on, _again(base, on), found.get(one.signal, one))
+            if told is None and _nothing_else(problem, residuals, one):
+                told = one
+            found = {f.signal: f for f in (*others, told) if f is not None}
+    return tuple(found.values())
+
+
+def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
+    """The model with filters [s] by signal in its recordings' layout, beside those that are there."""
+    known = {**model.recording.filters, **filters}
+    return replace(model, recording=replace(model.recording, filters=known)) if filters else model
+
+
+def coloured_signals(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[SensorFilter]:
+    """The signals whose noise looks as if it had passed a filter, with the filter that would have done it."""
     found = []
     for signal, lag in LAGS.items():
         parts = [(run, left[signal]) for run, left in zip(problem.runs, residuals, strict=True) if signal in left]
         parts = [(run, x) for run, x in parts if _tells(run, signal, x)]
-        if not parts or lag in problem.prior.effects or lag not in problem.prior.table:
+        known = signal in problem.filters or lag in problem.prior.effects or lag not in problem.prior.table
+        if not parts or known:
             continue
         share = _share([run.masked(signal, x) for run, x in parts])
-        if LEAST < share < MOST:
+        if share > LEAST:
+            share = min(share, MOST)
             step = float(np.median([run.sample_time for run, _ in parts]))
             found.append(SensorFilter(signal=signal, share=share, time_constant=-step / float(np.log(share))))
-    return tuple(found)
+    return found
 
 
 def filtered(problem: Problem, filters: Sequence[SensorFilter]) -> Problem:
-    """The problem with the filters among what every hypothesis fits, and with noise that went through them."""
-    nuisance = tuple(
-        Nuisance(
-            effect=LAGS[f.signal], values={"time_constant": f.time_constant}, spread={"time_constant": 1.0}
-        )
-        for f in filters
-    )
-    noise = dict(problem.noise)
+    """The problem with the filters undone where they are digital, else among what every hypothesis fits."""
     for f in filters:
-        noise[f.signal] = replace(noise[f.signal], reflection=(f.share,))
-    return replace(problem, prior=replace(problem.prior, nuisance=nuisance), noise=noise)
+        problem = _undone(problem, f.signal, f.time_constant) if f.digital else _as_nuisance(problem, f)
+    return problem
+
+
+def _as_nuisance(problem: Problem, f: SensorFilter) -> Problem:
+    """The problem with an analog filter among what every hypothesis fits, and with noise that went through it."""
+    own = Nuisance(effect=LAGS[f.signal], values={"time_constant": f.time_constant}, spread={"time_constant": 1.0})
+    prior = replace(problem.prior, nuisance=(*problem.prior.nuisance, own))
+    return replace(
+        problem, prior=prior, noise={**problem.noise, f.signal: replace(problem.noise[f.signal], reflection=(f.share,))}
+    )
+
+
+def _undone(problem: Problem, signal: str, time_constant: float) -> Problem:
+    """The problem with the signal as it was before a digital filter, and with the noise that it had there."""
+    runs, whole = (
+        tuple(r.unfiltered(signal, time_constant) if r.signal(signal).size else r for r in of)
+        for of in (problem.runs, problem.whole)
+    )
+    share = _share_kept(problem, signal, time_constant)
+    noise = {**problem.noise, signal: problem.noise[signal].scaled(np.sqrt((1.0 + share) / (1.0 - share)))}
+    filters = {**problem.filters, signal: time_constant}
+    return replace(problem, runs=runs, whole=whole, noise=noise, filters=filters)
+
+
+def _share_kept(problem: Problem, signal: str, time_constant: float) -> float:
+    """phi of a filter."""
+    step = float(np.median([r.sample_time for r in problem.runs if r.signal(signal).size]))
+    return float(np.exp(-step / time_constant))
+
+
+def _with_lags(problem: Problem, this: Fit) -> Fit:
+    """The fit with the lag of every sensor: a filter that is not fitted hides its own noise."""
+    lags = (lag for s, lag in LAGS.items() if s in problem.noise and lag in problem.prior.table)
+    added = tuple(dict.fromkeys((*this.added, *(lag for lag in lags if lag not in problem.prior.effects))))
+    starts = {name: this.values_of(name) for name in this.added}
+    begun = hypothesis(problem.prior, added, problem.scales, starts, this.motor)
+    return fit(problem, begun, share=one_stage(problem.work))
+
+
+def _without_lags(problem: Problem, this: Fit) -> Fit:
+    kept = tuple(name for name in this.added if name not in LAGS.values())
+    if kept == this.added:
+        return this
+    starts = {name: this.values_of(name) for name in kept}
+    begun = hypothesis(problem.prior, kept, problem.scales, starts, this.motor)
+    return fit(problem, begun, share=one_stage(problem.work))
+
+
+def _again(this: Fit, problem: Problem) -> Fit:
+    """The same explanation fitted to a problem that may hold other filters."""
+    starts = {name: this.values_of(name) for name in this.added}
+    begun = hypothesis(problem.prior, this.added, problem.scales, starts, this.motor)
+    return fit(problem, begun, max_iterations=ITERATIONS)
+
+
+def _likeliest(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter | None:
+    """The filter, digital or analog, under which the errors are likelier than as coloured noise alone; None: neither.
+
+    By BIC: a filter has a time constant more.
+    """
+    lag = replace(seen, digital=False)
+    analog = filtered(problem, [lag])
+    sampled, score = _digital(problem, this, seen)
+    scores: dict[SensorFilter | None, float] = {
+        lag: log_likelihood(analog, _again(this, analog)),
+        None: log_likelihood(problem, this) + 0.5 * np.log(problem.samples),
+        sampled: score,
+    }
+    return max(scores, key=lambda which: scores[which])
+
+
+def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFilter, float]:
+    """The digital filter under which the errors are likeliest, and their log-likelihood."""
+    samples = sum(r.signal(seen.signal).size for r in problem.runs)
+
+    def unlikely(logarithm: float) -> float:
+        time_constant = float(np.exp(logarithm))
+        on = _undone(problem, seen.signal, time_constant)
+        shown = 1.0 - _share_kept(problem, seen.signal, time_constant)  # of what is new in a sample
+        return samples * float(np.log(shown)) - log_likelihood(on, refit(this, on, iterations=ITERATIONS))
+
+    one = float(np.log(seen.time_constant * -np.log(seen.share)))  # of the time of a sample
+    bounds = (one - float(np.log(-np.log(LEAST))), one - float(np.log(-np.log(MOST))))
+    found = minimize_scalar(unlikely, bounds=bounds, method="bounded", options={"xatol": EXACT})
+    time_constant = float(np.exp(found.x))
+    share = _share_kept(problem, seen.signal, time_constant)
+    return replace(seen, digital=True, time_constant=time_constant, share=share), -float(found.fun)
 
 
 def _tells(run: Run, signal: str, residual: Array) -> bool:
@@ -73,7 +195,7 @@ def _tells(run: Run, signal: str, residual: Array) -> bool:
 
 
 def _share(residuals: Sequence[Array]) -> float:
-    """phi of the noise of residuals (n,) each; 0 where it may be white, or is not all there is."""
+    """phi of the noise of residuals (n,) each; 0 where it may be white."""
     once, twice = (np.concatenate([_correlations(np.diff(x, n)) for x in residuals]) for n in (1, 2))
     if twice.size < 8:
         return 0.0
@@ -82,10 +204,16 @@ def _share(residuals: Sequence[Array]) -> float:
     seen = float(np.median(twice))
     if seen < expected[0] + CERTAIN * 1.25 * float(np.std(twice)) / np.sqrt(twice.size):  # deviation of a median
         return 0.0
-    share = min(float(np.interp(seen, expected, shares)), 1.0 + 2.0 * float(np.median(once)))
-    fresh = [x[1:] - share * x[:-1] for x in residuals]
+    return min(float(np.interp(seen, expected, shares)), 1.0 + 2.0 * float(np.median(once)))
+
+
+def _nothing_else(problem: Problem, residuals: Sequence[Mapping[str, Array]], seen: SensorFilter) -> bool:
+    """Whether errors are noise of this colour and nothing else."""
+    parts = [run.masked(seen.signal, r[seen.signal]) for run, r in zip(problem.runs, residuals, strict=True)
+             if seen.signal in r]  # fmt: skip
+    fresh = [x[1:] - seen.share * x[:-1] for x in parts]
     loud = max(float(np.nanmean(x**2)) / max(rough_noise(x) ** 2, 1e-300) for x in fresh)
-    return share if loud < NOTHING_ELSE else 0.0
+    return loud < NOTHING_ELSE
 
 
 def _correlations(x: Array) -> Array:

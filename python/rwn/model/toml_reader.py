@@ -188,15 +188,28 @@ def _layout(given: RecordingTable, where: str) -> Layout:
         columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples,
         start=start, end=end, decimate=given.decimate,
         intersample=known_law(given.intersample, where=f"{where} intersample"),
-        delays=_delays(given.delays, f"{where} delays"),
+        delays=_by_signal(given.delays, f"{where} delays"),
+        filters=_filters(given.filters, f"{where} filters"),
     )  # fmt: skip
 
 
-def _delays(given: dict[str, Number], where: str) -> dict[str, float]:
+def _by_signal(given: dict[str, Number], where: str) -> dict[str, float]:
+    """Times [s] by measured signal."""
     unknown_ones = [name for name in given if name not in MEASURED]
     if unknown_ones:
         raise unknown("measured signal", unknown_ones[0], MEASURED, where=where)
-    return {name: _number(delay, TIME.unit, f"{where}.{name}") for name, delay in given.items()}
+    return {name: _number(time, TIME.unit, f"{where}.{name}") for name, time in given.items()}
+
+
+def _filters(given: dict[str, Number], where: str) -> dict[str, float]:
+    found = _by_signal(given, where)
+    for name, time in found.items():
+        if not 0.0 < time < math.inf:
+            raise InputError(
+                f"the filter of the {name} has a time constant of {time:g} s", where=where, expected="a positive time",
+                fix='write for instance "2 ms"',
+            )  # fmt: skip
+    return found
 
 
 def _seconds(value: Number, where: str) -> float:

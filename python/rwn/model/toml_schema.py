@@ -29,6 +29,7 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     initial_samples: int = 20
     intersample: str = AUTO
     delays: dict[str, Number] = {}
+    filters: dict[str, Number] = {}
     start: Number | None = msgspec.field(default=None, name="from")
     end: Number | None = msgspec.field(default=None, name="to")
     decimate: int = 1

@@ -61,6 +61,7 @@ def _layout_lines(layout: Layout) -> list[str]:
     lines += [] if layout.initial_samples == 20 else [f"initial_samples = {layout.initial_samples}"]
     lines += [] if layout.intersample == "auto" else [f'intersample = "{layout.intersample}"']
     lines += [f"delays.{name} = {delay!r}  # s" for name, delay in layout.delays.items()]
+    lines += [f"filters.{name} = {tau!r}  # s" for name, tau in layout.filters.items()]
     for key, seconds in (("from", layout.start), ("to", layout.end)):
         lines += [] if seconds is None else [f"{key} = {seconds!r}  # s"]
     lines += [] if layout.decimate == 1 else [f"decimate = {layout.decimate}"]

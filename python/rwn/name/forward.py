@@ -12,8 +12,7 @@ from rwn.fit.angle import along_the_simulated_angle
 from rwn.fit.budget import affords_more, one_stage
 from rwn.fit.coarse_speed import as_shown, steps_shown, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
-from rwn.fit.fit import Fit, fit, fit_nominal, foremost, refit, refit_all
-from rwn.fit.hypothesis import hypothesis
+from rwn.fit.fit import Fit, fit_nominal, foremost, refit, refit_all
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.part import look
@@ -21,7 +20,7 @@ from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, join, statistics, statistics_of
 from rwn.fit.secant import all_down_secants
-from rwn.fit.sensor_filter import LAGS, SensorFilter, filtered, sensor_filters
+from rwn.fit.sensor_filter import SensorFilter, filtered, sensor_filters
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Pairs, Ranking, SameNoise
@@ -158,19 +157,10 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
 
 
 def _filters(problem: Problem, best: Fit) -> tuple[SensorFilter, ...]:
-    """Filters of the sensors that the noise shows which the best explanation leaves, where none is fitted yet."""
+    """Filters of the sensors that the noise shows which the best explanation leaves, where none is known yet."""
     if problem.drive.coefficients or problem.prior.nuisance:
         return ()
-    found = sensor_filters(problem, problem.residuals(best.vector, best.active))
-    lags = tuple(lag for s, lag in LAGS.items() if s in problem.noise and lag in problem.prior.table)
-    if found or set(lags) <= set(best.added) or statistics(problem, best).at_the_floor:
-        return found
-    # a filter that is not fitted hides its own noise
-    added = tuple(dict.fromkeys((*best.added, *lags)))
-    starts = {n: best.values_of(n) for n in best.added}
-    this = hypothesis(problem.prior, added, problem.scales, starts, best.motor)
-    slow = fit(problem, this, share=one_stage(problem.work))
-    return sensor_filters(problem, problem.residuals(slow.vector, slow.active))
+    return sensor_filters(problem, best)
 
 
 def _made_of(this: Fit, wanted: Sequence[str]) -> bool:

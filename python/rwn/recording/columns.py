@@ -41,9 +41,10 @@ class Layout:
     from how many samples that is read, and the state of a transfer function estimated on recordings that are not fitted
     (which they do not judge). `intersample`: how the input acted between the rows, by a name in
     `rwn.recording.intersample.INTERSAMPLE`; "auto": as the recordings show where they are fitted, and held where one is
-    simulated. `delays` [s]: by which measured signals come late. `start`, `end` [s], in the file's own time: rows
-    outside are left out; of the rest every `decimate`-th row is kept. Raises InputError where `intersample` is
-    no name of these.
+    simulated. `delays` [s]: by which measured signals come late. `filters` [s]: time constants of first-order filters
+    that the samples of measured signals went through, before they came late. `start`, `end` [s], in the file's own
+    time: rows outside are left out; of the rest every `decimate`-th row is kept. Raises InputError where `intersample`
+    is no name of these.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
@@ -52,6 +53,7 @@ class Layout:
     initial_samples: int = 20
     intersample: str = AUTO
     delays: Mapping[str, float] = field(default_factory=dict)
+    filters: Mapping[str, float] = field(default_factory=dict)
     start: float | None = None
     end: float | None = None
     decimate: int = 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,12 +21,15 @@ class FittedFilter:
     time_constant: Estimate  # [s]
 
 
-def fitted_filters(this: Fit, left: Statistics) -> tuple[FittedFilter, ...]:
-    """The filters that a fit holds as part of the measurement, with 95 % intervals; none that a model has itself."""
+def fitted_filters(this: Fit, left: Statistics, digital: Mapping[str, float]) -> tuple[FittedFilter, ...]:
+    """The filters that a fit holds as part of the measurement; none that a model has itself.
+
+    With 95 % intervals, but for `digital` ones [s] by signal, which are undone in the recordings.
+    """
     unknowns = this.hypothesis.unknowns
     fitted = {u.name: k for k, u in enumerate(unknowns) if u.nuisance}
     spread = deviations(this, left)
-    rows = []
+    rows = [FittedFilter(signal=s, time_constant=Estimate(value=tau, unit="s")) for s, tau in digital.items()]
     for signal, lag in LAGS.items():
         k = fitted.get(f"{lag}.time_constant")
         if k is None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rwn.model.model import Model
 from rwn.model.start import start_of
 from rwn.recording.delays import in_time
+from rwn.recording.filters import after_missing, before_filter, unfiltered
 from rwn.recording.intersample import AUTO, INTERSAMPLE, Acting
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
@@ -119,6 +120,17 @@ class Run:
         """The same with the input acting between the rows by a law of `rwn.recording.intersample`."""
         return replace(self, acting=INTERSAMPLE[law].acting(self.time, self.input))
 
+    def unfiltered(self, signal: str, time_constant: float) -> Run:
+        """The same with the speed or the current as it was before a first-order filter of its samples [s]."""
+        values = before_filter(self.time, self.signal(signal), time_constant)
+        missing = dict(self.missing)
+        if signal in missing:
+            missing[signal] = after_missing(missing[signal])
+        angle = integral(self.speed_measured, self.time, values) if self.angle_from_speed else self.angle
+        if signal == "speed":
+            return replace(self, missing=missing, speed=values, angle=angle)
+        return replace(self, missing=missing, current=values)
+
     def quantisation(self, signal: str) -> float:
         """Standard deviation of the quantisation of a signal; 0 where its values are multiples of no step.
 
@@ -144,7 +156,8 @@ class Run:
 
 def run_of(recording: Recording, model: Model) -> Run:
     """A recording as the core takes it; samples are at the rows' times, the input acts as the model's layout says."""
-    drive, recording = model.drive, in_time(recording, model.recording.delays)
+    drive, layout = model.drive, model.recording
+    recording = unfiltered(in_time(recording, layout.delays), layout.filters)
     signals = {name: np.array(values) for name, values in recording.signals.items()}
     given = signals[drive.input]
     time = recording.time - recording.time[0]

@@ -15,7 +15,9 @@ from rwn.errors import InputError
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
+from rwn.recording.columns import Layout
 from rwn.recording.delays import as_shown
+from rwn.recording.filters import as_filtered
 from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import run_of
@@ -56,11 +58,16 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
     elif run.in_motion:
         vector = nearest_state(simulator, run, vector, active)
     output = simulator.simulate(run, vector, active)
-    late = model.recording.delays
     wanted = [name for name in MEASURED if name in model.drive.outputs]
     return Simulation(
         time=recording.time,
-        signals={name: as_shown(run.time, output.signals[name], late.get(name, 0.0)) for name in wanted},
+        signals={name: _as_logged(name, run.time, output.signals[name], model.recording) for name in wanted},
         status=output.status,
         advice=_core.simulation_advice(output.status),
     )
+
+
+def _as_logged(name: str, time: Array, values: Array, layout: Layout) -> Array:
+    """A signal (n,) as the files of this layout show it."""
+    tau = layout.filters.get(name, 0.0)
+    return as_shown(time, as_filtered(time, values, tau) if tau else values, layout.delays.get(name, 0.0))
