@@ -36,6 +36,15 @@ class Calibration:
         z = (features(found) - np.array(self.means)) / np.array(self.deviations)
         return float(1.0 / (1.0 + np.exp(-(self.intercept + float(np.array(self.weights) @ z)))))
 
+    def probability_by(self, **known: float) -> float:
+        """The same where some features alone are known, by name; the others count as usual."""
+        z = sum(
+            weight * (_SCALES[name](known[name]) - mean) / deviation
+            for name, weight, mean, deviation in zip(FEATURES, self.weights, self.means, self.deviations, strict=True)
+            if name in known
+        )
+        return float(1.0 / (1.0 + np.exp(-(self.intercept + z))))
+
 
 def features(found: Evidence) -> Array:
     """The evidence on the scales on which it is added up, (6,)."""

@@ -13,7 +13,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.faults.fault import MOTION, SHIFT, Fault, without
+from rwn.faults.fault import MOTION, SHIFT, Fault, Removes, without
 from rwn.faults.scale import gears
 from rwn.fit.fit import Fit, fit_nominal, refit
 from rwn.fit.noise import with_noise_of
@@ -78,6 +78,12 @@ def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None
 def unexplained(doubt: Suspicion, found: Ranking) -> float:
     """Mean squared error above the noise, in units of it, that physics leaves of the recordings, shifted or not."""
     return _left(found.problem, found.closest, doubt.noise)
+
+
+def removing(fault: Fault, doubt: Suspicion, *, left: float, physics: float) -> Fault:
+    """The fault with what it removes: `left` above the noise with it undone, `physics` without."""
+    shares = (1.0 - left / max(total, left, 1e-300) for total in (doubt.before, physics))
+    return replace(fault, removes=Removes(*shares)) if fault.name == SHIFT else fault
 
 
 def rivals(*rankings: Ranking) -> list[str]:

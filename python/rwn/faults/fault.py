@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,13 @@ LINE = 4  # samples
 SURE = 0.99  # probability that is stated of a fault; those that fit alike share it
 
 
+class Removes(NamedTuple):
+    """The squared error above the noise that goes with a fault and what is beneath it."""
+
+    share: float  # of what the refitted model leaves
+    part: float  # of what the best physics leaves that does without it
+
+
 @dataclass(frozen=True, kw_only=True)
 class Fault:
     """recorded(t) = factor * true(t - delay) for each of `signals`."""
@@ -40,6 +48,7 @@ class Fault:
     delay: int = 0  # samples by which the signals come late
     step: float = 0.0  # sample time [s]
     also: tuple[str, ...] = ()  # other faults that these recordings do not tell from it
+    removes: Removes | None = None  # None: a scale that is plainly wrong
 
     def undo(self, recording: Recording) -> Recording:
         """The recording as it should have been; where a signal came late, all are cut to what is left.
@@ -69,8 +78,8 @@ class Fault:
         """The noise of the signals once it is undone."""
         return {s: n.scaled(1.0 / self.factor) if s in self.signals else n for s, n in noise.items()}
 
-    def found(self) -> FoundEffect:
-        """How a diagnosis reports it."""
+    def found(self, probability: float = SURE) -> FoundEffect:
+        """How a diagnosis reports it; `probability`: that it or one that these recordings do not tell from it is so."""
         parameters = {}
         if self.factor not in (1.0, -1.0):
             low, high = sorted(self.factor * (1.0 + times * self.spread) for times in (-1.96, 1.96))
@@ -79,7 +88,8 @@ class Fault:
         if self.delay:
             parameters["shift"] = Estimate(value=self.delay * self.step, unit="s")
         return FoundEffect(
-            name=self.name, equation=RECORDING, probability=SURE / (1 + len(self.also)), parameters=parameters,
+            name=self.name, equation=RECORDING, parameters=parameters,
+            probability=min(SURE, probability) / (1 + len(self.also)),
             meaning=self.meaning,
         )  # fmt: skip
 

@@ -15,6 +15,7 @@ from rwn.faults.delay import (
     Suspicion,
     believed,
     first_effects,
+    removing,
     rivals,
     sharpened,
     suspected,
@@ -42,6 +43,17 @@ class Rank(Protocol):
         self, of: Sequence[Recording], at_once: int = ..., *, names: Sequence[str] | None = ...,
         after: Ranking | None = ...,
     ) -> Ranking: ...  # fmt: skip
+
+
+class Settled(NamedTuple):
+    """What came of a suspicion, with what was found on the way of the recordings without the fault, or as they are."""
+
+    fault: Fault | None
+    found: Ranking | None  # None: not known
+    physics: float = 0.0  # squared error above the noise that physics leaves with the fault in the recordings
+
+
+NO_FAULT = Settled(None, None)
 
 
 class Followed(NamedTuple):
@@ -72,10 +84,12 @@ def resolved(
     made, right = _scaled(recordings, model)
     doubt = suspected(right, model)
     say("refitting the nominal model", 0.05)
-    fault, singly = _settled(doubt, right, model, ranking) if doubt else (None, None)
+    fault, singly, physics = _settled(doubt, right, model, ranking) if doubt else NO_FAULT
     if fault:
-        made, right = [*made, fault], without(right, fault)
+        right = without(right, fault)
     found = singly if singly and singly.complete else ranking(right, after=singly)
+    if doubt and fault:
+        made = [*made, removing(fault, doubt, left=unexplained(doubt, found), physics=physics)]
     gear = next((m for m in made if m.name == GEAR), None)
     if gear:
         return _geared(gear, made, recordings, model, found, ranking)
@@ -105,7 +119,7 @@ def _geared(
 
 def _settled(
     doubt: Suspicion, right: Sequence[Recording], model: Model, ranking: Rank
-) -> tuple[Fault | None, Ranking | None]:
+) -> Settled:
     """The suspected fault if it explains more, alone or beside one effect, than as many effects do by themselves.
 
     Or if all there is is explained beneath it, by however many. Where two effects explain all without it, only theirs
@@ -115,27 +129,28 @@ def _settled(
     alone = ranking(right, 1)
     physics = unexplained(doubt, alone)
     if physics <= doubt.little:
-        return None, alone
+        return Settled(None, alone)
     if doubt.after <= LITTLE:
         told = believed(doubt, left=doubt.after, physics=physics, little=doubt.little)
-        return (doubt.fault, None) if told else (None, alone)
+        return Settled(doubt.fault, None, physics) if told else Settled(None, alone)
     pairs = ranking(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(doubt, pairs) <= LITTLE
     names = first_effects(alone, pairs) if enough else None
     fault, beneath, left, exact = _followed(doubt, right, model, ranking, names)
     if not believed(doubt, left=left, physics=physics):
         if enough or not exact or left > BETTER * physics:
-            return None, pairs
+            return Settled(None, pairs)
         beneath = ranking(without(right, fault), after=beneath)
-        return (fault, beneath) if unexplained(doubt, beneath) <= LITTLE else (None, pairs)
+        told = unexplained(doubt, beneath) <= LITTLE
+        return Settled(fault, beneath, unexplained(doubt, pairs)) if told else Settled(None, pairs)
     if left > CLEAR * doubt.before:
         if not enough:
             pairs = ranking(right, 2, names=rivals(alone, beneath), after=pairs)
         if not believed(doubt, left=left, physics=unexplained(doubt, pairs)):
-            return None, pairs
+            return Settled(None, pairs)
     elif unexplained(doubt, pairs) < left + SLIGHT:
-        return None, pairs
-    return fault, beneath if exact and not enough else None
+        return Settled(None, pairs)
+    return Settled(fault, beneath if exact and not enough else None, unexplained(doubt, pairs))
 
 
 def _followed(

@@ -10,9 +10,10 @@ from rwn import _core
 from rwn._core import __version__
 from rwn.correct.correction import Correction
 from rwn.decide import excitation
+from rwn.decide.calibration import calibration
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.verdict import Verdict
-from rwn.faults.fault import Fault
+from rwn.faults.fault import SURE, Fault
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.locate.dependence import laws
 from rwn.locate.regions import regions
@@ -53,7 +54,7 @@ def assemble(
     if steps and verdict in ("adequate", "missing-physics"):
         physics, verdict = (*physics, steps), "missing-physics"
     names = (stated[0].name, *stated[0].rivals) if stated else tuple(e.name for e in physics[:1])
-    effects = (*(fault.found() for fault in faults), *physics)
+    effects = (*(fault.found(_probability(fault)) for fault in faults), *physics)
     beneath = Beneath(verdict=verdict, set=names) if faults else None
     if faults:
         verdict, names = "recording-mistake", (faults[0].name, *faults[0].also)
@@ -62,7 +63,7 @@ def assemble(
     torque_unknown = verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
     place = located(where, depends, linear=model.linear)
-    filters = fitted_filters(chosen.final, ranking.counted)
+    filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
     drawn = figures.plots(ranking, chosen, heldout, unknown, depends, correction.network, linear=model.linear)
     return Diagnosis(
         verdict=verdict,
@@ -95,6 +96,11 @@ def assemble(
         stand_in=correction.stands_in,
         corrected=correction.model,
     )
+
+
+def _probability(fault: Fault) -> float:
+    """That it is so: plainly where a scale is off, else by what it removes, as of an effect."""
+    return calibration().probability_by(**fault.removes._asdict()) if fault.removes else SURE
 
 
 def _next_experiment(ranking: Ranking, verdict: Verdict, names: Sequence[str]) -> str:
