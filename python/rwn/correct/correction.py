@@ -9,13 +9,18 @@ from rwn.correct.network import NetworkCorrection, proved_network
 from rwn.decide.decision import Decision
 from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
-from rwn.prove.heldout import heldout_error, helps
+from rwn.name.weights import RankedFit
+from rwn.prove.heldout import heldout_error, helps, likely_better
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
 
 NO_NETWORK = (
     "no wavelet network over one state helps on recordings that were not fitted: corrected.toml holds the refitted "
     "nominal model"
+)
+NOT_HELPING = (
+    "on recordings that were not fitted the simulation is better without {}, as fitted here: corrected.toml leaves it "
+    "out"
 )
 
 
@@ -41,7 +46,27 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
         warnings = (f"{decision.other.words} explains most of what is left: it has no name here",)
     elif decision.verdict == "unexplained" and not model.drive.coefficients:
         warnings = (NO_NETWORK,)
-    return Correction(decision=decision, model=fitted_model(decision.chosen.final, model), warnings=warnings)
+    kept, left_out = _proved_part(decision, heldout, seed=seed)
+    if left_out:
+        warnings = (*warnings, NOT_HELPING.format(" + ".join(left_out)))
+    return Correction(decision=decision, model=fitted_model(kept.final, model), warnings=warnings)
+
+
+def _proved_part(
+    decision: Decision, heldout: Sequence[Run], *, seed: int
+) -> tuple[RankedFit, tuple[str, ...]]:
+    """What is stated, or the part of it that is best on recordings that were not fitted; and the names left out.
+
+    That an effect acts does not make its fitted parameters good enough to predict with.
+    """
+    chosen, ranking = decision.chosen, decision.ranking
+    if not chosen.added or likely_better(decision.rows):
+        return chosen, ()
+    parts = [r for r in ranking.fits if r.added and set(r.added) < set(chosen.added)]
+    judged = [(r, proved(ranking, r, heldout, seed=seed)) for r in parts]
+    better = [(heldout_error(rows), r) for r, rows in judged if likely_better(rows)]
+    best = min(better, key=lambda pair: pair[0])[1] if better else ranking.nothing_missing
+    return best, tuple(name for name in chosen.added if name not in best.added)
 
 
 def _without_a_name(

@@ -157,6 +157,16 @@ def heldout_error(rows: Sequence[HeldoutRow]) -> float:
     return float(np.mean(shares)) if shares and np.isfinite(shares).all() else np.inf
 
 
+def likely_better(rows: Sequence[HeldoutRow]) -> bool:
+    """Whether the corrected model is better than the refitted one on the whole: by the mean logarithm of its errors."""
+    logs = [
+        float(np.log(max(r.corrected, 1e-300) / r.refitted))
+        for r in rows
+        if r.region == "all" and r.corrected is not None and r.refitted > 0.0
+    ]
+    return not logs or float(np.mean(logs)) < 0.0
+
+
 def helps(rows: Sequence[HeldoutRow]) -> bool:
     """Whether some signal is certainly better on what was not fitted, and none certainly worse."""
     gains = [r.gain_interval for r in rows if r.region == "all" and r.gain_interval is not None]
