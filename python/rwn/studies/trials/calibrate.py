@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from rwn.decide.calibration import FEATURES, Calibration, features
 from rwn.report.diagnosis import Diagnosis
+from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.grade import load_answers
 from rwn.studies.trials.run import out_of, trial_folders
 
@@ -54,16 +56,20 @@ def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
             found = out_of(trial, results / folder.name if results and len(folders) > 1 else results) / "diagnosis.json"
             if trial.name not in answers or not found.exists():
                 continue
-            answer = answers[trial.name]
-            named = answer["verdict"] == "missing-physics"
-            true = {e["name"] for e in answer["effects"]} | set(answer.get("equivalent", ())) if named else set()
-            true |= set(answer.get("also_true", ()))
+            true = _true(answers[trial.name])
             for e in Diagnosis.from_json(found.read_bytes()).account:
                 rows.append(features(e.evidence))
                 acts.append(float(bool(true & {e.name, *e.rivals})))
                 trials.append(count)
             count += 1
     return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
+
+
+def _true(answer: Mapping[str, Any]) -> set[str]:
+    """Every name that says rightly what acts, physics that the trials conceal without a name under the one it has."""
+    background = answer.get("background") or {}
+    kinds = [e["name"] for e in answer["effects"]] + ([str(background["kind"])] if "kind" in background else [])
+    return set().union(*map(known_as, kinds), answer.get("equivalent", ()), answer.get("also_true", ()))
 
 
 def calibrated(names: Names, *, what: str) -> Calibrated:
