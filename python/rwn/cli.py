@@ -45,6 +45,9 @@ def diagnose(
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of everything random.")] = 0,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processors to use (default: all).")] = None,
+    effort: Annotated[
+        float, typer.Option(min=0.1, max=1000.0, help="What the search may cost, as a multiple of the usual.")
+    ] = 1.0,
     overwrite: Overwrite = False,
 ) -> None:
     """Locate the mismatch, name the missing physics, model it and show that the simulation improves."""
@@ -59,7 +62,9 @@ def diagnose(
         files = read_recordings([*recordings, *(heldout or [])], nominal)
         fitted, judged = files[: len(recordings)], files[len(recordings) :]
         with _progress() as progress:
-            found = _rwn().diagnose(fitted, nominal, heldout=judged, seed=seed, jobs=jobs, progress=progress)
+            found = _rwn().diagnose(
+                fitted, nominal, heldout=judged, seed=seed, jobs=jobs, effort=effort, progress=progress
+            )
         used = [
             source(model, "model"),
             *(source(r, "fit") for r in fitted),

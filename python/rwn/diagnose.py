@@ -25,6 +25,8 @@ from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
 from rwn.simulate.run import judging_run
 
+LEAST_EFFORT, MOST_EFFORT = 0.1, 1000.0
+
 
 def diagnose(
     recordings: Any,
@@ -33,6 +35,7 @@ def diagnose(
     heldout: Any = (),
     seed: int = 0,
     jobs: int | None = None,
+    effort: float = 1.0,
     progress: Progress | None = None,
 ) -> Diagnosis:
     """What physics the model leaves out of these recordings, proved on recordings that were not fitted.
@@ -43,6 +46,7 @@ def diagnose(
         heldout: runs used for proof alone; without them every recording is judged by fits that did not see it.
         seed: of the block bootstrap; the result depends on input and seed alone.
         jobs: threads (default: all processors); the result does not depend on it.
+        effort: what the search may cost, as a multiple of the usual; a warning says what was not tried for it.
         progress: called with what is being done and how far it is, 0 to 1.
 
     Returns:
@@ -53,14 +57,14 @@ def diagnose(
     """
     began = time.perf_counter()
     say = progress or _silent
-    _check_options(seed, jobs)
+    _check_options(seed, jobs, effort)
     model = model_of(model)
     fitted, judged = recordings_to_fit(recordings, model), read_recordings(heldout, model)
     refuse_doubles([*fitted, *judged])
     recordings, findings = inspected(fitted)
     heldout, unseen_findings = inspected(judged)
     with crew(jobs or os.cpu_count() or 1):
-        found = explained(recordings, model, say=say)
+        found = explained(recordings, model, say=say, effort=effort)
         model = found.model
         say("proving it on data that were not fitted", 0.85)
         for fault in found.faults:
@@ -77,7 +81,14 @@ def diagnose(
         return replace(made, findings=(*findings, *found.findings, *unseen_findings))
 
 
-def _check_options(seed: int, jobs: int | None) -> None:
+def _check_options(seed: int, jobs: int | None, effort: float) -> None:
+    if isinstance(effort, bool) or not isinstance(effort, int | float) or not LEAST_EFFORT <= effort <= MOST_EFFORT:
+        raise InputError(
+            f"effort is {effort!r}",
+            where="diagnose",
+            expected=f"a number from {LEAST_EFFORT:g} to {MOST_EFFORT:g}",
+            fix="pass effort=3",
+        )
     for name, value, least in (("seed", seed, 0), ("jobs", 1 if jobs is None else jobs, 1)):
         if isinstance(value, bool) or not isinstance(value, int) or value < least:
             raise InputError(

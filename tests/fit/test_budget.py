@@ -126,6 +126,17 @@ def test_pairs_that_are_known_are_weighed_though_nothing_is_left_to_try_more() -
     assert not again.cut_short  # what is left is noise: nothing more would have been tried
 
 
+def test_more_effort_leaves_more() -> None:
+    usual, more, less = (budget.meter(effort) for effort in (1.0, 3.0, 0.5))
+    assert budget.left(usual) == budget.TOTAL
+    assert budget.left(more) == pytest.approx(3.0 * budget.TOTAL)
+    assert budget.left(less) == pytest.approx(0.5 * budget.TOTAL)
+    names = ["unbalance", "quadratic-drag"]
+    both = recorded(1, lambda speed, angle: -0.004 * np.sin(angle) - 1e-5 * speed * abs(speed), 1000)
+    problem = prepare([both], rwn.Model(kind="dc", parameters=MOTOR), work=budget.meter(0.1))
+    assert rank(problem, progress=lambda *_: None, names=names).cut_short == 2
+
+
 @pytest.mark.slow
 def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     model = rwn.Model(kind="dc", parameters=MOTOR)

@@ -26,7 +26,7 @@ from rwn.name.ranking import Ranking
 from rwn.name.screening import FURTHER
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
-from rwn.recording.recording import Recording
+from rwn.recording.recording import Recording, beginnings
 
 Array = NDArray[np.float64]
 
@@ -58,6 +58,7 @@ class Suspicion:
 
 def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None:
     """A shift or a gear that explains a good part of what the refitted model leaves; physics may yet do better."""
+    recordings = beginnings(recordings)
     problem = prepare(recordings, model)
     weighted = with_noise_of(problem, fit_nominal(problem))
     nominal = fit_nominal(weighted)

@@ -55,22 +55,26 @@ class Explained:
         return tuple(found)
 
 
-def explained(recordings: Sequence[Recording], model: Model, *, say: Progress) -> Explained:
+def explained(
+    recordings: Sequence[Recording], model: Model, *, say: Progress, effort: float = 1.0
+) -> Explained:
     """The explanation; found once more where the best one tells otherwise how the input acted.
+
+    `effort`: what the search may cost, as a multiple of the usual.
 
     Raises InputError where a recording does not fit the model.
     """
     late = late_enables(recordings, model)
     on = powered(recordings, late, model)
     stated = with_intersample(on, model)
-    faults, ranking = resolved(_as_acted(on, stated), stated, say=say)
+    faults, ranking = resolved(_as_acted(on, stated), stated, say=say, effort=effort)
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
     again = stated
     if stated is not model and stated.recording.intersample != HELD:  # what is missing may look like another law
         again = stating(stated, likeliest(ranking.problem, best))
     if (still, again) != (late, stated):
-        faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say)
+        faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say, effort=effort)
     again = stating_filters(again, ranking.problem.filters)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple, Protocol
 
-from rwn import _core
 from rwn.faults.delay import (
     BETTER,
     CLEAR,
@@ -24,7 +23,7 @@ from rwn.faults.delay import (
 from rwn.faults.fault import GEAR, Fault, without
 from rwn.faults.gear import gear_ratio
 from rwn.faults.scale import as_gear, wrong_scale
-from rwn.fit.budget import affords_more
+from rwn.fit.budget import affords_more, meter
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import MOST_EFFECTS, Progress, rank
@@ -66,11 +65,11 @@ class Followed(NamedTuple):
 
 
 def resolved(
-    recordings: Sequence[Recording], model: Model, *, say: Progress
+    recordings: Sequence[Recording], model: Model, *, say: Progress, effort: float = 1.0
 ) -> tuple[list[Fault], Ranking]:
-    """Faults of the recordings, and what explains these when they are undone."""
+    """Faults of the recordings, and what explains these when they are undone; `effort`: see `budget.meter`."""
 
-    work = _core.Work()
+    work = meter(effort)
 
     def ranking(
         of: Sequence[Recording], at_once: int = MOST_EFFECTS, *, names: Sequence[str] | None = None,

@@ -18,7 +18,7 @@ from rwn.faults.likeness import FAR, Likeness
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
-from rwn.recording.recording import Recording
+from rwn.recording.recording import Recording, beginnings
 from rwn.recording.smoothing import smooth
 from rwn.simulate.run import Run
 
@@ -52,6 +52,7 @@ LEAST_FORCE = 0.3  # correlation of a force with what the motion takes, below wh
 
 def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """A unit, sign or gear ratio that is plainly wrong; None where the scale of every signal is believable."""
+    recordings = beginnings(recordings)
     if model.drive.force:
         return _of_axis(recordings, model)
     seen = _likeness(recordings, model)

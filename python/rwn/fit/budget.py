@@ -16,6 +16,13 @@ LEAST = 0.1  # of the total, that counts as left at least
 RESERVE = 0.3  # of the total, that is left for what is promising rather than spent on what has not been tried
 
 
+def meter(effort: float = 1.0) -> _core.Work:
+    """A meter of a search that may cost `effort` times the usual total: the rest is credited to it beforehand."""
+    work = _core.Work()
+    work.add(round((1.0 - effort) * TOTAL))
+    return work
+
+
 def left(work: _core.Work) -> float:
     """What is left of the total."""
     return max(TOTAL - work.done, LEAST * TOTAL)

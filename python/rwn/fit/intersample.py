@@ -16,7 +16,7 @@ from rwn.model.start import CERTAIN
 from rwn.parallel import side_by_side
 from rwn.recording.clock import clock_of
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
-from rwn.recording.recording import Recording
+from rwn.recording.recording import Recording, beginnings
 
 MOST_OFF = 0.5  # share of the rows: where more are off, that is the noise of the current
 ITERATIONS = 8  # of a fit that begins near its end
@@ -29,7 +29,7 @@ def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
     """
     if model.recording.intersample != AUTO or model.drive.coefficients:
         return model
-    return stating(model, likeliest(*nominal_of(recordings, stating(model, HELD))))
+    return stating(model, likeliest(*nominal_of(beginnings(recordings), stating(model, HELD))))
 
 
 def likeliest(problem: Problem, this: Fit) -> str:

@@ -48,7 +48,7 @@ class _Grown(NamedTuple):
     pairs: Pairs
     paired: bool  # some have several effects
     complete: bool  # more effects at once would not help
-    cut_short: bool  # more would have been tried, but for what that costs
+    cut_short: int  # so many effects at once would have been tried, but for what that costs; 0: none
 
 
 def rank(
@@ -96,7 +96,7 @@ def rank(
         pairs=grown.pairs,
         speed_steps=steps_shown(problem, best),
         complete=names is None and (grown.complete or at_once >= MOST_EFFECTS),
-        cut_short=grown.cut_short and not left.at_the_floor,
+        cut_short=0 if left.at_the_floor else grown.cut_short,
         at_a_limit=tuple(f for f in at_a_limit if f.cost < best.cost),
     )
 
@@ -108,12 +108,12 @@ def _grown(
     problem = alone.problem
     _, left = _best_of(problem, [alone.nominal, *fits])
     bases = _varied(fits)
-    complete, paired, cut_short = left.at_the_floor or not bases, False, False
+    complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     for size in range(2, at_once + 1):
         if complete:
             break
         known = pairs if size == 2 else NO_PAIRS
-        cut_short = not affords_more(problem.work)
+        cut_short = 0 if affords_more(problem.work) else size
         if cut_short and not known.fits:
             break
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)

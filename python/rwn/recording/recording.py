@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -23,6 +23,8 @@ from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+
+ENOUGH = 50_000  # rows that tell how a recording was made: mean squares of so many samples are known to 0.6 %
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,10 +80,23 @@ class Recording:
             digest.update(values.data)
         return digest.hexdigest()
 
+    def beginning(self, rows: int) -> Recording:
+        """Its first `rows` rows."""
+        if len(self) <= rows:
+            return self
+        signals = {name: values[:rows] for name, values in self.signals.items()}
+        missing = {name: lost[:rows] for name, lost in self.missing.items()}
+        return replace(self, time=self.time[:rows], signals=signals, missing=missing)
+
     @property
     def duration(self) -> float:
         """From the first to the last sample [s]."""
         return float(self.time[-1] - self.time[0]) if len(self) else 0.0
+
+
+def beginnings(recordings: Sequence[Recording]) -> list[Recording]:
+    """As much of each recording as tells how it was made."""
+    return [r.beginning(ENOUGH) for r in recordings]
 
 
 def _vector(name: str, signal: str, values: Any) -> Array:

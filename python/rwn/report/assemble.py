@@ -135,8 +135,8 @@ def _warnings(
             )
     if ranking.cut_short:
         texts.append(
-            "more effects at once were not tried, since the search had cost what it may: recordings of fewer samples, "
-            "without the parts that say little, leave room for them"
+            f"{ranking.cut_short} effects at once were not tried, since the search had cost what it may: --effort 3 "
+            "leaves room for them, and so do recordings of fewer samples, without the parts that say little"
         )
     for f in ranking.at_a_limit[:1]:
         texts.append(
