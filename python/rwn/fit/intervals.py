@@ -37,13 +37,21 @@ def deviations(this: Fit, left: Statistics) -> Array:
     return result
 
 
-def estimates(this: Fit, left: Statistics, *, widened: float = 1.0) -> dict[str, Estimate]:
-    """Value and 95 % interval of every unknown on which something depends, cut at its bounds.
+@dataclass(frozen=True, kw_only=True)
+class Doubt:
+    """What makes the values of a fit less sure than its noise."""
 
-    `widened`: how much farther apart than their deviations values lie that were fitted to parts of the recordings.
-    """
+    apart: float = 1.0  # how much farther apart than their deviations values lie that were fitted to parts
+    bent: float = 0.0  # relative standard deviation by what the fit does not explain
+
+
+NO_DOUBT = Doubt()
+
+
+def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[str, Estimate]:
+    """Value and 95 % interval of every unknown on which something depends, cut at its bounds."""
     seen = np.diag(this.minimum.information) > 0.0
-    spread = np.hypot(widened * deviations(this, left), _systematic(this))
+    spread = np.hypot(doubt.apart * deviations(this, left), _systematic(this, doubt.bent))
     found = {}
     for u, value, std, known in zip(this.hypothesis.unknowns, this.minimum.values, spread, seen, strict=True):
         if u.nuisance or not known:
@@ -59,15 +67,18 @@ def estimates(this: Fit, left: Statistics, *, widened: float = 1.0) -> dict[str,
     return found
 
 
-def _systematic(this: Fit) -> Array:
-    """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians."""
+def _systematic(this: Fit, bent: float) -> Array:
+    """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians.
+
+    `bent`: what is added to that part, in quadrature.
+    """
     known = this.hypothesis.table
     angles = {f"{name}.{p.name}" for name in this.added for p in known[name].parameters if p.cyclic}
     contacts = rough(this.hypothesis)
     pairs = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
     return np.array(
         [
-            (IDEALISED if k in contacts else AGREEMENT) * (1.0 if u.name in angles else abs(v))
+            np.hypot(IDEALISED if k in contacts else AGREEMENT, bent) * (1.0 if u.name in angles else abs(v))
             for k, (u, v) in enumerate(pairs)
         ]
     )

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rwn.fit.intervals import Estimate, estimates
+from rwn.fit.intervals import NO_DOUBT, Doubt, Estimate, estimates
 from rwn.model.vocabulary import Effect
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
@@ -30,14 +30,11 @@ class FoundEffect:
 
 
 def found_effects(
-    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float], *, widened: float = 1.0
+    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float], *, doubt: Doubt = NO_DOUBT
 ) -> tuple[FoundEffect, ...]:
-    """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts).
-
-    `widened`: see `estimates`.
-    """
+    """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts)."""
     final = chosen.final
-    numbers, known = estimates(final, ranking.counted, widened=widened), final.hypothesis.table
+    numbers, known = estimates(final, ranking.counted, doubt=doubt), final.hypothesis.table
     if ranking.problem.simulator.angle_per_position != 1.0:
         numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
     rows = []

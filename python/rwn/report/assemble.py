@@ -11,9 +11,11 @@ from rwn._core import __version__
 from rwn.correct.correction import Correction
 from rwn.decide import excitation
 from rwn.decide.calibration import calibration
+from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.verdict import Verdict
 from rwn.faults.fault import SURE, Fault
+from rwn.fit.intervals import Doubt
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.locate.dependence import laws
 from rwn.locate.regions import regions
@@ -48,8 +50,8 @@ def assemble(
         for r in problem.runs
     ]
     named = verdict == "missing-physics"
-    stated, birge = decision.account.stated, decision.account.birge
-    physics = found_effects(ranking, chosen, {e.name: e.probability for e in stated}, widened=birge) if named else ()
+    stated, doubt = decision.account.stated, _doubt(decision)
+    physics = found_effects(ranking, chosen, {e.name: e.probability for e in stated}, doubt=doubt) if named else ()
     steps = coarse_speed(ranking)
     if steps and verdict in ("adequate", "missing-physics"):
         physics, verdict = (*physics, steps), "missing-physics"
@@ -81,7 +83,7 @@ def assemble(
             if r is not chosen and r.added and r.probability > 1e-3
         ),
         location=Location(equation=equation, regions=where, description=place),
-        nominal_fit=nominal_fit(ranking, chosen, model, widened=birge),
+        nominal_fit=nominal_fit(ranking, chosen, model, doubt=doubt),
         heldout=rows,
         curves=drawn,
         sensor_filters=filters,
@@ -96,6 +98,13 @@ def assemble(
         stand_in=correction.stands_in,
         corrected=correction.model,
     )
+
+
+def _doubt(decision: Decision) -> Doubt:
+    """Of the parameters of what is stated: what is left of the mismatch may have bent them."""
+    left = decision.remainder
+    share = float(np.clip(left.share, 0.0, 1.0)) if left.signals else 0.0
+    return Doubt(apart=decision.account.birge, bent=calibration().bent * float(np.sqrt(share)))
 
 
 def _probability(fault: Fault) -> float:

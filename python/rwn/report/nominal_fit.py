@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from rwn.fit.intervals import Estimate, estimates
+from rwn.fit.intervals import NO_DOUBT, Doubt, Estimate, estimates
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
@@ -39,10 +39,10 @@ class NominalFit:
     advice: str = ""
 
 
-def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, widened: float = 1.0) -> NominalFit:
-    """Nominal parameters: as given, refitted alone, and together with the found effects, with intervals `widened`."""
+def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, doubt: Doubt = NO_DOUBT) -> NominalFit:
+    """Nominal parameters: as given, refitted alone, and together with the found effects, with intervals by `doubt`."""
     alone = estimates(ranking.nominal, ranking.before)
-    together = estimates(chosen.final, ranking.counted, widened=widened) if chosen.added else {}
+    together = estimates(chosen.final, ranking.counted, doubt=doubt) if chosen.added else {}
     rows = {}
     given = dict(model.parameters) or dict(ranking.problem.prior.free)
     for name, value in given.items():

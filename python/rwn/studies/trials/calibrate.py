@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,9 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.decide.calibration import FEATURES, Calibration, features
+from rwn.decide.account import Remainder
+from rwn.decide.calibration import FEATURES, Calibration, calibration, features
+from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.grade import load_answers
@@ -22,6 +24,8 @@ from rwn.studies.trials.run import out_of, trial_folders
 Array = NDArray[np.float64]
 
 RIDGES = (1.0, 3.0, 10.0, 30.0)  # inverse variances of the weights' prior, per standard deviation of a feature
+COVERED = 0.95
+HALF_WIDTH = 1.96  # of an interval that covers so much, in standard deviations
 FOLDS = 10  # of the cross-validation; all names of a trial are in one
 
 
@@ -49,20 +53,23 @@ class Calibrated:
 def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
     """Every effect of the leading explanations of all trials that have a diagnosis."""
     rows, acts, trials = [], [], []
-    count = 0
+    for count, (answer, diagnosis) in enumerate(_diagnosed(folders, results)):
+        true = _true(answer)
+        for e in diagnosis.account:
+            rows.append(features(e.evidence))
+            acts.append(float(bool(true & {e.name, *e.rivals})))
+            trials.append(count)
+    return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
+
+
+def _diagnosed(folders: Sequence[Path], results: Path | None) -> Iterator[tuple[Mapping[str, Any], Diagnosis]]:
+    """The answer and the diagnosis of every trial that has both."""
     for folder in folders:
         _, answers = load_answers(folder)
         for trial in trial_folders(folder):
             found = out_of(trial, results / folder.name if results and len(folders) > 1 else results) / "diagnosis.json"
-            if trial.name not in answers or not found.exists():
-                continue
-            true = _true(answers[trial.name])
-            for e in Diagnosis.from_json(found.read_bytes()).account:
-                rows.append(features(e.evidence))
-                acts.append(float(bool(true & {e.name, *e.rivals})))
-                trials.append(count)
-            count += 1
-    return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
+            if trial.name in answers and found.exists():
+                yield answers[trial.name], Diagnosis.from_json(found.read_bytes())
 
 
 def _true(answer: Mapping[str, Any]) -> set[str]:
@@ -72,7 +79,34 @@ def _true(answer: Mapping[str, Any]) -> set[str]:
     return set().union(*map(known_as, kinds), answer.get("equivalent", ()), answer.get("also_true", ()))
 
 
-def calibrated(names: Names, *, what: str) -> Calibrated:
+def bent(folders: Sequence[Path], *, results: Path | None = None) -> float:
+    """Relative deviation of a parameter over the root of the share of the mismatch that a right name leaves.
+
+    Such that 95 % of all intervals cover; 0 where there are none.
+    """
+    needed = [
+        _bent_by(estimate, float(answered["value"]), diagnosis.remainder)
+        for answer, diagnosis in _diagnosed(folders, results)
+        for effect in diagnosis.effects
+        for true in (e.get("parameters", {}) for e in answer["effects"] if e["name"] == effect.name)
+        for name, estimate in effect.parameters.items()
+        if estimate.interval and estimate.value and (answered := true.get(name)) and answered["value"]
+    ]
+    return float(np.quantile(needed, COVERED, method="higher")) if needed else 0.0
+
+
+def _bent_by(estimate: Estimate, true: float, left: Remainder) -> float:
+    """What an interval needs to cover the truth, over the root of what is left; as a logarithm where that is less."""
+    low, high = estimate.interval or (np.nan, np.nan)
+    root = float(np.sqrt(np.clip(left.share, 0.0, 1.0))) if left.signals else 0.0
+    ratio = true / estimate.value
+    error = min(abs(ratio - 1.0), abs(np.log(ratio)) if ratio > 0.0 else np.inf) / HALF_WIDTH
+    noise = ((high - low) / (2.0 * HALF_WIDTH * estimate.value)) ** 2 - (calibration().bent * root) ** 2
+    more = float(np.sqrt(max(error**2 - noise, 0.0)))
+    return more / root if root else (np.inf if more else 0.0)
+
+
+def calibrated(names: Names, *, what: str, bent: float = 0.0) -> Calibrated:
     """The calibration by all names; its reliability, and the prior of its weights, by those of trials left out.
 
     Raises ValueError where there are too few names to learn from.
@@ -87,7 +121,7 @@ def calibrated(names: Names, *, what: str) -> Calibrated:
     edges = np.array([0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 + 1e-9])
     bins = [(a, b, (unseen >= a) & (unseen < b)) for a, b in pairwise(edges)]
     return Calibrated(
-        calibration=_fitted(names.features, names.acts, what, ridge),
+        calibration=replace(_fitted(names.features, names.acts, what, ridge), bent=bent),
         names=names.acts.size,
         trials=int(np.unique(names.trial).size),
         acting=int(names.acts.sum()),
@@ -156,5 +190,6 @@ def words(found: Calibrated) -> str:
         ),
         "weight per standard deviation of a feature: "
         + ", ".join(f"{n} {w:+.2f}" for n, w in zip(FEATURES, found.calibration.weights, strict=True)),
+        f"a parameter is bent by {found.calibration.bent:.2f} times the root of the share of the mismatch that is left",
     ]
     return "\n".join(lines)
