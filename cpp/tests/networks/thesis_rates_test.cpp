@@ -137,6 +137,7 @@ void expect_recurrent(const Rule& rule, const RecurrentNetwork& net, const Const
   const RecurrentRateValues wanted = by_hand(net, x, k);
   for (std::size_t g = 0; g < wanted.size(); ++g) {
     EXPECT_NEAR(rates->bounds()[g] / wanted[g], 1.0, 1e-12) << "group " << g << " of " << net.inputs() << " inputs";
+    EXPECT_NEAR(rates->rates()[g] * wanted[g] * wanted[g] / (2.0 * kTiny), 1.0, 1e-11) << "group " << g;
   }
 }
 
@@ -194,6 +195,7 @@ TEST(ThesisRates, TheReportIsOfTheWaveletsAndNotOfThePadding) {
     rates->train(run, r.signals());
     EXPECT_NEAR(rates->report.smallest_dilation, 5.0, 1e-6);
     EXPECT_NEAR(rates->report.recurrence, 0.2, 1e-6);
+    EXPECT_NEAR(rates->report.condition / plant_gain_by_eigen(net.plant()).condition, 1.0, 1e-3);
   }
 }
 
