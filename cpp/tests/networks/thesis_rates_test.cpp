@@ -67,6 +67,20 @@ StructuredRateValues by_hand(const StructuredNetwork& net, const StructuredSigna
           net_gain * translation * k.phi};
 }
 
+/// With running maxima the kernel itself makes the rates of a bound; it returns the sum of squared errors.
+template <class Run, class Rule, class Network, class Signals, class Mask, class Values>
+void expect_running(Rule rule, const Network& net, const Signals& signals, const Mask& learn, const Values& wanted,
+                    double squares) {
+  rule.maxima = Maxima::running;
+  Run run(net);
+  const auto rates = rule.on(net, learn);
+  EXPECT_NEAR(rates->train(run, signals) / squares, 1.0, 1e-12);
+  for (std::size_t g = 0; g < wanted.size(); ++g) {
+    EXPECT_NEAR(rates->bounds()[g] / wanted[g], 1.0, 1e-11) << "group " << g;
+    EXPECT_NEAR(rates->rates()[g] * wanted[g] * wanted[g] / (2.0 * kTiny), 1.0, 1e-10) << "group " << g;
+  }
+}
+
 template <class Rule>
 void expect_structured(const Rule& rule, const StructuredNetwork& net, const Constants& k, bool misprint = false) {
   const Recording r(900);
@@ -78,6 +92,8 @@ void expect_structured(const Rule& rule, const StructuredNetwork& net, const Con
     EXPECT_NEAR(rates->bounds()[g] / wanted[g], 1.0, 1e-11) << "group " << g;
     EXPECT_NEAR(rates->rates()[g] * wanted[g] * wanted[g] / (2.0 * kTiny), 1.0, 1e-10) << "group " << g;
   }
+  const double squares = (r.speed - simulate(net, r.signals())).squaredNorm();
+  expect_running<StructuredRun>(rule, net, r.signals(), kAll, wanted, squares);
 }
 
 TEST(ThesisRates, BoundsOfTheStructuredNetwork) {
@@ -139,6 +155,8 @@ void expect_recurrent(const Rule& rule, const RecurrentNetwork& net, const Const
     EXPECT_NEAR(rates->bounds()[g] / wanted[g], 1.0, 1e-12) << "group " << g << " of " << net.inputs() << " inputs";
     EXPECT_NEAR(rates->rates()[g] * wanted[g] * wanted[g] / (2.0 * kTiny), 1.0, 1e-11) << "group " << g;
   }
+  const double squares = (y - simulate(net, x)).squaredNorm();
+  expect_running<RecurrentRun>(rule, net, RecurrentSignals{x, y}, kEvery, wanted, squares);
 }
 
 TEST(ThesisRates, BoundsOfTheRecurrentNetwork) {
@@ -150,6 +168,36 @@ TEST(ThesisRates, BoundsOfTheRecurrentNetwork) {
         expect_recurrent(TightenedRates{kTiny, Maxima::pre_pass, false}, net, own(net.wavelet()));
       }
     }
+  }
+}
+
+/// Parameters with c of every wavelet at a ratio of its d; the last 2 n are d and c.
+Vector at_recurrence(Vector theta, Eigen::Index n, double ratio) {
+  theta.tail(n) = ratio * theta.segment(theta.size() - 2 * n, n);
+  return theta;
+}
+
+TEST(ThesisRates, TheBoundsEndWhereTheRecurrenceReachesOne) {
+  const Recording r(200);
+  const Vector y = Vector::Ones(200);
+  for (double ratio : {0.7, 1.3}) {
+    const StructuredNetwork structured(at_recurrence(network(15, 1).theta(), 15, ratio), Wavelet());
+    StructuredRun run(structured);
+    const auto rates = ThesisRates{1e-9}.on(structured, kAll);
+    rates->train(run, r.signals());
+    Vector after = structured.theta();
+    run.save(after);
+    EXPECT_EQ((after - structured.theta()).norm() > 0.0, ratio < 1.0);
+    EXPECT_EQ(rates->report.recurrent, ratio < 1.0 ? 0 : 199);
+
+    const RecurrentNetwork net(at_recurrence(recurrent(1, 15, Wavelet()).theta(), 15, ratio), 1, Wavelet());
+    RecurrentRun loop(net);
+    const auto looped = ThesisRates{1e-9}.on(net, kEvery);
+    looped->train(loop, {r.speed, y});
+    const Vector learned = loop.theta();
+    EXPECT_EQ((learned - net.theta()).tail(45).norm() > 0.0, ratio < 1.0);
+    EXPECT_GT((learned - net.theta()).head(17).norm(), 0.0);
+    EXPECT_EQ(looped->report.recurrent, ratio < 1.0 ? 0 : 200);
   }
 }
 
