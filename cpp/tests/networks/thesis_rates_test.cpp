@@ -201,6 +201,37 @@ TEST(ThesisRates, TheBoundsEndWhereTheRecurrenceReachesOne) {
   }
 }
 
+/// A motor with v1 .. v5 as given and 7 wavelets, learning at every sample of a short recording.
+struct Learned {
+  RateReport report;
+  double moved;
+  explicit Learned(const Vector& v) : moved(0.0) {
+    Vector theta = network(7, 1).theta();
+    theta.head(5) = v;
+    const StructuredNetwork net(theta, Wavelet());
+    const Recording r(50);
+    StructuredRun run(net);
+    const auto rates = ThesisRates{1e-9}.on(net, kAll);
+    rates->train(run, r.signals());
+    run.save(theta);
+    report = rates->report;
+    moved = (theta - net.theta()).norm();
+  }
+};
+
+TEST(ThesisRates, WhatHasNoBoundIsCountedAndNotLearnedFrom) {
+  const Learned stable(Vector{{0.06, 0.5, 0.055, 0.125, 0.95}});
+  EXPECT_EQ(stable.report.unstable, 0);
+  EXPECT_EQ(stable.report.defective, 0);
+  EXPECT_GT(stable.moved, 0.0);
+  const Learned unstable(Vector{{0.06, 0.5, 0.055, 0.125, 1.5}});  // rho(A) between 1 and 2
+  EXPECT_EQ(unstable.report.unstable, 49);
+  EXPECT_EQ(unstable.moved, 0.0);
+  const Learned defective(Vector{{0.125, 1.0, 0.5, 0.0625, 0.625}});  // the eigenvalues meet, in exact numbers
+  EXPECT_EQ(defective.report.defective, 49);
+  EXPECT_EQ(defective.moved, 0.0);
+}
+
 TEST(ThesisRates, TheFractionIsSharedAmongTheGroupsThatLearn) {
   const StructuredNetwork net = network(7, 3);
   const Recording r(300);
