@@ -45,6 +45,7 @@ KNOWN = {
     "gain < 1e300": "no test comes near 1e300: the bound is meaningless long before",
     "discriminant >= 0.0": "at 0 both formulas are the same",
     "load(at + kShape * width)": "kShape is 0: adding and subtracting it is the same",
+    "v + kWeightRow * width": "kWeightRow is 0: adding, subtracting and dividing it is the same",
 }
 MINIMUM = """\
 RWN_INLINE double min_of(double a, double b) { return a < b ? a : b; }

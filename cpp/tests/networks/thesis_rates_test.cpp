@@ -67,6 +67,20 @@ StructuredRateValues by_hand(const StructuredNetwork& net, const StructuredSigna
           net_gain * translation * k.phi};
 }
 
+/// With running maxima the kernel itself makes the rates of a bound; it returns the sum of squared errors.
+template <class Run, class Rule, class Network, class Signals, class Mask, class Values>
+void expect_running(Rule rule, const Network& net, const Signals& signals, const Mask& learn, const Values& wanted,
+                    double squares) {
+  rule.maxima = Maxima::running;
+  Run run(net);
+  const auto rates = rule.on(net, learn);
+  EXPECT_NEAR(rates->train(run, signals) / squares, 1.0, 1e-12);
+  for (std::size_t g = 0; g < wanted.size(); ++g) {
+    EXPECT_NEAR(rates->bounds()[g] / wanted[g], 1.0, 1e-11) << "group " << g;
+    EXPECT_NEAR(rates->rates()[g] * wanted[g] * wanted[g] / (2.0 * kTiny), 1.0, 1e-10) << "group " << g;
+  }
+}
+
 template <class Rule>
 void expect_structured(const Rule& rule, const StructuredNetwork& net, const Constants& k, bool misprint = false) {
   const Recording r(900);
@@ -78,6 +92,8 @@ void expect_structured(const Rule& rule, const StructuredNetwork& net, const Con
     EXPECT_NEAR(rates->bounds()[g] / wanted[g], 1.0, 1e-11) << "group " << g;
     EXPECT_NEAR(rates->rates()[g] * wanted[g] * wanted[g] / (2.0 * kTiny), 1.0, 1e-10) << "group " << g;
   }
+  const double squares = (r.speed - simulate(net, r.signals())).squaredNorm();
+  expect_running<StructuredRun>(rule, net, r.signals(), kAll, wanted, squares);
 }
 
 TEST(ThesisRates, BoundsOfTheStructuredNetwork) {
@@ -137,7 +153,10 @@ void expect_recurrent(const Rule& rule, const RecurrentNetwork& net, const Const
   const RecurrentRateValues wanted = by_hand(net, x, k);
   for (std::size_t g = 0; g < wanted.size(); ++g) {
     EXPECT_NEAR(rates->bounds()[g] / wanted[g], 1.0, 1e-12) << "group " << g << " of " << net.inputs() << " inputs";
+    EXPECT_NEAR(rates->rates()[g] * wanted[g] * wanted[g] / (2.0 * kTiny), 1.0, 1e-11) << "group " << g;
   }
+  const double squares = (y - simulate(net, x)).squaredNorm();
+  expect_running<RecurrentRun>(rule, net, RecurrentSignals{x, y}, kEvery, wanted, squares);
 }
 
 TEST(ThesisRates, BoundsOfTheRecurrentNetwork) {
@@ -150,6 +169,67 @@ TEST(ThesisRates, BoundsOfTheRecurrentNetwork) {
       }
     }
   }
+}
+
+/// Parameters with c of every wavelet at a ratio of its d; the last 2 n are d and c.
+Vector at_recurrence(Vector theta, Eigen::Index n, double ratio) {
+  theta.tail(n) = ratio * theta.segment(theta.size() - 2 * n, n);
+  return theta;
+}
+
+TEST(ThesisRates, TheBoundsEndWhereTheRecurrenceReachesOne) {
+  const Recording r(200);
+  const Vector y = Vector::Ones(200);
+  for (double ratio : {0.7, 1.3}) {
+    const StructuredNetwork structured(at_recurrence(network(15, 1).theta(), 15, ratio), Wavelet());
+    StructuredRun run(structured);
+    const auto rates = ThesisRates{1e-9}.on(structured, kAll);
+    rates->train(run, r.signals());
+    Vector after = structured.theta();
+    run.save(after);
+    EXPECT_EQ((after - structured.theta()).norm() > 0.0, ratio < 1.0);
+    EXPECT_EQ(rates->report.recurrent, ratio < 1.0 ? 0 : 199);
+
+    const RecurrentNetwork net(at_recurrence(recurrent(1, 15, Wavelet()).theta(), 15, ratio), 1, Wavelet());
+    RecurrentRun loop(net);
+    const auto looped = ThesisRates{1e-9}.on(net, kEvery);
+    looped->train(loop, {r.speed, y});
+    const Vector learned = loop.theta();
+    EXPECT_EQ((learned - net.theta()).tail(45).norm() > 0.0, ratio < 1.0);
+    EXPECT_GT((learned - net.theta()).head(17).norm(), 0.0);
+    EXPECT_EQ(looped->report.recurrent, ratio < 1.0 ? 0 : 200);
+  }
+}
+
+/// A motor with v1 .. v5 as given and 7 wavelets, learning at every sample of a short recording.
+struct Learned {
+  RateReport report;
+  double moved;
+  explicit Learned(const Vector& v) : moved(0.0) {
+    Vector theta = network(7, 1).theta();
+    theta.head(5) = v;
+    const StructuredNetwork net(theta, Wavelet());
+    const Recording r(50);
+    StructuredRun run(net);
+    const auto rates = ThesisRates{1e-9}.on(net, kAll);
+    rates->train(run, r.signals());
+    run.save(theta);
+    report = rates->report;
+    moved = (theta - net.theta()).norm();
+  }
+};
+
+TEST(ThesisRates, WhatHasNoBoundIsCountedAndNotLearnedFrom) {
+  const Learned stable(Vector{{0.06, 0.5, 0.055, 0.125, 0.95}});
+  EXPECT_EQ(stable.report.unstable, 0);
+  EXPECT_EQ(stable.report.defective, 0);
+  EXPECT_GT(stable.moved, 0.0);
+  const Learned unstable(Vector{{0.06, 0.5, 0.055, 0.125, 1.5}});  // rho(A) between 1 and 2
+  EXPECT_EQ(unstable.report.unstable, 49);
+  EXPECT_EQ(unstable.moved, 0.0);
+  const Learned defective(Vector{{0.125, 1.0, 0.5, 0.0625, 0.625}});  // the eigenvalues meet, in exact numbers
+  EXPECT_EQ(defective.report.defective, 49);
+  EXPECT_EQ(defective.moved, 0.0);
 }
 
 TEST(ThesisRates, TheFractionIsSharedAmongTheGroupsThatLearn) {
@@ -194,6 +274,9 @@ TEST(ThesisRates, TheReportIsOfTheWaveletsAndNotOfThePadding) {
     rates->train(run, r.signals());
     EXPECT_NEAR(rates->report.smallest_dilation, 5.0, 1e-6);
     EXPECT_NEAR(rates->report.recurrence, 0.2, 1e-6);
+    const PlantGain plant = plant_gain_by_eigen(net.plant());
+    EXPECT_NEAR(rates->report.condition / plant.condition, 1.0, 1e-3);
+    EXPECT_NEAR(rates->report.spectral_radius / plant.spectral_radius, 1.0, 1e-3);
   }
 }
 

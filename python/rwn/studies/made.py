@@ -41,7 +41,7 @@ def _commit() -> str:
     try:
         tracked = git("ls-files", "--error-unmatch", Path(__file__).name)
         head = git("rev-parse", "--short", "HEAD") if tracked else ""
-        changed = git("status", "--porcelain", "--untracked-files=no", "--", "../../../../python", "../../../../cpp")
+        changed = git("status", "--porcelain", "--untracked-files=no", "--", ":/python", ":/cpp")
     except FileNotFoundError:  # no git here
         head, changed = "", ""
     return f"{head}{'+' if changed else ''}" if head else f"rwn {_core.__version__}"
