@@ -288,8 +288,12 @@ def _mount(name: str, module: str) -> None:
         return  # not part of this installation
 
 
-def main() -> None:
-    """The entry point `rwn`."""
+def _command() -> Any:
     for name in ("thesis", "trials"):
         _mount(name, f"rwn.studies.{name}.cli")
-    run(lambda: app(standalone_mode=False))
+    return app(standalone_mode=False)
+
+
+def main() -> None:
+    """The entry point `rwn`."""
+    run(_command)
