@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -68,15 +67,6 @@ class Recording:
 
     def __len__(self) -> int:
         return len(self.time)
-
-    @property
-    def content(self) -> str:
-        """What tells its samples from those of any other recording, whatever its name."""
-        digest = hashlib.sha256()
-        for name, values in sorted({"time": self.time, **self.signals}.items()):
-            digest.update(name.encode())
-            digest.update(values.data)
-        return digest.hexdigest()
 
     @property
     def duration(self) -> float:
