@@ -194,7 +194,7 @@ def report(
 ) -> None:
     """Draw the report of a result anew, or compare two: before and after a repair."""
     from rwn.report.comparison import comparison
-    from rwn.report.diagnosis import Diagnosis
+    from rwn.report.diagnosis import CURVES, MODEL, RESULT, Diagnosis
     from rwn.report.files import output_file
     from rwn.report.page import page
 
@@ -205,7 +205,8 @@ def report(
             expected="one result, or two and --compare",
             fix="rwn report before after --compare --out comparison.html",
         )
-    with output_file(out, overwrite=overwrite) as aside:
+    inputs = [folder / name for folder in folders for name in (RESULT, CURVES, MODEL)]
+    with output_file(out, overwrite=overwrite, inputs=inputs) as aside:
         found = [Diagnosis.load(folder) for folder in folders]
         text = comparison(found[0], found[1], (str(folders[0]), str(folders[1]))) if compare else page(found[0])
         aside.write_text(text, encoding="utf-8")

@@ -7,9 +7,8 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import msgspec
-
 from rwn.errors import InputError, unknown
+from rwn.input_file import input_file
 from rwn.model.files import read_model, write_model
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.files import output_folder
@@ -138,19 +137,15 @@ class Diagnosis(DiagnosisData):
         Raises InputError where a file is missing or is no diagnosis.
         """
         folder = Path(folder)
-        path = folder / RESULT
+        result, curves = folder / RESULT, b"{}"
+        with input_file(result, "the result of rwn diagnose"):
+            text = result.read_bytes()
+        if (folder / CURVES).exists():
+            with input_file(folder / CURVES, f"{CURVES} as rwn diagnose writes it"):
+                curves = (folder / CURVES).read_bytes()
         try:
-            curves = (folder / CURVES).read_bytes() if (folder / CURVES).exists() else b"{}"
-            found = cls.from_json(path.read_bytes(), curves)
-        except OSError as error:
-            why = (error.strerror or str(error)).lower()
-            raise InputError(
-                f"cannot read the diagnosis ({why})",
-                where=path,
-                expected="a folder that rwn diagnose wrote",
-                fix="name that folder",
-            ) from error
-        except (msgspec.DecodeError, ValueError) as error:
+            found = cls.from_json(text, curves)
+        except (ValueError, RecursionError) as error:
             raise InputError(
                 f"this is no diagnosis of this version ({error})",
                 where=folder,

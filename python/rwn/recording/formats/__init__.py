@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection
 from pathlib import Path
 
 from rwn.errors import InputError
+from rwn.input_file import input_file
 from rwn.recording.formats.csv import read_csv
 from rwn.recording.formats.excel import read_excel
 from rwn.recording.formats.mat import read_mat
@@ -36,24 +37,5 @@ def read_table(path: Path, wanted: Collection[str]) -> Table:
             expected=" or ".join(FORMATS),
             fix="export the recording as CSV",
         )
-    try:
-        if path.is_dir():
-            raise InputError(
-                "this is a folder", where=path, expected="a recording file", fix="name the files in it"
-            )
-        if not path.is_file():
-            path.stat()  # says why, where there is nothing
-            raise InputError(
-                "this is not a regular file",
-                where=path,
-                expected="a recording file",
-                fix="save the recording to a file first",
-            )
+    with input_file(path, "a recording file"):
         return reader(path, wanted)
-    except OSError as error:
-        raise InputError(
-            f"cannot read the file ({(error.strerror or str(error)).lower()})",
-            where=path,
-            expected="a readable file",
-            fix="check the path and its permissions",
-        ) from error
