@@ -19,13 +19,14 @@ from rwn.recording.formats.frame import table_of_object
 from rwn.recording.intersample import Acting
 from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
+from rwn.values import Values
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Recording:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Recording(Values):
     """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in SI units (see docs/recordings.md).
 
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
@@ -67,6 +68,9 @@ class Recording:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def __repr__(self) -> str:
+        return f"<Recording {self.name}: {', '.join(self.signals)}; {len(self)} samples in {self.duration:.4g} s>"
 
     @property
     def duration(self) -> float:

@@ -16,6 +16,7 @@ from rwn.report.page import page, panels, pictures
 from rwn.report.plots import figure, unpacked
 from rwn.report.sentences import sentences, verdict_sentence
 from rwn.report.text import estimate, likelihood, parameter_name, plain_name
+from rwn.values import table_of_rows
 
 if TYPE_CHECKING:
     import pandas
@@ -81,13 +82,9 @@ class Diagnosis(DiagnosisData):
             for e in self.effects
             for name, value in e.parameters.items()
         ]  # fmt: skip
-        try:
-            import pandas as pd
-        except ModuleNotFoundError:
-            return rows
-        return pd.DataFrame(
-            rows, columns=["effect", "equation", "probability", "parameter", "value", "low", "high", "unit"]
-        )
+        columns = ("effect", "equation", "probability", "parameter", "value", "low", "high", "unit")
+        found: pandas.DataFrame | list[dict[str, Any]] = table_of_rows(rows, columns)
+        return found
 
     @property
     def plots(self) -> tuple[str, ...]:
