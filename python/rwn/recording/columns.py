@@ -83,6 +83,14 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
                 fix=f"did you mean '{signal}'? rename it, or add to [recording]: rename = {{ '{name}' = '{signal}' }}",
             )
     if not mapping:
+        parts = [name.rpartition(".")[0] for name in table.units if name.rpartition(".")[2] in COLUMNS]
+        if any(parts):
+            raise InputError(
+                f"the file holds several runs: {', '.join(dict.fromkeys(filter(None, parts)))}",
+                where=table.where,
+                expected="the one that is meant",
+                fix=f"write it after the file: {table.where}#{next(filter(None, parts))}",
+            )
         raise InputError(
             f"no column is called like a signal; there are {', '.join(table.units) or 'none'}",
             where=table.where,

@@ -16,6 +16,7 @@ from rwn.recording.check import check_lengths, check_samples
 from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit, unused
 from rwn.recording.formats import Table, read_table
 from rwn.recording.formats.frame import table_of_object
+from rwn.recording.formats.part import name_of
 from rwn.recording.intersample import Acting
 from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
@@ -113,7 +114,7 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
     time, ordered, row = selected(time, ordered, layout, where=table.where, row=table.row)
     warnings = check_samples(time, ordered, where=table.where, row=lambda k: f"{table.where}, {row(k)}")
     return Recording(
-        name=Path(source).name if is_path else table.where,
+        name=name_of(Path(source)) if is_path else table.where,
         time=time,
         signals=ordered,
         source=table.where,

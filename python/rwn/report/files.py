@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rwn.errors import InputError
+from rwn.recording.formats.part import file_and_part
 
 _ASIDE = ".rwn-"  # then the process that writes there
 RESULTS = ("report.html", "diagnosis.json", "corrected.toml")
@@ -104,7 +105,8 @@ def _is_a_folder(path: Path) -> InputError:
 
 
 def _refuse_input(path: Path, inputs: Sequence[Path]) -> None:
-    if any(path.exists() and given.exists() and path.samefile(given) for given in inputs):
+    files = [file_and_part(given)[0] for given in inputs]
+    if any(path.exists() and given.exists() and path.samefile(given) for given in files):
         raise InputError(
             "the result would replace an input",
             where=path,
