@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-import os
 import shlex
 import shutil
 import sys
@@ -18,7 +17,7 @@ from rwn.endings import NO_RESULT, run
 from rwn.errors import InputError, unknown
 
 if TYPE_CHECKING:
-    from rwn.report.diagnosis import Diagnosis
+    from rwn.model.model import Model
 
 app = typer.Typer(
     name="rwn",
@@ -30,6 +29,9 @@ app = typer.Typer(
 
 Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")]
 ModelFile = Annotated[Path, typer.Option("--model", help="The nominal model (TOML).")]
+Profile = Annotated[
+    str | None, typer.Option("--profile", help="The tool that exported the recordings: odrive, moteus, twincat ..")
+]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace results that exist.")]
 
 
@@ -46,16 +48,17 @@ def diagnose(
     seed: Annotated[int, typer.Option(min=0, help="Seed of everything random.")] = 0,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processors to use (default: all).")] = None,
     overwrite: Overwrite = False,
+    profile: Profile = None,
 ) -> None:
     """Locate the mismatch, name the missing physics, model it and show that the simulation improves."""
-    from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.report.files import output_folder
     from rwn.report.provenance import source
+    from rwn.report.terminal import print_verdict
 
     _refuse_strays(sys.argv)
     with output_folder(out, overwrite=overwrite, inputs=[model, *recordings, *(heldout or [])]) as aside:
-        nominal = read_model(model)
+        nominal = _model(model, profile)
         files = read_recordings([*recordings, *(heldout or [])], nominal)
         fitted, judged = files[: len(recordings)], files[len(recordings) :]
         with _progress() as progress:
@@ -67,7 +70,7 @@ def diagnose(
         ]
         found = replace(found, sources=tuple(used), command=shlex.join(["rwn", *sys.argv[1:]]))
         found.write(aside)
-    _print_verdict(found, out)
+    print_verdict(found, out)
 
 
 def _refuse_strays(arguments: list[str]) -> None:
@@ -90,15 +93,15 @@ def simulate(
     out: Annotated[Path, typer.Option("--out", help="CSV to write.")],
     overwrite: Overwrite = False,
     partial: Annotated[bool, typer.Option("--partial", help="Write a run that did not reach its end too.")] = False,
+    profile: Profile = None,
 ) -> None:
     """Run a model freely from the input signal of a recording; exit code 3 where the run does not reach its end."""
-    from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.recording.recording import write_csv
     from rwn.report.files import output_file
 
     with output_file(out, overwrite=overwrite, inputs=[model, recording]) as aside:
-        drive = read_model(model)
+        drive = _model(model, profile)
         (source,) = read_recordings([recording], drive, compared=False)
         run = _rwn().simulate(drive, source)
         if run.status == "ok" or partial:
@@ -111,13 +114,12 @@ def simulate(
 
 
 @app.command()
-def check(recordings: Recordings, model: ModelFile) -> None:
+def check(recordings: Recordings, model: ModelFile, profile: Profile = None) -> None:
     """What is odd in recordings, before any physics, and what a diagnosis does about it."""
-    from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.report.check import checked
 
-    drive = read_model(model)
+    drive = _model(model, profile)
     for line in checked(read_recordings(recordings, drive), drive):
         typer.echo(line)
 
@@ -128,6 +130,7 @@ def identify(
     model: ModelFile,
     out: Annotated[Path | None, typer.Option("--out", help="Model file to write.")] = None,
     overwrite: Overwrite = False,
+    profile: Profile = None,
 ) -> None:
     """Fit the parameters of a model, effects included, within their declared uncertainty.
 
@@ -135,14 +138,14 @@ def identify(
     """
     from contextlib import nullcontext
 
-    from rwn.model.files import read_model, write_model
+    from rwn.model.files import write_model
     from rwn.model.recordings import read_recordings
     from rwn.report import identification
     from rwn.report.files import output_file
 
     inputs = [model, *recordings]
     with output_file(out, overwrite=overwrite, inputs=inputs) if out else nullcontext() as aside:
-        nominal = read_model(model)
+        nominal = _model(model, profile)
         files = read_recordings(recordings, nominal)
         fit = _rwn().identify(files, nominal)
         signals = identification.fitted_signals(fit, files)
@@ -268,15 +271,11 @@ def _progress() -> Any:
     return Progress(sys.stderr)
 
 
-def _print_verdict(found: Diagnosis, out: Path) -> None:
-    from rwn.report.terminal import lines
+def _model(path: Path, profile: str | None) -> Model:
+    from rwn.model.files import read_model
 
-    plain = bool(os.environ.get("NO_COLOR"))  # https://no-color.org
-    for line in lines(found):
-        typer.echo(line, color=False if plain else None)
-    for warning in found.warnings:
-        typer.echo(f"warning: {warning}", err=True)
-    typer.echo(f"Report: {out / 'report.html'}")
+    model = read_model(path)
+    return replace(model, recording=replace(model.recording, profile=profile)) if profile else model
 
 
 def _mount(name: str, module: str) -> None:

@@ -101,9 +101,8 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
     clean recording.
     """
     layout = layout or Layout()
-    wanted = {column.source for column in layout.columns.values()} | set(COLUMNS)
     is_path = isinstance(source, str | Path)
-    table = read_table(Path(source), wanted) if is_path else table_of_object(source, wanted)
+    table = read_table(Path(source), layout.wanted) if is_path else table_of_object(source, layout.wanted)
     mapping = column_map(table, layout)
     linear = is_linear(table, mapping)
     values = {name: in_si(table, name, column, linear=linear) for name, column in mapping.items()}

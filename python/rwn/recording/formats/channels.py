@@ -48,4 +48,4 @@ def table_of_channels(
     for name, channel in used.items():
         at = np.searchsorted(channel.instants, rows, side="right") - 1
         columns[name] = told[name][at]
-    return table_of(where, {**dict.fromkeys(units), **columns}, units, [*wanted, TIME.name])
+    return table_of(where, {**dict.fromkeys(units), **columns}, units, columns)

@@ -17,6 +17,7 @@ from rwn.recording.formats.table import MAX_SAMPLES, Table, too_long
 
 BLOCK = 2**20  # characters that are read at once, and the longest line
 _QUOTE = '"'
+_NO_ROW = ("#", "EOF")  # comments, and what TwinCAT Scope ends its exports with
 _SAMPLE = 2**18  # characters that the dialect is told from
 
 Array = NDArray[np.float64]
@@ -122,9 +123,9 @@ def _rows(lines: list[str], at: int, skipped: int) -> tuple[Sequence[int], list[
     """The lines that are rows, blank ones and comments left out, with their numbers from 1."""
     kept = lines[skipped:] if skipped else lines
     numbers: Sequence[int] = range(at + 1, at + 1 + len(kept))
-    if all(map(str.strip, kept)) and not any(line.startswith("#") for line in kept):
+    if all(map(str.strip, kept)) and not any(line.startswith(_NO_ROW) for line in kept):
         return numbers, kept
-    pairs = [(k, line) for k, line in zip(numbers, kept, strict=True) if line.strip() and not line.startswith("#")]
+    pairs = [(k, line) for k, line in zip(numbers, kept, strict=True) if line.strip() and not line.startswith(_NO_ROW)]
     return [k for k, _ in pairs], [line for _, line in pairs]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from pathlib import Path
+from typing import Self
 
 from rwn.errors import InputError
 from rwn.recording.formats.table import Table
@@ -26,11 +27,27 @@ def name_of(path: Path) -> str:
     return f"{file.name}{_MARK}{part}" if part else file.name
 
 
+class _Within(frozenset[str]):
+    """The wanted names with the part's before them."""
+
+    wanted: Collection[str]
+
+    def __new__(cls, part: str, wanted: Collection[str]) -> Self:
+        made = super().__new__(cls, (f"{part}.{name}" for name in wanted))
+        made.part, made.wanted = part, wanted
+        return made
+
+    part: str
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name.startswith(f"{self.part}.") and name[len(self.part) + 1 :] in self.wanted
+
+
 def part_of(
     read: Callable[[Path, Collection[str]], Table], path: Path, part: str, wanted: Collection[str]
 ) -> Table:
     """The table of a part, its names without the part's. Raises InputError where no name begins so."""
-    table = read(path, {f"{part}.{name}" for name in wanted})
+    table = read(path, _Within(part, wanted))
     begins = f"{part}."
     units = {name.removeprefix(begins): unit for name, unit in table.units.items() if name.startswith(begins)}
     if not units:
