@@ -146,9 +146,11 @@ def _numbers(
         ) from error
     widths = [len(row) for row in rows] if rows is not None else [line.count(delimiter) + 1 for line in lines]
     if rows is not None and len(rows) != len(lines):
+        quotes = [line.count(_QUOTE) for line in lines]
+        odd = next((k for k, n in enumerate(quotes) if n % 2), next(k for k, n in enumerate(quotes) if n))
         raise InputError(
             "a quote is left open",
-            where=f"{where}, line {next(k for k, line in zip(numbers, lines, strict=True) if line.count(_QUOTE) % 2)}",
+            where=f"{where}, line {numbers[odd]}",
             expected="one row in each line, with quotes in pairs",
             fix="close the quote; remove line breaks within cells",
         )
