@@ -84,13 +84,18 @@ DIAGNOSE = ("diagnose", "a.csv", "--model", "motor.toml", "--out", "out")
 SIMULATE = ("simulate", "motor.toml", "--input", "a.csv", "--out", "sim.csv")
 
 
-@pytest.mark.parametrize("copied", ["copy", "hard link", "other columns' order"])
+@pytest.mark.parametrize("copied", ["copy", "hard link", "other columns' order", "cut", "from another instant on"])
 def test_a_copy_of_a_fitted_recording_proves_nothing(copied: str, refused: Refused) -> None:
     if copied == "hard link":
         os.link("a.csv", "copy.csv")
     else:
         cells = [line.split(",") for line in Path("a.csv").read_text().splitlines()]
-        order = (0, 1, 2) if copied == "copy" else (2, 0, 1)
+        order = (2, 0, 1) if copied == "other columns' order" else (0, 1, 2)
+        if copied == "cut":
+            del cells[120:]
+        elif copied == "from another instant on":
+            del cells[1:60]
+            cells = [cells[0], *([f"{float(row[0]) + 7.0:.6g}", *row[1:]] for row in cells[1:])]
         Path("copy.csv").write_text("".join(",".join(row[j] for j in order) + "\n" for row in cells))
     assert "given twice, as a.csv too" in refused(*DIAGNOSE, "--heldout", "copy.csv")
 
@@ -161,6 +166,8 @@ def test_a_device_is_not_replaced() -> None:
         ("identify", "a.csv", "--model", "motor.toml", "--out", "motor.toml", "--overwrite"),
         ("simulate", "motor.toml", "--input", "a.csv", "--out", "a.csv", "--overwrite"),
         ("diagnose", "a.csv", "--model", "old/corrected.toml", "--out", "old", "--overwrite"),
+        ("simulate", "motor.toml", "--input", "a.csv", "--out", "new/../a.csv", "--overwrite"),
+        ("report", "old", "--out", "old/corrected.toml", "--overwrite"),
     ],
 )
 def test_an_input_is_never_an_output(arguments: tuple[str, ...], refused: Refused, tmp_path: Path) -> None:
@@ -182,6 +189,33 @@ def test_what_is_no_file_is_not_read(given: str, kind: str, refused: Refused) ->
     line = refused(*SIMULATE)
     assert given in line
     assert "; fix: " in line
+
+
+@pytest.mark.parametrize("kind", ["pipe", "/dev/zero", "loop", "folder"])
+@pytest.mark.parametrize("given", ["diagnosis.json", "curves.json"])
+def test_what_is_no_file_is_not_read_as_a_result(given: str, kind: str, refused: Refused) -> None:
+    Path("old").mkdir()
+    Path("old/diagnosis.json").write_text("{}")
+    path = Path("old") / given
+    path.unlink(missing_ok=True)
+    if kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "folder":
+        path.mkdir()
+    else:
+        path.symlink_to(path.name if kind == "loop" else kind)
+    assert "; fix: " in refused("report", "old", "--out", "report.html")
+
+
+@pytest.mark.parametrize("out", ["/dev/null", "motor.toml", "dangling", "motor.toml/deep"])
+@pytest.mark.parametrize(
+    "command",
+    [("trials", "make", "--seed", "7", "--count", "1"), ("trials", "spoil", "set"), ("thesis", "run", "--table", "5")],
+)
+def test_a_study_does_not_start_where_it_cannot_write(command: tuple[str, ...], out: str, refused: Refused) -> None:
+    Path("set").mkdir()
+    Path("dangling").symlink_to("nowhere")
+    assert "choose another" in refused(*command, "--out", out)
 
 
 HOSTILE_MODELS = {

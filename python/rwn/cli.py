@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-import os
 import shlex
 import shutil
 import sys
@@ -18,7 +17,7 @@ from rwn.endings import NO_RESULT, run
 from rwn.errors import InputError, unknown
 
 if TYPE_CHECKING:
-    from rwn.report.diagnosis import Diagnosis
+    from rwn.model.model import Model
 
 app = typer.Typer(
     name="rwn",
@@ -30,6 +29,9 @@ app = typer.Typer(
 
 Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")]
 ModelFile = Annotated[Path, typer.Option("--model", help="The nominal model (TOML).")]
+Profile = Annotated[
+    str | None, typer.Option("--profile", help="The tool that exported the recordings: odrive, moteus, twincat ..")
+]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace results that exist.")]
 
 
@@ -49,16 +51,17 @@ def diagnose(
         float, typer.Option(min=0.1, max=1000.0, help="What the search may cost, as a multiple of the usual.")
     ] = 1.0,
     overwrite: Overwrite = False,
+    profile: Profile = None,
 ) -> None:
     """Locate the mismatch, name the missing physics, model it and show that the simulation improves."""
-    from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.report.files import output_folder
     from rwn.report.provenance import source
+    from rwn.report.terminal import print_verdict
 
     _refuse_strays(sys.argv)
     with output_folder(out, overwrite=overwrite, inputs=[model, *recordings, *(heldout or [])]) as aside:
-        nominal = read_model(model)
+        nominal = _model(model, profile)
         files = read_recordings([*recordings, *(heldout or [])], nominal)
         fitted, judged = files[: len(recordings)], files[len(recordings) :]
         with _progress() as progress:
@@ -72,7 +75,7 @@ def diagnose(
         ]
         found = replace(found, sources=tuple(used), command=shlex.join(["rwn", *sys.argv[1:]]))
         found.write(aside)
-    _print_verdict(found, out)
+    print_verdict(found, out)
 
 
 def _refuse_strays(arguments: list[str]) -> None:
@@ -95,15 +98,15 @@ def simulate(
     out: Annotated[Path, typer.Option("--out", help="CSV to write.")],
     overwrite: Overwrite = False,
     partial: Annotated[bool, typer.Option("--partial", help="Write a run that did not reach its end too.")] = False,
+    profile: Profile = None,
 ) -> None:
     """Run a model freely from the input signal of a recording; exit code 3 where the run does not reach its end."""
-    from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.recording.recording import write_csv
     from rwn.report.files import output_file
 
     with output_file(out, overwrite=overwrite, inputs=[model, recording]) as aside:
-        drive = read_model(model)
+        drive = _model(model, profile)
         (source,) = read_recordings([recording], drive, compared=False)
         run = _rwn().simulate(drive, source)
         if run.status == "ok" or partial:
@@ -116,13 +119,12 @@ def simulate(
 
 
 @app.command()
-def check(recordings: Recordings, model: ModelFile) -> None:
+def check(recordings: Recordings, model: ModelFile, profile: Profile = None) -> None:
     """What is odd in recordings, before any physics, and what a diagnosis does about it."""
-    from rwn.model.files import read_model
     from rwn.model.recordings import read_recordings
     from rwn.report.check import checked
 
-    drive = read_model(model)
+    drive = _model(model, profile)
     for line in checked(read_recordings(recordings, drive), drive):
         typer.echo(line)
 
@@ -133,6 +135,7 @@ def identify(
     model: ModelFile,
     out: Annotated[Path | None, typer.Option("--out", help="Model file to write.")] = None,
     overwrite: Overwrite = False,
+    profile: Profile = None,
 ) -> None:
     """Fit the parameters of a model, effects included, within their declared uncertainty.
 
@@ -140,14 +143,14 @@ def identify(
     """
     from contextlib import nullcontext
 
-    from rwn.model.files import read_model, write_model
+    from rwn.model.files import write_model
     from rwn.model.recordings import read_recordings
     from rwn.report import identification
     from rwn.report.files import output_file
 
     inputs = [model, *recordings]
     with output_file(out, overwrite=overwrite, inputs=inputs) if out else nullcontext() as aside:
-        nominal = read_model(model)
+        nominal = _model(model, profile)
         files = read_recordings(recordings, nominal)
         fit = _rwn().identify(files, nominal)
         signals = identification.fitted_signals(fit, files)
@@ -199,7 +202,7 @@ def report(
 ) -> None:
     """Draw the report of a result anew, or compare two: before and after a repair."""
     from rwn.report.comparison import comparison
-    from rwn.report.diagnosis import Diagnosis
+    from rwn.report.diagnosis import CURVES, MODEL, RESULT, Diagnosis
     from rwn.report.files import output_file
     from rwn.report.page import page
 
@@ -210,7 +213,8 @@ def report(
             expected="one result, or two and --compare",
             fix="rwn report before after --compare --out comparison.html",
         )
-    with output_file(out, overwrite=overwrite) as aside:
+    inputs = [folder / name for folder in folders for name in (RESULT, CURVES, MODEL)]
+    with output_file(out, overwrite=overwrite, inputs=inputs) as aside:
         found = [Diagnosis.load(folder) for folder in folders]
         text = comparison(found[0], found[1], (str(folders[0]), str(folders[1]))) if compare else page(found[0])
         aside.write_text(text, encoding="utf-8")
@@ -272,15 +276,11 @@ def _progress() -> Any:
     return Progress(sys.stderr)
 
 
-def _print_verdict(found: Diagnosis, out: Path) -> None:
-    from rwn.report.terminal import lines
+def _model(path: Path, profile: str | None) -> Model:
+    from rwn.model.files import read_model
 
-    plain = bool(os.environ.get("NO_COLOR"))  # https://no-color.org
-    for line in lines(found):
-        typer.echo(line, color=False if plain else None)
-    for warning in found.warnings:
-        typer.echo(f"warning: {warning}", err=True)
-    typer.echo(f"Report: {out / 'report.html'}")
+    model = read_model(path)
+    return replace(model, recording=replace(model.recording, profile=profile)) if profile else model
 
 
 def _mount(name: str, module: str) -> None:
@@ -293,8 +293,12 @@ def _mount(name: str, module: str) -> None:
         return  # not part of this installation
 
 
-def main() -> None:
-    """The entry point `rwn`."""
+def _command() -> Any:
     for name in ("thesis", "trials"):
         _mount(name, f"rwn.studies.{name}.cli")
-    run(lambda: app(standalone_mode=False))
+    return app(standalone_mode=False)
+
+
+def main() -> None:
+    """The entry point `rwn`."""
+    run(_command)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import threading
 from collections.abc import Callable
+from types import FrameType
 from typing import Any, NoReturn
 
 import typer
@@ -17,27 +19,50 @@ NO_RESULT = 3  # of a computation that ran and has no result to stand by
 STOPPED = 130  # of Ctrl-C
 
 
+class _CtrlC:
+    """The first one is an exception, so that what is half written is removed; the second ends the process as it is."""
+
+    def __init__(self) -> None:
+        self.pressed = False
+
+    def __call__(self, _number: int, _frame: FrameType | None) -> None:
+        if self.pressed:
+            _say_stopped()
+            os._exit(STOPPED)
+        self.pressed = True
+        raise KeyboardInterrupt
+
+
 def run(command: Callable[[], Any]) -> NoReturn:
     """Runs a typer command and ends the process with its exit code."""
+    ctrl_c = _CtrlC()
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, ctrl_c)
     try:
         status = command()
-    except (ValueError, OSError) as error:
-        _refuse(error)
-    except typer.Abort:
+    except (typer.Abort, KeyboardInterrupt):
         status = STOPPED
     except Exception as error:
-        if not hasattr(error, "format_message"):  # what typer raises for wrong usage has it
-            raise
-        _refuse(error)
+        # an import that Ctrl-C cut short fails in other words, and so does what asked for it
+        if not ctrl_c.pressed:
+            _refuse(error)
+        status = STOPPED
     if status == STOPPED:
-        print("rwn: stopped", file=sys.stderr, flush=True)
+        ctrl_c.pressed = True
+        _say_stopped()
         if threading.active_count() > 1:
             os._exit(STOPPED)  # what still computes in threads would be waited for
     sys.exit(status if isinstance(status, int) else 0)
 
 
+def _say_stopped() -> None:
+    print("rwn: stopped", file=sys.stderr, flush=True)
+
+
 def _refuse(error: Exception) -> NoReturn:
-    if os.environ.get("RWN_TRACEBACK"):
+    """One line for what the user can mend; anything else is a defect of ours and keeps its traceback."""
+    usage_error = hasattr(error, "format_message")  # what typer raises for wrong usage has it
+    if os.environ.get("RWN_TRACEBACK") or not (usage_error or isinstance(error, ValueError | OSError)):
         raise error
     if hasattr(error, "format_message"):
         if error.format_message().startswith("Usage:"):  # a group called without a command: its help, as it is

@@ -98,6 +98,9 @@ REFUSED: dict[str, tuple[str, tuple[str, ...]]] = {
     "no header": (_rows(), ("no row names the columns", "line 1", 'source = "3"')),
     "a name too few": ("time [s],voltage [V]\n" + _rows(), ("3 values in 2 columns", "name every column")),
     "a cut last line": (HEADER + _rows() + "0.120,1.", ("line 122", "2 values in 3 columns", "complete the line")),
+    "quotes that go on in the next line": (
+        HEADER + _rows().replace("0.100,", '0.100","x","', 1), ("line 102", "a quote is left open"),
+    ),
     "a quote left open": (HEADER + _rows().replace("0.100,", '"0.100,', 1), ("line 102", "a quote is left open")),
     "a unit in parentheses that there is not": (HEADER.replace("[rpm]", "(bogus)") + _rows(), ("'bogus'",)),
     "a longer line in between": (HEADER + _rows().replace("0.100,", "0.1,7,", 1), ("line 102", "4 values in 3 ")),

@@ -112,13 +112,14 @@ def test_without_its_curves_it_is_read_all_the_same(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "said"),
     [
-        ("diagnosis.json", None, "cannot read the diagnosis"),
+        ("diagnosis.json", None, "diagnosis.json: cannot read the file"),
         ("diagnosis.json", "{", "no diagnosis of this version"),
         ("diagnosis.json", "[]", "no diagnosis of this version"),
         ("diagnosis.json", '{"verdict": "perhaps"}', "no diagnosis of this version"),
         ("diagnosis.json", '{"format": 99, "verdict": "adequate"}', "format 99"),
         ("curves.json", "[1]", "no diagnosis of this version"),
         ("curves.json", "\x00", "no diagnosis of this version"),
+        ("curves.json", "[" * 100_000, "no diagnosis of this version"),
     ],
 )
 def test_what_is_no_diagnosis_is_refused_in_one_line(tmp_path: Path, name: str, text: str | None, said: str) -> None:

@@ -63,15 +63,17 @@ def test_workers_end_with_a_killed_parent(tmp_path: Path, by: signal.Signals) ->
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("wait", [0.05, 1.0])  # while its workers start, and while they work
 @pytest.mark.parametrize("command", [("trials", "make", "--seed", "7", "--count", "50"), ("thesis", "run", "--all")])
-def test_ctrl_c_ends_a_study_soon_with_one_line(tmp_path: Path, command: tuple[str, ...]) -> None:
+def test_ctrl_c_ends_a_study_soon_with_one_line(tmp_path: Path, command: tuple[str, ...], wait: float) -> None:
     told, out = tmp_path / "told", tmp_path / "out"
+    line = [sys.executable, "-m", "rwn", *command, "--out", str(out)]
     with told.open("w") as stream:
-        study = subprocess.Popen([sys.executable, "-m", "rwn", *command, "--out", str(out)], stderr=stream)
+        study = subprocess.Popen(line, stderr=stream, stdout=subprocess.DEVNULL, start_new_session=True)
         try:
             assert until(out.exists, 60), "at work"
-            time.sleep(1.0)
-            study.send_signal(signal.SIGINT)
+            time.sleep(wait)
+            os.killpg(study.pid, signal.SIGINT)  # as a terminal does it: to the workers too
             assert study.wait(timeout=3) == 130
         finally:
             study.kill()

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
@@ -17,7 +18,12 @@ from rwn.fit.residuals import Statistics, statistics
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit
+from rwn.values import table_of_rows
 
+if TYPE_CHECKING:
+    import pandas
+
+COLUMNS = ("parameter", "value", "low", "high", "unit")  # of Identification.table
 LEARNED = 0.9  # standard deviation after the fit over the declared one, above which recordings say nothing
 
 
@@ -31,6 +37,33 @@ class Identification:
     advice: str
     not_identifiable: tuple[str, ...]  # these recordings say less of them than the data sheet does
     residual_over_noise: float  # rms, 1: nothing but noise is left
+
+    def __repr__(self) -> str:
+        names = ", ".join(self.parameters)
+        return f"<Identification {self.status}: {names}; {self.residual_over_noise:.3g} x the noise is left>"
+
+    def _repr_html_(self) -> str:
+        rows = ["".join(f"<td>{_cell(value)}</td>" for value in row.values()) for row in self._rows()]
+        head = "".join(f"<th>{name}</th>" for name in COLUMNS)
+        return f"<p>{escape(repr(self))}</p><table><tr>{head}</tr>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
+
+    def table(self) -> pandas.DataFrame | list[dict[str, Any]]:
+        """The parameters in SI, a row each; a list of dictionaries where pandas is not installed.
+
+        Columns: parameter, value, low and high (95 %), unit.
+        """
+        found: pandas.DataFrame | list[dict[str, Any]] = table_of_rows(self._rows(), COLUMNS)
+        return found
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            dict(zip(COLUMNS, (name, e.value, *(e.interval or (None, None)), e.unit), strict=True))
+            for name, e in self.parameters.items()
+        ]
+
+
+def _cell(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else escape(str(value))
 
 
 def identify(recordings: Any, model: Model | str | Path) -> Identification:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from rwn.errors import InputError
+from rwn.input_file import input_file
 from rwn.model.model import EffectTable, Model
 from rwn.model.toml_reader import parse_model
 from rwn.model.toml_writer import format_model
@@ -38,19 +39,7 @@ def write_model(model: Model, path: str | Path) -> None:
 
 
 def _read_text(path: Path) -> str:
-    if path.is_dir():
-        raise InputError(
-            "this is a folder", where=path, expected="a model file (TOML)", fix="name the file in it"
-        )
-    try:
-        if not path.is_file():
-            path.stat()  # says why, where there is nothing
-            raise InputError(
-                "this is not a regular file",
-                where=path,
-                expected="a model file (TOML)",
-                fix="save the model to a file first",
-            )
+    with input_file(path, "a model file (TOML)"):
         if path.stat().st_size > 2**20:
             raise InputError(
                 "the model file is larger than 1 MB",
@@ -58,18 +47,12 @@ def _read_text(path: Path) -> str:
                 expected="a short TOML file",
                 fix="was a recording given as --model?",
             )
-        return path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(
-            "this is not a text file",
-            where=path,
-            expected="a model file (TOML, UTF-8)",
-            fix="give the model file, not a recording",
-        ) from error
-    except OSError as error:
-        raise InputError(
-            f"cannot read the file ({(error.strerror or str(error)).lower()})",
-            where=path,
-            expected="a readable model file",
-            fix="check the path and its permissions",
-        ) from error
+        try:
+            return path.read_text(encoding="utf-8-sig")
+        except UnicodeDecodeError as error:
+            raise InputError(
+                "this is not a text file",
+                where=path,
+                expected="a model file (TOML, UTF-8)",
+                fix="give the model file, not a recording",
+            ) from error

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from html import escape
 from types import MappingProxyType
 from typing import Any, Protocol, cast
 
@@ -126,6 +127,9 @@ class Model:
         with_what = f" with {', '.join(self.effects)}" if self.effects else ""
         source = f", from {self.source}" if self.source else ""
         return f"<Model {self.kind}: {len(self.parameters)} parameters{with_what}{source}>"
+
+    def _repr_html_(self) -> str:
+        return f"<code>{escape(repr(self))}</code>"
 
     def __reduce__(self) -> tuple[Callable[[dict[str, Any]], Model], tuple[dict[str, Any]]]:
         """For pickle and copy, which know nothing of read-only mappings."""

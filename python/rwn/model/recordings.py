@@ -12,6 +12,7 @@ from rwn.errors import InputError
 from rwn.model.model import Model
 from rwn.model.start import start_of
 from rwn.recording.check import MIN_SAMPLES, check_samples
+from rwn.recording.copies import is_piece
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import SIGNALS
 
@@ -105,17 +106,23 @@ def recordings_to_fit(sources: Any, model: Model) -> list[Recording]:
 
 
 def refuse_doubles(recordings: Sequence[Recording]) -> None:
-    """Raises InputError where two recordings hold the same samples, whatever they are called and wherever they are."""
-    seen: dict[str, Recording] = {}
-    for recording in recordings:
-        other = seen.setdefault(recording.content, recording)
-        if other is not recording:
-            raise InputError(
-                f"the same recording is given twice, as {other.source or other.name} too",
-                where=recording.source or recording.name,
-                expected="each recording once",
-                fix="remove one of them: a recording cannot judge itself",
-            )
+    """Raises InputError where one recording is another or a piece of it, whatever they are called and wherever they
+    are."""
+    for k, later in enumerate(recordings):
+        for earlier in recordings[:k]:
+            part, whole = sorted((later, earlier), key=len)
+            if is_piece(part, whole):
+                how = "the same recording is" if len(part) == len(whole) else "the samples of this recording are"
+                raise InputError(
+                    f"{how} given twice, as {_named(earlier)} too",
+                    where=_named(later),
+                    expected="each recording once",
+                    fix="remove one of them: a recording cannot judge itself",
+                )
+
+
+def _named(recording: Recording) -> str:
+    return recording.source or recording.name
 
 
 def _listed(sources: Any) -> list[Any]:

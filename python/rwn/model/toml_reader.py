@@ -18,6 +18,7 @@ from rwn.model.toml_schema import ColumnEntry, LoadTable, Number, RecordingTable
 from rwn.recording import units
 from rwn.recording.columns import Column, Layout
 from rwn.recording.intersample import known_law
+from rwn.recording.profiles import profile
 from rwn.recording.signals import COLUMNS, MEASURED, TIME
 
 
@@ -186,11 +187,17 @@ def _layout(given: RecordingTable, where: str) -> Layout:
         )
     return Layout(
         columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples,
-        start=start, end=end, decimate=given.decimate,
+        start=start, end=end, decimate=given.decimate, profile=_profile(given.profile, where),
         intersample=known_law(given.intersample, where=f"{where} intersample"),
         delays=_by_signal(given.delays, f"{where} delays"),
         filters=_filters(given.filters, f"{where} filters"),
     )  # fmt: skip
+
+
+def _profile(name: str | None, where: str) -> str | None:
+    if name is not None:
+        profile(name, where=f"{where} profile")
+    return name
 
 
 def _by_signal(given: dict[str, Number], where: str) -> dict[str, float]:

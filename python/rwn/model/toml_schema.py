@@ -34,6 +34,7 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     end: Number | None = msgspec.field(default=None, name="to")
     decimate: int = 1
     rename: dict[str, str] = {}
+    profile: str | None = None
 
 
 class LoadTable(msgspec.Struct, forbid_unknown_fields=True):

@@ -65,6 +65,7 @@ def _layout_lines(layout: Layout) -> list[str]:
     for key, seconds in (("from", layout.start), ("to", layout.end)):
         lines += [] if seconds is None else [f"{key} = {seconds!r}  # s"]
     lines += [] if layout.decimate == 1 else [f"decimate = {layout.decimate}"]
+    lines += [] if layout.profile is None else [f'profile = "{layout.profile}"']
     for name, column in layout.columns.items():
         items = [f"source = {_quoted(column.source)}"]
         items += [] if column.unit is None else [f"unit = {_quoted(column.unit)}"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -13,6 +13,7 @@ from rwn.errors import InputError, closest, plain
 from rwn.recording import units
 from rwn.recording.formats import Table
 from rwn.recording.intersample import AUTO, known_law
+from rwn.recording.profiles import Wanted, names_of, profile, sources
 from rwn.recording.signals import COLUMNS, Signal, meant
 
 Initial = Literal["auto", "rest", "estimate"]
@@ -43,8 +44,9 @@ class Layout:
     `rwn.recording.intersample.INTERSAMPLE`; "auto": as the recordings show where they are fitted, and held where one is
     simulated. `delays` [s]: by which measured signals come late. `filters` [s]: time constants of first-order filters
     that the samples of measured signals went through, before they came late. `start`, `end` [s], in the file's own
-    time: rows outside are left out; of the rest every `decimate`-th row is kept. Raises InputError where `intersample`
-    is no name of these.
+    time: rows outside are left out; of the rest every `decimate`-th row is kept. `profile`: the tool that exported the
+    files, a name in `rwn.recording.profiles.PROFILES`; it says which of its columns is which signal. Raises InputError
+    where `intersample` or `profile` is no name of these.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
@@ -57,10 +59,19 @@ class Layout:
     start: float | None = None
     end: float | None = None
     decimate: int = 1
+    profile: str | None = None
 
     def __post_init__(self) -> None:
-        """Refuses what is no law."""
+        """Refuses what is no law or no profile."""
         known_law(self.intersample, where="Layout, intersample")
+        if self.profile is not None:
+            profile(self.profile, where="Layout, profile")
+
+    @property
+    def wanted(self) -> Collection[str]:
+        """The names of columns that may hold a signal."""
+        names = {column.source for column in self.columns.values()} | set(COLUMNS)
+        return Wanted.of(names, names_of(profile(self.profile))) if self.profile is not None else names
 
 
 def column_map(table: Table, layout: Layout) -> dict[str, Column]:
@@ -70,13 +81,13 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
     called like a signal (that is a slip, not an extra column), or none is called like one.
     """
     by_name = set(COLUMNS) - set(layout.columns)
-    if layout.columns and not any(table.units.values()):
+    if (layout.columns or layout.profile) and not any(table.units.values()):
         by_name = set()
     mapping = {name: Column(source=name) for name in by_name if name in table.units}
-    mapping |= layout.columns
+    mapping |= _by_profile(table, layout) | dict(layout.columns)
     used = {column.source for column in mapping.values()}
     for name in table.units:
-        signal = meant(name) if by_name and name not in used else None
+        signal = meant(name) if by_name and layout.profile is None and name not in used else None
         if signal is not None and signal not in mapping:
             raise InputError(
                 f"column '{name}' is no known signal",
@@ -85,6 +96,14 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
                 fix=f"did you mean '{signal}'? rename it, or add to [recording]: rename = {{ '{name}' = '{signal}' }}",
             )
     if not mapping:
+        parts = [name.rpartition(".")[0] for name in table.units if name.rpartition(".")[2] in COLUMNS]
+        if any(parts):
+            raise InputError(
+                f"the file holds several runs: {', '.join(dict.fromkeys(filter(None, parts)))}",
+                where=table.where,
+                expected="the one that is meant",
+                fix=f"write it after the file: {table.where}#{next(filter(None, parts))}",
+            )
         raise InputError(
             f"no column is called like a signal; there are {', '.join(table.units) or 'none'}",
             where=table.where,
@@ -92,6 +111,27 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
             fix=f'write for instance: columns.speed = {{ source = "{next(iter(table.units), "w")}", unit = "rad/s" }}',
         )
     return mapping
+
+
+def _by_profile(table: Table, layout: Layout) -> dict[str, Column]:
+    """The columns that the profile of a tool knows and the layout does not name; the file's own unit goes before."""
+    if layout.profile is None:
+        return {}
+    known = profile(layout.profile)
+    left = [name for name in table.units if name not in {column.source for column in layout.columns.values()}]
+    found = {}
+    for signal, name in sources(known, left, where=table.where).items():
+        column = known.columns[signal]
+        counts = Column(source=name, unit=column.unit, scale=column.scale, scale_unit=column.scale_unit)
+        found[signal] = Column(source=name) if table.units[name] else counts
+    if not found and not layout.columns:
+        raise InputError(
+            f"no column is called as in an export of {layout.profile}; there are {', '.join(table.units) or 'none'}",
+            where=table.where,
+            expected="one of " + ", ".join(names_of(known)),
+            fix="leave the profile out, or map the columns under [recording.columns]",
+        )
+    return found
 
 
 def unused(table: Table, mapping: Mapping[str, Column]) -> tuple[str, ...]:

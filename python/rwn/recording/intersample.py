@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from rwn.errors import unknown
 from rwn.recording.clock import clock_of
+from rwn.values import Values
 
 Array = NDArray[np.float64]
 
@@ -25,8 +26,8 @@ AUTO = "auto"  # as the recordings show
 HELD = "held"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Acting:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Acting(Values):
     """An input as it acted: from `instants` (m,) [s] it had `values` (m,), each known but for `spread` (m,).
 
     What no row shows lies anywhere between its neighbours: a standard deviation of their distance over sqrt(12).

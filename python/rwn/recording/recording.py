@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -17,9 +16,11 @@ from rwn.recording.check import check_lengths, check_samples
 from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit, unused
 from rwn.recording.formats import Table, read_table
 from rwn.recording.formats.frame import table_of_object
+from rwn.recording.formats.part import name_of
 from rwn.recording.intersample import Acting
 from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
+from rwn.values import Values
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -27,8 +28,8 @@ Flags = NDArray[np.bool_]
 ENOUGH = 50_000  # rows that tell how a recording was made: mean squares of so many samples are known to 0.6 %
 
 
-@dataclass(frozen=True, kw_only=True)
-class Recording:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Recording(Values):
     """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in SI units (see docs/recordings.md).
 
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
@@ -71,14 +72,8 @@ class Recording:
     def __len__(self) -> int:
         return len(self.time)
 
-    @property
-    def content(self) -> str:
-        """What tells its samples from those of any other recording, whatever its name."""
-        digest = hashlib.sha256()
-        for name, values in sorted({"time": self.time, **self.signals}.items()):
-            digest.update(name.encode())
-            digest.update(values.data)
-        return digest.hexdigest()
+    def __repr__(self) -> str:
+        return f"<Recording {self.name}: {', '.join(self.signals)}; {len(self)} samples in {self.duration:.4g} s>"
 
     def beginning(self, rows: int) -> Recording:
         """Its first `rows` rows."""
@@ -121,9 +116,8 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
     clean recording.
     """
     layout = layout or Layout()
-    wanted = {column.source for column in layout.columns.values()} | set(COLUMNS)
     is_path = isinstance(source, str | Path)
-    table = read_table(Path(source), wanted) if is_path else table_of_object(source, wanted)
+    table = read_table(Path(source), layout.wanted) if is_path else table_of_object(source, layout.wanted)
     mapping = column_map(table, layout)
     linear = is_linear(table, mapping)
     values = {name: in_si(table, name, column, linear=linear) for name, column in mapping.items()}
@@ -134,7 +128,7 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
     time, ordered, row = selected(time, ordered, layout, where=table.where, row=table.row)
     warnings = check_samples(time, ordered, where=table.where, row=lambda k: f"{table.where}, {row(k)}")
     return Recording(
-        name=Path(source).name if is_path else table.where,
+        name=name_of(Path(source)) if is_path else table.where,
         time=time,
         signals=ordered,
         source=table.where,

@@ -14,7 +14,7 @@ _SPELLINGS = (
     (re.compile(r"\b([kmcuµ]?)N(m|cm|mm)\b"), r"\1N \2"),
     (re.compile(r"\b(k?g)(m|cm|mm)\b"), r"\1 \2"),
     (re.compile(r"\bRPM\b|\br/min\b|\b1/min\b|\bmin\^-1\b"), "rpm"),
-    (re.compile(r"\brevs?\b"), "turn"),
+    (re.compile(r"\brevs?\b|\brotations?\b"), "turn"),
     (re.compile("²"), "^2"),
     (re.compile(r"[·⋅]"), "*"),
 )

@@ -7,9 +7,8 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import msgspec
-
 from rwn.errors import InputError, unknown
+from rwn.input_file import input_file
 from rwn.model.files import read_model, write_model
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.files import output_folder
@@ -17,6 +16,7 @@ from rwn.report.page import page, panels, pictures
 from rwn.report.plots import figure, unpacked
 from rwn.report.sentences import sentences, verdict_sentence
 from rwn.report.text import estimate, likelihood, parameter_name, plain_name
+from rwn.values import table_of_rows
 
 if TYPE_CHECKING:
     import pandas
@@ -82,13 +82,9 @@ class Diagnosis(DiagnosisData):
             for e in self.effects
             for name, value in e.parameters.items()
         ]  # fmt: skip
-        try:
-            import pandas as pd
-        except ModuleNotFoundError:
-            return rows
-        return pd.DataFrame(
-            rows, columns=["effect", "equation", "probability", "parameter", "value", "low", "high", "unit"]
-        )
+        columns = ("effect", "equation", "probability", "parameter", "value", "low", "high", "unit")
+        found: pandas.DataFrame | list[dict[str, Any]] = table_of_rows(rows, columns)
+        return found
 
     @property
     def plots(self) -> tuple[str, ...]:
@@ -138,19 +134,15 @@ class Diagnosis(DiagnosisData):
         Raises InputError where a file is missing or is no diagnosis.
         """
         folder = Path(folder)
-        path = folder / RESULT
+        result, curves = folder / RESULT, b"{}"
+        with input_file(result, "the result of rwn diagnose"):
+            text = result.read_bytes()
+        if (folder / CURVES).exists():
+            with input_file(folder / CURVES, f"{CURVES} as rwn diagnose writes it"):
+                curves = (folder / CURVES).read_bytes()
         try:
-            curves = (folder / CURVES).read_bytes() if (folder / CURVES).exists() else b"{}"
-            found = cls.from_json(path.read_bytes(), curves)
-        except OSError as error:
-            why = (error.strerror or str(error)).lower()
-            raise InputError(
-                f"cannot read the diagnosis ({why})",
-                where=path,
-                expected="a folder that rwn diagnose wrote",
-                fix="name that folder",
-            ) from error
-        except (msgspec.DecodeError, ValueError) as error:
+            found = cls.from_json(text, curves)
+        except (ValueError, RecursionError) as error:
             raise InputError(
                 f"this is no diagnosis of this version ({error})",
                 where=folder,

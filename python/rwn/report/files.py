@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rwn.errors import InputError
+from rwn.recording.formats.part import file_and_part
 
 _ASIDE = ".rwn-"  # then the process that writes there
 RESULTS = ("report.html", "diagnosis.json", "corrected.toml")
@@ -24,11 +25,8 @@ def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path]
     InputError before the block when `path` cannot be written, or holds files and `overwrite` is false; or when a result
     would replace one of the `inputs`.
     """
-    _refuse_dangling(path)
-    if path.exists() and not path.is_dir():
-        raise InputError(
-            "this is a file", where=path, expected="a folder for the results", fix="choose another --out"
-        )
+    path = _without_detours(path)
+    check_folder(path)
     for name in RESULTS:
         _refuse_input(path / name, inputs)
         if (path / name).is_dir():
@@ -54,14 +52,9 @@ def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path]
 @contextmanager
 def output_file(path: Path, *, overwrite: bool = False, inputs: Sequence[Path] = ()) -> Iterator[Path]:
     """As `output_folder`, for one file. Nothing appears where the block writes none."""
-    _refuse_dangling(path)
-    if path.is_dir():
-        raise _is_a_folder(path)
+    path = _without_detours(path)
+    check_file(path)
     _refuse_input(path, inputs)
-    if path.exists() and not path.is_file():
-        raise InputError(
-            "this is not a regular file", where=path, expected="a file to write", fix="choose another --out"
-        )
     if path.exists() and not overwrite:
         raise InputError(
             "the output file exists",
@@ -78,12 +71,42 @@ def output_file(path: Path, *, overwrite: bool = False, inputs: Sequence[Path] =
             (aside / path.name).replace(path)
 
 
+def check_folder(path: Path) -> None:
+    """Raises InputError where `path` neither is a folder that can be written nor can become one."""
+    _refuse_dangling(path)
+    if path.exists() and not path.is_dir():
+        raise InputError(
+            "this is a file", where=path, expected="a folder for the results", fix="choose another --out"
+        )
+    with _aside(_existing(path), path):
+        pass
+
+
+def check_file(path: Path) -> None:
+    """Raises InputError where `path` neither is a regular file that can be written nor can become one."""
+    _refuse_dangling(path)
+    if path.is_dir():
+        raise _is_a_folder(path)
+    if path.exists() and not path.is_file():
+        raise InputError(
+            "this is not a regular file", where=path, expected="a file to write", fix="choose another one"
+        )
+    with _aside(_existing(path.parent), path):
+        pass
+
+
+def _without_detours(path: Path) -> Path:
+    """`new/../a.csv` is a.csv, which is seen only once `new` has been made."""
+    return Path(os.path.realpath(path)) if ".." in path.parts else path
+
+
 def _is_a_folder(path: Path) -> InputError:
     return InputError("this is a folder", where=path, expected="a file name", fix=f"write {path / 'result'}")
 
 
 def _refuse_input(path: Path, inputs: Sequence[Path]) -> None:
-    if any(path.exists() and given.exists() and path.samefile(given) for given in inputs):
+    files = [file_and_part(given)[0] for given in inputs]
+    if any(path.exists() and given.exists() and path.samefile(given) for given in files):
         raise InputError(
             "the result would replace an input",
             where=path,

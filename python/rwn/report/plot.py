@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.values import Values
+
 Slot = Literal["input", "response", "residual-time", "residual-speed", "law", "spectrum"]
 Role = Literal["measured", "nominal", "refitted", "corrected", "before", "after", "reference", "noise-floor"]
 Use = Literal["fit", "heldout"]
@@ -15,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Trace:
+class Trace(Values):
     """One line (or cloud) of a plot; `low`/`high` shade a band around it; NaN breaks the line.
 
     Where the points of a cloud were measured in `recording` at the instants `at` [s], a click on one leads there.
@@ -30,19 +32,6 @@ class Trace:
     points: bool = False  # a cloud instead of a line
     at: Array | None = None
     recording: str = ""
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Trace):
-            return NotImplemented
-        return all(_same(value, getattr(other, name)) for name, value in vars(self).items())
-
-    __hash__ = None  # type: ignore[assignment]  # arrays have none
-
-
-def _same(a: object, b: object) -> bool:
-    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
-        return np.array_equal(a, b, equal_nan=True)
-    return type(a) is type(b) and a == b
 
 
 @dataclass(frozen=True, kw_only=True)

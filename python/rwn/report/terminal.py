@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from pathlib import Path
 
 import typer
 
@@ -13,6 +15,16 @@ from rwn.report.text import capital, estimate, filter_in_words, likelihood, list
 
 _COLOURS = {"missing-physics": "cyan", "adequate": "green", "recording-mistake": "red"}  # else yellow
 _BAR = 20  # characters of a share of one
+
+
+def print_verdict(found: DiagnosisData, out: Path) -> None:
+    """Prints them, warnings on stderr, and where the report is."""
+    plain = bool(os.environ.get("NO_COLOR"))  # https://no-color.org
+    for line in lines(found):
+        typer.echo(line, color=False if plain else None)
+    for warning in found.warnings:
+        typer.echo(f"warning: {warning}", err=True)
+    typer.echo(f"Report: {out / 'report.html'}")
 
 
 def lines(found: DiagnosisData) -> Iterator[str]:

@@ -22,18 +22,22 @@ from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import run_of
 from rwn.simulate.simulator import Simulator
+from rwn.values import Values
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Simulation:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Simulation(Values):
     """`signals` name -> (n_t,), SI, at `time` (n_t,) [s] of the recording, as its sensors would show them."""
 
     time: Array
     signals: Mapping[str, Array]
     status: str
     advice: str
+
+    def __repr__(self) -> str:
+        return f"<Simulation {self.status}: {', '.join(self.signals)}; {len(self.time)} samples>"
 
 
 def simulate(model: Model | str | Path, recording: Any) -> Simulation:

@@ -6,12 +6,19 @@ from collections.abc import Callable, Collection
 from pathlib import Path
 
 from rwn.errors import InputError
+from rwn.input_file import input_file
 from rwn.recording.formats.csv import read_csv
 from rwn.recording.formats.excel import read_excel
 from rwn.recording.formats.mat import read_mat
+from rwn.recording.formats.mcap import read_mcap
+from rwn.recording.formats.mdf import read_mdf
 from rwn.recording.formats.npz import read_npz
 from rwn.recording.formats.parquet import read_parquet
+from rwn.recording.formats.part import file_and_part, part_of
+from rwn.recording.formats.sysid import read_sysid
 from rwn.recording.formats.table import MAX_SAMPLES, Table
+from rwn.recording.formats.tdms import read_tdms
+from rwn.recording.formats.wpilog import read_wpilog
 
 Reader = Callable[[Path, Collection[str]], Table]
 
@@ -21,13 +28,19 @@ FORMATS: dict[str, Reader] = {
     **dict.fromkeys((".npz", ".npy"), read_npz),
     ".parquet": read_parquet,
     **dict.fromkeys((".xlsx", ".xlsm", ".xls", ".ods"), read_excel),
+    ".mcap": read_mcap,
+    ".wpilog": read_wpilog,
+    ".json": read_sysid,
+    ".tdms": read_tdms,
+    **dict.fromkeys((".mf4", ".mdf"), read_mdf),
 }
 
 __all__ = ["FORMATS", "MAX_SAMPLES", "Table", "read_table"]
 
 
 def read_table(path: Path, wanted: Collection[str]) -> Table:
-    """The `wanted` columns of a file, by the format of its ending. Raises InputError."""
+    """The `wanted` columns of a file, by the format of its ending; `file#part` reads a part. Raises InputError."""
+    path, part = file_and_part(path)
     reader = FORMATS.get(path.suffix.lower())
     if reader is None:
         raise InputError(
@@ -36,24 +49,5 @@ def read_table(path: Path, wanted: Collection[str]) -> Table:
             expected=" or ".join(FORMATS),
             fix="export the recording as CSV",
         )
-    try:
-        if path.is_dir():
-            raise InputError(
-                "this is a folder", where=path, expected="a recording file", fix="name the files in it"
-            )
-        if not path.is_file():
-            path.stat()  # says why, where there is nothing
-            raise InputError(
-                "this is not a regular file",
-                where=path,
-                expected="a recording file",
-                fix="save the recording to a file first",
-            )
-        return reader(path, wanted)
-    except OSError as error:
-        raise InputError(
-            f"cannot read the file ({(error.strerror or str(error)).lower()})",
-            where=path,
-            expected="a readable file",
-            fix="check the path and its permissions",
-        ) from error
+    with input_file(path, "a recording file"):
+        return part_of(reader, path, part, wanted) if part else reader(path, wanted)

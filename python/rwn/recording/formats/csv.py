@@ -17,6 +17,7 @@ from rwn.recording.formats.table import MAX_SAMPLES, Table, too_long
 
 BLOCK = 2**20  # characters that are read at once, and the longest line
 _QUOTE = '"'
+_NO_ROW = ("#", "EOF")  # comments, and what TwinCAT Scope ends its exports with
 _SAMPLE = 2**18  # characters that the dialect is told from
 
 Array = NDArray[np.float64]
@@ -122,9 +123,9 @@ def _rows(lines: list[str], at: int, skipped: int) -> tuple[Sequence[int], list[
     """The lines that are rows, blank ones and comments left out, with their numbers from 1."""
     kept = lines[skipped:] if skipped else lines
     numbers: Sequence[int] = range(at + 1, at + 1 + len(kept))
-    if all(map(str.strip, kept)) and not any(line.startswith("#") for line in kept):
+    if all(map(str.strip, kept)) and not any(line.startswith(_NO_ROW) for line in kept):
         return numbers, kept
-    pairs = [(k, line) for k, line in zip(numbers, kept, strict=True) if line.strip() and not line.startswith("#")]
+    pairs = [(k, line) for k, line in zip(numbers, kept, strict=True) if line.strip() and not line.startswith(_NO_ROW)]
     return [k for k, _ in pairs], [line for _, line in pairs]
 
 
@@ -145,9 +146,11 @@ def _numbers(
         ) from error
     widths = [len(row) for row in rows] if rows is not None else [line.count(delimiter) + 1 for line in lines]
     if rows is not None and len(rows) != len(lines):
+        quotes = [line.count(_QUOTE) for line in lines]
+        odd = next((k for k, n in enumerate(quotes) if n % 2), next(k for k, n in enumerate(quotes) if n))
         raise InputError(
             "a quote is left open",
-            where=f"{where}, line {next(k for k, line in zip(numbers, lines, strict=True) if line.count(_QUOTE) % 2)}",
+            where=f"{where}, line {numbers[odd]}",
             expected="one row in each line, with quotes in pairs",
             fix="close the quote; remove line breaks within cells",
         )

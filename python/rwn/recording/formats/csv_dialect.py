@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from rwn.errors import InputError
 from rwn.recording import units
+from rwn.recording.formats.scope import scope_block
 
 HOW = "write a first row such as: time [s],voltage [V],speed [rad/s]"
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*|\s*[-+]?(nan|inf|infinity)\s*", re.IGNORECASE)
@@ -20,6 +21,7 @@ _UNIT_AFTER = (
     re.compile(r"\s*(?P<name>.*?\S)\s+(?:/|in)\s+(?P<unit>\S+)\s*"),  # speed / rpm, speed in rpm
     re.compile(r"\s*(?P<name>[^\[\]]*?)(?P<unit>)\s*"),
 )
+_INDEXED = re.compile(r".*\S\[\d+\]")  # r0061[0]: of several, not a unit
 _BRACKETS = re.compile(r"\s*[\[(]?\s*(.*?)\s*[\])]?\s*")
 _ABOVE = 4  # rows of names, units and the like that may stand above the numbers
 _LONGEST = 300  # characters of a cell with a name and a unit: nobody writes such, and matching takes their square
@@ -62,6 +64,9 @@ def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str) -> Dia
 
     Raises InputError where no row of names is found, or columns are not told apart.
     """
+    block = scope_block(lines)
+    if block is not None:
+        return Dialect(delimiter=block.delimiter, names=block.names, units=block.units, first=block.first)
     told = [(k, line) for k, line in enumerate(lines) if line.strip(" \t,;#")]
     if not told:
         raise InputError("the file is empty", where=where, expected="a header row and rows of numbers", fix=HOW)
@@ -200,7 +205,7 @@ def name_and_unit(cell: str) -> tuple[str, str | None]:
 
     Raises ValueError where brackets are left open.
     """
-    if len(cell) > _LONGEST:
+    if len(cell) > _LONGEST or _INDEXED.fullmatch(cell):
         return cell, None
     for form in _UNIT_AFTER:
         match = form.fullmatch(cell)

@@ -3,10 +3,25 @@
 from __future__ import annotations
 
 import importlib
+import logging
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from rwn.errors import InputError
+
+
+@contextmanager
+def quiet(logger: str) -> Iterator[None]:
+    """Within it a library prints no log of its own: what it cannot read is said once, in our words."""
+    log = logging.getLogger(logger)
+    level = log.level
+    log.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        log.setLevel(level)
 
 
 def library(module: str, extra: str, where: object) -> Any:

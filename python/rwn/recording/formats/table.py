@@ -37,7 +37,7 @@ def table_of(
 
 def vector(where: str, name: str, values: Any) -> NDArray[np.float64]:
     """One column (n_t,) float64; instants and durations in s. Raises InputError."""
-    array = np.squeeze(np.asarray(values))
+    array = np.atleast_1d(np.squeeze(np.asarray(values)))
     if array.dtype.kind == "M" and array.size:  # instants, as time since the first
         array = array - array.flat[0]
     if array.dtype.kind == "m":

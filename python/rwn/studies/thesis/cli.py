@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rwn.errors import InputError
+from rwn.report.files import check_file, check_folder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -143,6 +144,7 @@ def _run(experiments: Sequence[Experiment], out: Path, *, count: Count, jobs: in
     from rwn.studies.thesis.overview import overview_table
     from rwn.studies.thesis.page import write_page
 
+    check_folder(out)
     _check_page(page)
     console = Console()
     if not console.is_terminal:
@@ -165,8 +167,7 @@ def _check_page(page: Path) -> None:
             expected="the extra 'thesis'",
             fix="pip install 'rwn[thesis]'",
         )
-    if page.is_dir():
-        raise InputError("this is a folder", where=page, expected="a file name", fix=f"write {page / 'thesis.md'}")
+    check_file(page)
 
 
 def _with_progress(experiments: Sequence[Experiment], out: Path, count: Count, jobs: int) -> list[Finished]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
 
@@ -32,17 +32,16 @@ def make(
     jobs: Jobs = 2,
 ) -> None:
     """Make COUNT trials with independent plants and seal their answers."""
+    from rwn.report.files import check_folder
     from rwn.studies.trials import make as sets
 
-    try:
-        if judge is not None and not bench:
-            raise ValueError("--judge is for trials of a bench; give --bench too")
-        if bench:
-            digest = sets.make_bench(seed, count, out, split=split, judge=judge, jobs=jobs, progress=_progress)
-        else:
-            digest = sets.make(seed, count, out, split=split, jobs=jobs, progress=_progress)
-    except (ValueError, OSError) as error:
-        _stop(error)
+    check_folder(out)
+    if judge is not None and not bench:
+        raise ValueError("--judge is for trials of a bench; give --bench too")
+    if bench:
+        digest = sets.make_bench(seed, count, out, split=split, judge=judge, jobs=jobs, progress=_progress)
+    else:
+        digest = sets.make(seed, count, out, split=split, jobs=jobs, progress=_progress)
     typer.echo(f"{count} trials in {out}; SHA-256 of the sealed answers: {digest}")
 
 
@@ -52,24 +51,23 @@ def spoil(
     out: Annotated[Path, typer.Option(help="Folder to make.")],
 ) -> None:
     """Put a recording mistake (unit, sign, gear ratio, a channel out of step) into every trial of FOLDER."""
+    from rwn.report.files import check_folder
     from rwn.studies.trials.spoil import spoil as spoil_set
 
-    try:
-        digest = spoil_set(folder, out)
-    except (ValueError, OSError) as error:
-        _stop(error)
+    check_folder(out)
+    digest = spoil_set(folder, out)
     typer.echo(f"the trials with mistakes in {out}; SHA-256 of the sealed answers: {digest}")
 
 
 @app.command()
 def run(folder: Folder, results: Results = None, jobs: Jobs = 2) -> None:
     """Diagnose every trial of FOLDER that has no diagnosis yet."""
+    from rwn.report.files import check_folder
     from rwn.studies.trials.run import run as run_set
 
-    try:
-        failed = run_set(folder, results=results, jobs=jobs, progress=_progress)
-    except (ValueError, OSError) as error:
-        _stop(error)
+    if results is not None:
+        check_folder(results)
+    failed = run_set(folder, results=results, jobs=jobs, progress=_progress)
     if failed:
         typer.echo(f"{len(failed)} failed (see error.txt there): {', '.join(failed)}", err=True)
         raise typer.Exit(1)
@@ -95,19 +93,16 @@ def score(
     from rwn.studies.trials.tables import reliability_plot, show
 
     console = Console(width=None if sys.stdout.isatty() else 150)  # a file has room
-    try:
-        if any(bench_grade.is_bench(folder) for folder in folders):
-            on_benches = bench_grade.grade_folders(folders, results=results)
-            bench_tables.show(on_benches, console)
-            bins = bench_score.reliability(on_benches.grades)
-        else:
-            graded = grade_folders(folders, results=results)
-            show(graded, console)
-            bins = reliability(graded.grades)
-        if plot is not None:
-            reliability_plot(bins, plot)
-    except (ValueError, OSError) as error:
-        _stop(error)
+    if any(bench_grade.is_bench(folder) for folder in folders):
+        on_benches = bench_grade.grade_folders(folders, results=results)
+        bench_tables.show(on_benches, console)
+        bins = bench_score.reliability(on_benches.grades)
+    else:
+        graded = grade_folders(folders, results=results)
+        show(graded, console)
+        bins = reliability(graded.grades)
+    if plot is not None:
+        reliability_plot(bins, plot)
 
 
 @app.command()
@@ -119,20 +114,12 @@ def calibrate(
     """Fit the probability that an effect acts to the evidence and answers of development trials."""
     from rwn.studies.trials.calibrate import bent, calibrated, commit, names_of, words, write
 
-    try:
-        what = f"{', '.join(f.name for f in folders)} at {commit()}"
-        found = calibrated(names_of(folders, results=results), what=what, bent=bent(folders, results=results))
-        if out is not None:
-            write(found.calibration, out)
-    except (ValueError, OSError) as error:
-        _stop(error)
+    what = f"{', '.join(f.name for f in folders)} at {commit()}"
+    found = calibrated(names_of(folders, results=results), what=what, bent=bent(folders, results=results))
+    if out is not None:
+        write(found.calibration, out)
     typer.echo(words(found))
 
 
 def _progress(done: int, count: int, name: str) -> None:
     typer.echo(f"{done}/{count} {name}", err=True)
-
-
-def _stop(error: Exception) -> NoReturn:
-    typer.echo("rwn: " + " ".join(str(error).split()), err=True)
-    raise typer.Exit(2) from None

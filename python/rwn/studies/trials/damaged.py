@@ -12,7 +12,12 @@ from rwn.errors import InputError
 
 @contextmanager
 def reading(path: Path) -> Iterator[None]:
-    """Raises InputError with the place for what a damaged file makes its readers raise within the block."""
+    """Raises InputError with the place for what a damaged file makes its readers raise within the block, and before it
+    where it is a pipe or a device, which never ends."""
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise InputError(
+            "this is not a regular file", where=path, expected="what rwn trials wrote there", fix="remove it"
+        )
     try:
         yield
     except InputError:

@@ -16,6 +16,7 @@ import numpy as np
 
 from rwn.studies.trials.adapter import train_files
 from rwn.studies.trials.bench import Recording
+from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.dossier import read_columns, write_recording
 from rwn.studies.trials.plant import Array
 from rwn.studies.trials.seal import ANSWERS, seal, unseal
@@ -84,10 +85,12 @@ def spoil(folder: Path, out: Path) -> str:
         raise ValueError(f"{folder} holds no {ANSWERS}; give a folder that `rwn trials make` has finished")
     if out.exists() and any(out.iterdir()):
         raise FileExistsError(f"{out} is not empty; choose another folder")
-    content = unseal(folder)
+    with reading(folder / ANSWERS):
+        content = unseal(folder)
+        answers, seed = sorted(content["answers"].items()), int(content["seed"])
     kinds = list(KINDS)
-    for index, (name, answer) in enumerate(sorted(content["answers"].items())):
-        rng = np.random.default_rng([int(content["seed"]), index, 7])
+    for index, (name, answer) in enumerate(answers):
+        rng = np.random.default_rng([seed, index, 7])
         answer["mistake"] = _spoil_trial(folder / name, out / name, kinds[index % len(kinds)], rng)
     return seal(out, content)
 

@@ -8,15 +8,31 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from multiprocessing import active_children, get_context, parent_process
+from multiprocessing import active_children, parent_process
 from multiprocessing.connection import wait
+from multiprocessing.context import SpawnContext, SpawnProcess
+
+
+class _Worker(SpawnProcess):
+    """A process that Ctrl-C in a terminal, which goes to every process, does not reach: the parent alone answers it."""
+
+    def start(self) -> None:
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # is inherited
+        try:
+            super().start()
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+class _Spawn(SpawnContext):
+    Process = _Worker
 
 
 @contextmanager
 def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     """A pool of `jobs` fresh processes; an error or Ctrl-C in the block ends them at once, what they do is lost."""
     before = set(active_children())
-    pool = ProcessPoolExecutor(max_workers=jobs, mp_context=get_context("spawn"), initializer=_end_with_the_parent)
+    pool = ProcessPoolExecutor(max_workers=jobs, mp_context=_Spawn(), initializer=_end_with_the_parent)
     try:
         yield pool
     except BaseException:
@@ -28,11 +44,7 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
 
 
 def _end_with_the_parent() -> None:
-    """A killed parent tells nobody, and its workers would wait for their next task for ever.
-
-    Ctrl-C in a terminal goes to every process: the parent alone answers it.
-    """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """A killed parent tells nobody, and its workers would wait for their next task for ever."""
     parent = parent_process()
     assert parent is not None, "runs in a worker"
 

@@ -1,0 +1,66 @@
+"""ASAM MDF 4 (.mf4), read by asammdf: channels with their units, each at the instants of its group."""
+
+from __future__ import annotations
+
+import gc
+import sys
+import traceback
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rwn.errors import InputError
+from rwn.recording.formats.channels import Channel, table_of_channels
+from rwn.recording.formats.extra import library, quiet
+from rwn.recording.formats.table import Table
+
+
+def read_mdf(path: Path, wanted: Collection[str] = ()) -> Table:
+    """The `wanted` channels by name, in physical values. Raises InputError where the file is no MDF.
+
+    Of several channels of one name the first is read.
+    """
+    asammdf = library("asammdf", "mdf", path)
+    try:
+        with quiet("asammdf"), path.open("rb") as stream, asammdf.MDF(stream) as file:
+            channels, units = _channels(file, wanted)
+    except OSError:
+        raise
+    except Exception as error:  # asammdf raises many kinds for what is no MDF
+        _forget(error)
+        raise InputError(
+            "the file is not MDF, or it is damaged",
+            where=path,
+            expected="a complete MDF 4 file",
+            fix="write it again, or export the recording as CSV",
+        ) from error
+    return table_of_channels(str(path), channels, units, wanted)
+
+
+def _forget(error: BaseException | None) -> None:
+    """Lets go of what asammdf left half open; its destructor would fail later, and Python print that."""
+    hook, sys.unraisablehook = sys.unraisablehook, lambda _: None
+    try:
+        while error is not None:
+            traceback.clear_frames(error.__traceback__)
+            error = error.__context__
+        gc.collect()
+    finally:
+        sys.unraisablehook = hook
+
+
+def _channels(file: Any, wanted: Collection[str]) -> tuple[dict[str, Channel], dict[str, str | None]]:
+    masters = file.masters_db  # group -> place of its time
+    channels: dict[str, Channel] = {}
+    units: dict[str, str | None] = {}
+    for name, places in file.channels_db.items():
+        group, index = places[0]
+        if masters.get(group) == index:
+            continue
+        units[name] = file.get_channel_unit(group=group, index=index) or None
+        if name in wanted:
+            signal = file.get(group=group, index=index)
+            channels[name] = Channel(np.asarray(signal.timestamps, dtype=np.float64), signal.samples)
+    return channels, units

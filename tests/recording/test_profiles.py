@@ -1,0 +1,163 @@
+"""What tools export is read by their profile, without a column map."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rwn import cli
+from rwn.errors import InputError
+from rwn.model.files import read_model, write_model
+from rwn.recording.columns import Column, Layout
+from rwn.recording.profiles import PROFILES, profile
+from rwn.recording.recording import Recording, read_recording
+from rwn.recording.signals import COLUMNS
+from rwn.recording.units import is_unit
+
+TIME = np.arange(80) * 0.02
+VOLTAGE, CURRENT, TORQUE = 5.0 * np.sin(TIME), 0.3 * np.cos(TIME), 0.02 * np.cos(TIME)
+SPEED, ANGLE = 30.0 * np.sin(TIME - 0.2), -30.0 * np.cos(TIME - 0.2)
+TURN, RPM = 2.0 * np.pi, np.pi / 30.0
+
+# the header of an export, its columns, and the signals in them
+EXPORTS: dict[str, tuple[str, list[np.ndarray], tuple[str, ...]]] = {
+    "odrive": (
+        "time,odrv0.axis0.pos_vel_mapper.vel,odrv0.axis0.motor.foc.Iq_measured,odrv0.axis0.controller.torque_setpoint",
+        [TIME, SPEED / TURN, CURRENT, TORQUE], ("torque", "current", "speed"),
+    ),
+    "moteus": (
+        "timestamp,servo_stats.velocity,servo_stats.position,servo_stats.q_A,servo_control.q_V",
+        [TIME, SPEED / TURN, ANGLE / TURN, CURRENT, VOLTAGE], ("voltage", "current", "speed", "position"),
+    ),
+    "dynamixel": (
+        "time,Present PWM,Present Current,Present Velocity,Present Position",
+        [TIME, VOLTAGE / 0.01356, CURRENT / 2.69e-3, SPEED / RPM / 0.229, ANGLE / TURN * 4096],
+        ("voltage", "current", "speed", "position"),
+    ),
+    "sinamics": (
+        "Time;SERVO_02.r0061[0];SERVO_02.r0079[0];SERVO_02.r0078[0]",
+        [1e3 * TIME, SPEED / RPM, TORQUE, CURRENT], ("torque", "current", "speed"),
+    ),
+    "sysid": (
+        "timestamp,voltage,velocity,position", [TIME, VOLTAGE, SPEED / TURN, ANGLE / TURN],
+        ("voltage", "speed", "position"),
+    ),
+}  # fmt: skip
+TRUE = {"voltage": VOLTAGE, "current": CURRENT, "torque": TORQUE, "speed": SPEED, "position": ANGLE}
+
+
+def _as_meant(read: Recording, signals: tuple[str, ...]) -> None:
+    assert tuple(read.signals) == tuple(name for name in TRUE if name in signals)
+    np.testing.assert_allclose(read.time, TIME, atol=1e-9)
+    for name in signals:
+        np.testing.assert_allclose(read.signals[name], TRUE[name], rtol=1e-6, atol=1e-8)
+
+
+def _write(path: Path, header: str, columns: list[np.ndarray]) -> Path:
+    np.savetxt(path, np.column_stack(columns), fmt="%.12g", delimiter=";" if ";" in header else ",", header=header,
+               comments="")  # fmt: skip
+    return path
+
+
+@pytest.mark.parametrize("name", EXPORTS)
+def test_an_export_is_read_by_its_profile(name: str, tmp_path: Path) -> None:
+    header, columns, signals = EXPORTS[name]
+    path = _write(tmp_path / "run.csv", header, columns)
+    _as_meant(read_recording(path, layout=Layout(profile=name)), signals)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_a_profile_names_signals_units_and_its_source(name: str) -> None:
+    known = profile(name)
+    assert len(known.source) > 20
+    for signal, column in known.columns.items():
+        assert signal in COLUMNS
+        assert column.names
+        assert column.unit is None or is_unit(column.unit)
+
+
+def test_two_axes_in_an_export_are_asked_for(tmp_path: Path) -> None:
+    header = "time,axis0.vel_estimate,axis1.vel_estimate,axis0.torque_setpoint"
+    path = _write(tmp_path / "run.csv", header, [TIME, SPEED / TURN, -SPEED / TURN, TORQUE])
+    with pytest.raises(InputError, match=r"axis0.vel_estimate and axis1.vel_estimate may both be the speed.*rename"):
+        read_recording(path, layout=Layout(profile="odrive"))
+    chosen = {"speed": Column(source="axis1.vel_estimate", unit="turn/s", scale=-1.0)}
+    _as_meant(read_recording(path, layout=Layout(profile="odrive", columns=chosen)), ("torque", "speed"))
+
+
+def test_a_unit_of_the_file_goes_before_the_profile(tmp_path: Path) -> None:
+    header = "time [s],Present PWM,Present Velocity [rpm]"
+    path = _write(tmp_path / "run.csv", header, [TIME, VOLTAGE / 0.01356, SPEED / RPM])
+    _as_meant(read_recording(path, layout=Layout(profile="dynamixel")), ("voltage", "speed"))
+
+
+def test_what_is_no_export_of_the_tool_is_refused(tmp_path: Path) -> None:
+    path = _write(tmp_path / "run.csv", "a,b", [TIME, SPEED])
+    with pytest.raises(InputError, match="no column is called as in an export of moteus"):
+        read_recording(path, layout=Layout(profile="moteus"))
+    with pytest.raises(InputError, match=r"unknown profile 'odriv'.*did you mean 'odrive'"):
+        Layout(profile="odriv")
+
+
+def _scope(path: Path, *, separator: str = "\t", comma: bool = False) -> Path:
+    """A Scope export as version 3.4 writes it: two channels every 20 ms, one every 40 ms."""
+    rows = {
+        "Name": ("Name", "Axis 1.ActVelo", "voltage", "Name", "temperature"),
+        "SymbolComment": ("SymbolComment", "", "", "SymbolComment", ""),
+        "Data-Type": ("Data-Type", "REAL64", "REAL64", "Data-Type", "REAL64"),
+        "SampleTime[ms]": ("SampleTime[ms]", "20", "20", "SampleTime[ms]", "40"),
+        "SymbolName": ("SymbolName", "Axes.Axis 1.NcToPlc.ActVelo", "MAIN.u", "SymbolName", "MAIN.t"),
+        "Unit": ("Unit", "(None)", "V (Voltage)", "Unit", "(None)"),
+        "Unit ScaleFactor": ("Unit ScaleFactor", "1", "1", "Unit ScaleFactor", "1"),
+    }
+    lines = ["Name\trun", "Starttime of export\t132959733843760000\tMontag, 2. Mai 2022\t15:56:24.376", "", ""]
+    lines += [separator.join(cells) for cells in rows.values()] + [""]
+    for k, (t, w, u) in enumerate(zip(TIME, SPEED, VOLTAGE, strict=True)):
+        lines.append(separator.join(f"{x:.12g}" for x in (1e3 * t, w / TURN * 360.0, u, 40.0 * k, 20.0 + k)))
+    text = "\n".join([*lines, "EOF", ""])
+    path.write_text(text.replace(".", ",") if comma else text)
+    return path
+
+
+@pytest.mark.parametrize(("separator", "comma"), [("\t", False), ("\t", True), (";", True)])
+def test_an_export_of_twincat_scope(separator: str, comma: bool, tmp_path: Path) -> None:
+    path = _scope(tmp_path / "run.csv", separator=separator, comma=comma)
+    speed = Column(source="Axis 1,ActVelo" if comma else "Axis 1.ActVelo", unit="deg/s")
+    _as_meant(read_recording(path, layout=Layout(columns={"speed": speed})), ("voltage", "speed"))
+
+
+def test_twincat_asks_for_the_unit_of_an_axis_and_for_channels_of_the_same_instants(tmp_path: Path) -> None:
+    path = _scope(tmp_path / "run.csv")
+    with pytest.raises(InputError, match=r"'Axis 1\.ActVelo' has no unit"):
+        read_recording(path, layout=Layout(profile="twincat"))
+    with pytest.raises(InputError, match="temperature@40ms"):
+        read_recording(path, layout=Layout(columns={"current": Column(source="temperature", unit="A")}))
+
+
+def test_the_command_line_and_model_files_take_a_profile(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    header, columns, _ = EXPORTS["moteus"]
+    _write(tmp_path / "run.csv", header, columns)
+    values = {
+        "resistance": 0.8, "inductance": 1e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 1e-4,
+        "viscous_friction": 1e-5,
+    }  # fmt: skip
+    motor = "".join(f"motor.{name} = {value}\n" for name, value in values.items())
+    (tmp_path / "motor.toml").write_text('motor.kind = "dc"\n' + motor)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["rwn", "check", "run.csv", "--model", "motor.toml", "--profile", "moteus"])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    assert end.value.code == 0
+    assert "voltage, current, speed, position" in capsys.readouterr().out
+    (tmp_path / "motor.toml").write_text('recording.profile = "moteus"\nmotor.kind = "dc"\n' + motor)
+    model = read_model("motor.toml")
+    write_model(model, "again.toml")
+    assert read_model("again.toml").recording == model.recording == Layout(profile="moteus")
+    (tmp_path / "motor.toml").write_text('recording.profile = "moto"\nmotor.kind = "dc"\n' + motor)
+    with pytest.raises(InputError, match=r"\[recording\] profile: unknown profile 'moto'"):
+        read_model("motor.toml")

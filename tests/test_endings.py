@@ -1,0 +1,83 @@
+"""How a command ends."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+import typer
+
+from rwn.endings import NO_RESULT, REFUSED, STOPPED, run
+from rwn.errors import InputError
+
+
+@pytest.fixture(autouse=True)
+def _handler_of_pytest() -> Iterator[None]:
+    before = signal.getsignal(signal.SIGINT)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def _raises(error: BaseException) -> Callable[[], Any]:
+    def command() -> None:
+        raise error
+
+    return command
+
+
+def _stopped_and_reworded() -> None:
+    try:
+        os.kill(os.getpid(), signal.SIGINT)
+    except KeyboardInterrupt as error:
+        raise InputError("unknown unit 'rad'") from error
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "said"),
+    [
+        (lambda: None, 0, ""),
+        (lambda: NO_RESULT, NO_RESULT, ""),
+        (_raises(InputError("no", where="a.csv")), REFUSED, "rwn: a.csv: no\n"),
+        (_raises(ValueError("two\nlines")), REFUSED, "rwn: two lines\n"),
+        (_raises(FileNotFoundError(2, "No such file", "a")), REFUSED, "rwn: a: No such file; expected a file"),
+        (_raises(typer.Abort()), STOPPED, "rwn: stopped\n"),
+        (_raises(KeyboardInterrupt()), STOPPED, "rwn: stopped\n"),
+        (_stopped_and_reworded, STOPPED, "rwn: stopped\n"),
+    ],
+)
+def test_a_command_ends_with_its_code_and_one_line(
+    command: Callable[[], Any], code: int, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        run(command)
+    assert end.value.code == code
+    error = capsys.readouterr().err
+    assert error.startswith(said)
+    assert error.count("\n") == bool(said)
+
+
+def test_a_defect_keeps_its_traceback() -> None:
+    with pytest.raises(ZeroDivisionError):
+        run(_raises(ZeroDivisionError()))
+
+
+def test_the_second_ctrl_c_ends_what_swallowed_the_first() -> None:
+    script = """
+import os, signal, time
+from rwn.endings import run
+def deaf():
+    for _ in range(2):
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+        except KeyboardInterrupt:
+            pass
+    time.sleep(60)
+run(deaf)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=30, check=False)
+    assert (done.returncode, done.stderr) == (STOPPED, "rwn: stopped\n")

@@ -1,0 +1,75 @@
+"""Recordings, models, simulations and fits in the hands of their user: looked at, compared, copied, tabulated."""
+
+from __future__ import annotations
+
+import builtins
+import copy
+import pickle
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rwn
+
+DEMO = Path(rwn.__file__).parent / "demo"
+MADE: dict[str, Callable[[], Any]] = {
+    "recording": lambda: rwn.read_recording(DEMO / "train.csv"),
+    "model": lambda: rwn.read_model(DEMO / "model.toml"),
+    "simulation": lambda: rwn.simulate(DEMO / "model.toml", DEMO / "train.csv"),
+    "identification": lambda: rwn.identify(DEMO / "train.csv", DEMO / "model.toml"),
+}
+
+
+@pytest.fixture(scope="module", params=MADE)
+def made(request: pytest.FixtureRequest) -> Any:
+    return MADE[request.param]()
+
+
+def test_it_is_short_to_look_at(made: Any) -> None:
+    assert repr(made).startswith(f"<{type(made).__name__} ")
+    assert len(repr(made)) < 200
+    assert "&lt;" in made._repr_html_()
+
+
+def test_it_survives_pickling_and_copying(made: Any) -> None:
+    for again in (pickle.loads(pickle.dumps(made)), copy.deepcopy(made)):
+        assert again == made
+        assert again is not made
+    assert made != 3
+
+
+def test_recordings_differ_by_one_sample_or_a_name() -> None:
+    recording = MADE["recording"]()
+    other = dict(recording.signals)
+    other["speed"] = np.where(np.arange(len(recording)) == 7, 1.0, other["speed"])
+    assert recording != replace(recording, signals=other)
+    assert recording != replace(recording, name="another")
+    assert recording == replace(recording, signals=dict(recording.signals))
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(recording)
+    copied = pickle.loads(pickle.dumps(recording))
+    with pytest.raises(ValueError, match="read-only"):
+        copied.time[0] = 1.0
+
+
+def test_the_table_of_a_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = MADE["identification"]()
+    rows = [
+        {"parameter": n, "value": e.value, "low": e.interval[0], "high": e.interval[1], "unit": e.unit}
+        for n, e in found.parameters.items()
+    ]
+    frame = pytest.importorskip("pandas")
+    assert frame.DataFrame(rows).equals(found.table())
+    real = builtins.__import__
+
+    def without_pandas(name: str, *rest: Any) -> Any:
+        if name == "pandas":
+            raise ModuleNotFoundError(name)
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without_pandas)
+    assert found.table() == rows
