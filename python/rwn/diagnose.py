@@ -1,4 +1,4 @@
-"""The main job: inspect recordings, undo their faults, refit, locate, name, prove, decide, correct, report."""
+"""The main job: inspect recordings, undo their faults, refit, name, prove, decide, correct, report."""
 
 from __future__ import annotations
 

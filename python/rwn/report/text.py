@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 from rwn.fit.intervals import Estimate
-from rwn.locate.dependence import CLEAR, Law
-from rwn.locate.regions import Region
+from rwn.mismatch_map.dependence import CLEAR, Law
+from rwn.mismatch_map.regions import Region
 from rwn.model.symbols import symbol_of
 
 STRONGEST = "strongest"  # begins what is said of the place alone
