@@ -19,7 +19,7 @@ from recurrent_rivals import jax_cycle, numba_cycle
 from rwn import _core
 from rwn.networks.arrays import Array
 from rwn.networks.rates import Fixed, RateRule, Thesis
-from rwn.reference import recurrent_network as twin
+from rwn.reference import recurrent_network as reference
 
 ASKED = {3: 60.0, 7: 95.0, 15: 190.0}  # ns a step
 RATES = {"b": 1e-3, "a": 1e-3, "w": 1e-3, "m": 1e-3, "d": 1e-3, "c": 1e-3}
@@ -54,8 +54,8 @@ def parts(net: rwn.RecurrentNetwork) -> tuple[Array, Array]:
 
 
 def check(net: rwn.RecurrentNetwork, x: Array, y: Array) -> None:
-    """Ends the bench where a rival learns something else than the twin."""
-    wanted = twin.train(net, x[:, None], y, rates=HELD, cycles=1)[0].theta
+    """Ends the bench where a rival learns something else than the reference."""
+    wanted = reference.train(net, x[:, None], y, rates=HELD, cycles=1)[0].theta
     linear, weights = parts(net)
     numba_cycle(linear, weights, HELD, x, y)
     jax_linear, jax_net, _ = jax_cycle(*parts(net), HELD, x, y)
@@ -92,7 +92,7 @@ def times(wavelets: int, x: Array, y: Array) -> dict[str, float]:
         "numba": (in_numba, 1),
         "JAX": (in_jax, 1),
     }
-    slow: Calls = {"NumPy": (lambda n: twin.train(net, x[:, None], y, rates=HELD, cycles=n), 1)}
+    slow: Calls = {"NumPy": (lambda n: reference.train(net, x[:, None], y, rates=HELD, cycles=n), 1)}
     return time_all(calls, ROUNDS) | time_all(slow, 3)
 
 
@@ -105,7 +105,7 @@ def main() -> None:
     for wavelets, asked in ASKED.items():
         ns = times(wavelets, x, y)
         held = ns["rates held"]
-        print(f"{wavelets} wavelets, asked at most {asked:.0f} ns, all answers agree with the NumPy twin")
+        print(f"{wavelets} wavelets, asked at most {asked:.0f} ns, all answers agree with the NumPy reference")
         for name, time in ns.items():
             print(f"    {name:14s} {time:10.1f} ns   {time / held:8.2f} x held")
 

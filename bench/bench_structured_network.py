@@ -22,7 +22,7 @@ import rwn
 from rwn import _core
 from rwn.networks.arrays import Array
 from rwn.networks.rates import Fixed, Thesis
-from rwn.reference import structured_network as twin
+from rwn.reference import structured_network as reference
 from structured_rivals import jax_cycle, numba_cycle
 
 SAMPLES, WAVELETS, SEEDS, ROUNDS, MORE = 2_000, 15, 8, 400, 8
@@ -132,8 +132,8 @@ def parts(net: rwn.StructuredNetwork) -> tuple[Array, Array]:
 
 
 def check(net: rwn.StructuredNetwork, u: Array, y: Array, rates: Array) -> None:
-    """Ends the bench where a rival learns something else than the twin."""
-    wanted, _ = twin.train(net, u, y, rates=rates, cycles=1)
+    """Ends the bench where a rival learns something else than the reference."""
+    wanted, _ = reference.train(net, u, y, rates=rates, cycles=1)
     answers = {"rwn": core_theta(net, u, y, Fixed(RATES), 1)}
     v, weights = parts(net)
     numba_cycle(v, weights, rates, u, y)
@@ -143,7 +143,7 @@ def check(net: rwn.StructuredNetwork, u: Array, y: Array, rates: Array) -> None:
     for name, theta in answers.items():
         moved = np.linalg.norm(wanted.theta - net.theta)
         off = float(np.linalg.norm(theta - wanted.theta) / moved)
-        print(f"{name:6s} agrees with the NumPy twin to {off:.1e} of what it learned in {SAMPLES} samples")
+        print(f"{name:6s} agrees with the NumPy reference to {off:.1e} of what it learned in {SAMPLES} samples")
         if not off < 1e-9:
             sys.exit(f"{name} gives another answer than the reference")
 
@@ -186,7 +186,7 @@ def main() -> None:
     }
     times = time_all(calls, ROUNDS)
     times |= time_all({"eigen": (lambda n: core_theta(net, u, y, adaptive["eigen"], n), 1)}, 20)
-    times |= time_all({"numpy": (lambda n: twin.train(net, u, y, rates=rates, cycles=n), 1)}, 5)
+    times |= time_all({"numpy": (lambda n: reference.train(net, u, y, rates=rates, cycles=n), 1)}, 5)
     report(times)
 
 
@@ -222,7 +222,7 @@ def report(ns: dict[str, float]) -> None:
         ),
         ("numba (fastmath)", ns["numba"], f"{ns['numba'] / held:.1f} x", "at least 3"),
         ("JAX (jit, lax.scan, float64)", ns["jax"], f"{ns['jax'] / held:.1f} x", "at least 15"),
-        ("NumPy twin", ns["numpy"], f"{ns['numpy'] / held:.0f} x", "at least 450"),
+        ("NumPy reference", ns["numpy"], f"{ns['numpy'] / held:.0f} x", "at least 450"),
     ]
     for name, time, ratio, target in rows:
         print(f"{name:42s} {time:10.1f} ns/sample   {ratio:18s} {target}")

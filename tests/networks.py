@@ -8,15 +8,15 @@ from hypothesis import strategies as st
 from rwn import ConventionalNetwork, Wavelet
 from rwn.networks.arrays import Array
 from rwn.networks.wavelets import WAVELETS
-from rwn.reference.conventional_network import ConventionalNetwork as Twin
+from rwn.reference.conventional_network import ConventionalNetwork as Plain
 
 wavelets = st.builds(Wavelet, st.sampled_from(WAVELETS), st.sampled_from([1.75, 5.0]))
 
 
 def random_network(
     wavelet: Wavelet, *, inputs: int, wavelets: int, outputs: int, seed: int
-) -> tuple[ConventionalNetwork, Twin, np.random.Generator]:
-    """A network, its twin, and the generator to draw data from."""
+) -> tuple[ConventionalNetwork, Plain, np.random.Generator]:
+    """A network, its reference, and the generator to draw data from."""
     rng = np.random.default_rng(seed)
     parts: dict[str, Array] = {
         "b": rng.normal(size=outputs),
@@ -25,7 +25,7 @@ def random_network(
         "m": rng.uniform(-1, 1, (wavelets, inputs)),
         "d": rng.uniform(0.5, 1.5, (wavelets, inputs)) * rng.choice([-1, 1], (wavelets, inputs)),
     }
-    return ConventionalNetwork(wavelet=wavelet, **parts), Twin(wavelet.name, wavelet.omega0, **parts), rng
+    return ConventionalNetwork(wavelet=wavelet, **parts), Plain(wavelet.name, wavelet.omega0, **parts), rng
 
 
 def relative(got: Array, want: Array) -> float:

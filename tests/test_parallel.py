@@ -1,4 +1,4 @@
-"""Independent pieces of work by a crew of threads."""
+"""Independent tasks on a pool of threads."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from rwn.parallel import crew, side_by_side
+from rwn.parallel import side_by_side, thread_pool
 
 
 def test_results_are_in_the_order_of_the_items() -> None:
@@ -15,7 +15,7 @@ def test_results_are_in_the_order_of_the_items() -> None:
         time.sleep(0.02 if k == 0 else 0.0)
         return k * k
 
-    with crew(3):
+    with thread_pool(3):
         assert side_by_side(slow_first, range(8)) == [k * k for k in range(8)]
     assert side_by_side(slow_first, range(8)) == [k * k for k in range(8)]
 
@@ -40,16 +40,16 @@ class Counter:
 def test_no_more_threads_work_than_were_asked_for(jobs: int) -> None:
     working = Counter()
 
-    def piece(_: int) -> None:
+    def task(_: int) -> None:
         with working:
             time.sleep(0.002)
 
-    with crew(jobs):
-        side_by_side(lambda _: side_by_side(piece, range(4)), range(5))
+    with thread_pool(jobs):
+        side_by_side(lambda _: side_by_side(task, range(4)), range(5))
     assert working.most == jobs
 
 
-def test_pieces_of_the_last_item_are_shared_by_idle_hands() -> None:
+def test_tasks_of_the_last_item_are_shared_by_idle_workers() -> None:
     """One long item among short ones: what it is made of is done by two."""
     together = threading.Barrier(2, timeout=10.0)
 
@@ -59,7 +59,7 @@ def test_pieces_of_the_last_item_are_shared_by_idle_hands() -> None:
         time.sleep(0.05)  # the others are done
         return sum(side_by_side(lambda _: together.wait() * 0 + 1, range(2)))
 
-    with crew(2):
+    with thread_pool(2):
         assert side_by_side(item, [True, False, False]) == [2, 0, 0]
         assert side_by_side(item, [False, False, True]) == [0, 0, 2]
 
@@ -71,7 +71,7 @@ def test_the_first_failure_is_raised_and_the_crew_goes_on(jobs: int) -> None:
             raise ValueError(f"item {k}")
         return k
 
-    with crew(jobs):
+    with thread_pool(jobs):
         with pytest.raises(ValueError, match="item 2"):
             side_by_side(fails, range(6))
         assert side_by_side(fails, [0, 1, 3]) == [0, 1, 3]
@@ -81,5 +81,5 @@ def test_many_levels_come_to_an_end() -> None:
     def depth(level: int) -> int:
         return 1 if level == 0 else sum(side_by_side(depth, [level - 1] * 3))
 
-    with crew(3):
+    with thread_pool(3):
         assert depth(6) == 3**6

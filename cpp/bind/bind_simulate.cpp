@@ -21,6 +21,7 @@ py::dict describe(const Parameter& p) {
   std::vector<double> scan(p.scan.begin(), p.scan.end());
   while (!scan.empty() && scan.back() == 0.0) scan.pop_back();
   d["name"] = std::string(p.name);
+  d["symbol"] = std::string(p.symbol);
   d["unit"] = std::string(p.unit);
   d["meaning"] = std::string(p.meaning);
   d["lower"] = p.lower;

@@ -1,22 +1,10 @@
 #include "rwn/kernels/conventional_network.hpp"
 
 #include "rwn/numerics/pack.hpp"
-#include "rwn/networks/wavelets.hpp"
+#include "with_wavelet.hpp"
 
 namespace rwn::RWN_ISA {
 namespace {
-
-/// Calls f with the wavelet of that index, as its own type.
-template <int I = 0, class F>
-RWN_INLINE auto with_wavelet(int index, double omega0, const F& f) {
-  using W = std::tuple_element_t<I, Wavelets>;
-  if constexpr (I + 1 < static_cast<int>(std::tuple_size_v<Wavelets>)) {
-    if (index != I) {
-      return with_wavelet<I + 1>(index, omega0, f);
-    }
-  }
-  return f(with_omega0<W>(omega0));
-}
 
 /// Phi = prod_i phi(z_i) (2.5), returned; slope_i = phi'(z_i) prod_{l != i} phi(z_l) (2.19), by products from both ends.
 template <class W, class Z>

@@ -1,4 +1,4 @@
-"""The main job: inspect recordings, undo their faults, refit, locate, name, prove, decide, correct, report."""
+"""The main job: inspect recordings, undo their faults, refit, name, prove, decide, correct, report."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
 from rwn.name.forward import Progress
-from rwn.parallel import crew
+from rwn.parallel import thread_pool
 from rwn.recording.inspection import inspected
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
@@ -63,7 +63,7 @@ def diagnose(
     refuse_doubles([*fitted, *judged])
     recordings, findings = inspected(fitted)
     heldout, unseen_findings = inspected(judged)
-    with crew(jobs or os.cpu_count() or 1):
+    with thread_pool(jobs or os.cpu_count() or 1):
         found = explained(recordings, model, say=say, effort=effort)
         model = found.model
         say("proving it on data that were not fitted", 0.85)

@@ -1,6 +1,6 @@
-"""Independent pieces of work side by side, by a crew of threads; the core releases the interpreter.
+"""Independent tasks side by side, on a pool of threads; the core releases the interpreter.
 
-Pieces may have pieces of their own: hands that the outer work leaves idle, because one long piece is left, take those.
+Tasks may have tasks of their own: workers that the outer ones leave idle, because one long task is left, take those.
 """
 
 from __future__ import annotations
@@ -16,54 +16,54 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 
-class _Crew:
-    """Threads of which only so many work at a time as there are hands."""
+class _Pool:
+    """Threads of which at most `jobs` work at a time."""
 
     def __init__(self, jobs: int) -> None:
-        self.idle = threading.Semaphore(jobs - 1)  # hands; the calling thread's own is at work
-        self.pool = ThreadPoolExecutor(2 * jobs)  # some wait for pieces of theirs
+        self.idle = threading.Semaphore(jobs - 1)  # workers; the calling thread is one more, and busy
+        self.threads = ThreadPoolExecutor(2 * jobs)  # some wait for tasks of their own
 
 
 class _Here(threading.local):
-    """What the present thread belongs to."""
+    """The pool that the present thread belongs to."""
 
-    crew: _Crew | None = None
+    pool: _Pool | None = None
 
 
 _here = _Here()
 
 
 @contextmanager
-def crew(jobs: int) -> Iterator[None]:
-    """Within it `side_by_side` uses `jobs` threads in all; a crew within a crew is the outer one."""
-    if jobs <= 1 or _here.crew is not None:
+def thread_pool(jobs: int) -> Iterator[None]:
+    """Within it `side_by_side` uses `jobs` threads in all; a pool within a pool is the outer one."""
+    if jobs <= 1 or _here.pool is not None:
         yield
         return
-    _here.crew = _Crew(jobs)
+    _here.pool = _Pool(jobs)
     try:
         yield
     finally:
-        _here.crew.pool.shutdown()
-        _here.crew = None
+        _here.pool.threads.shutdown()
+        _here.pool = None
 
 
 def side_by_side(function: Callable[[T], R], items: Iterable[T]) -> list[R]:
-    """`function` of every item, in the order of the items; one after the other where there is no crew.
+    """`function` of every item, in the order of the items; one after the other where there is no pool.
 
     Raises what the first item that fails raises.
     """
-    work, mine = list(items), _here.crew
+    work, mine = list(items), _here.pool
     if mine is None or len(work) < 2:
         return [function(item) for item in work]
     left = deque(range(len(work)))
     done: dict[int, R] = {}
     failed: dict[int, BaseException] = {}
 
-    def labour() -> None:
+    def work_on() -> None:
         while left:
             try:
                 k = left.popleft()
-            except IndexError:  # another hand was faster
+            except IndexError:  # another worker was faster
                 return
             try:
                 done[k] = function(work[k])
@@ -71,21 +71,21 @@ def side_by_side(function: Callable[[T], R], items: Iterable[T]) -> list[R]:
                 failed[k] = error
 
     def help_out() -> None:
-        _here.crew = mine
+        _here.pool = mine
         try:
-            labour()
+            work_on()
         finally:
             mine.idle.release()
 
     helpers: list[Future[None]] = []
     while len(helpers) < len(work) - 1 and mine.idle.acquire(blocking=False):
-        helpers.append(mine.pool.submit(help_out))
-    labour()
+        helpers.append(mine.threads.submit(help_out))
+    work_on()
     for late in [h for h in helpers if h.cancel()]:  # nothing was left for them
         helpers.remove(late)
         mine.idle.release()
     if helpers:
-        mine.idle.release()  # while it waits, the pieces of the others may have this hand
+        mine.idle.release()  # while this thread waits, tasks of the others may be worked on in its place
         wait(helpers)
         mine.idle.acquire()
     if failed:

@@ -18,7 +18,7 @@ from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.name.forward import rank
 from rwn.name.screening import screen
-from rwn.parallel import crew
+from rwn.parallel import thread_pool
 
 DEMO = Path(rwn.__file__).parent / "demo"
 LATE = ["quadratic-drag", "input-delay"]  # neither is what is missing in the demo
@@ -66,7 +66,7 @@ def test_what_a_search_costs_does_not_depend_on_threads() -> None:
     costs = []
     for jobs in (1, 2):
         problem = _problem()
-        with crew(jobs):
+        with thread_pool(jobs):
             rank(problem, progress=lambda *_: None, names=LATE)
         costs.append(problem.work.done)
     assert costs[0] == costs[1] > 0

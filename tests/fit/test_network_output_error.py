@@ -30,7 +30,7 @@ def wrong(network: rwn.StructuredNetwork) -> rwn.StructuredNetwork:
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.02])
-def test_the_free_run_agrees_with_the_twin(slope: float) -> None:
+def test_the_free_run_agrees_with_the_reference(slope: float) -> None:
     network = static(6, 2)
     u, _ = drive(3000, frequency=10)
     fit = StructuredLevenbergMarquardt(iterations=0, gauge=False, weights_first=False).fit(

@@ -15,14 +15,14 @@ shapes = st.fixed_dictionaries(
 
 @settings(deadline=None, max_examples=60)
 @given(wavelets, shapes, st.integers(0, 2**32))
-def test_parity_with_the_twin(wavelet: Wavelet, shape: dict[str, int], seed: int) -> None:
-    network, twin, rng = random_network(wavelet, **shape, seed=seed)
+def test_parity_with_the_reference(wavelet: Wavelet, shape: dict[str, int], seed: int) -> None:
+    network, plain, rng = random_network(wavelet, **shape, seed=seed)
     x = rng.normal(size=(1000, shape["inputs"]))
     y = rng.normal(size=(1000, shape["outputs"]))
-    assert relative(network.output(x), twin.output(x)) < 1e-12
-    assert relative(network.jacobian(x), twin.jacobian(x)) < 1e-12
-    assert relative(network.gradient(x, y), twin.gradient(x, y)) < 1e-12
-    assert network.mse(x, y) == pytest.approx(np.mean((y - twin.output(x)) ** 2), rel=1e-12)
+    assert relative(network.output(x), plain.output(x)) < 1e-12
+    assert relative(network.jacobian(x), plain.jacobian(x)) < 1e-12
+    assert relative(network.gradient(x, y), plain.gradient(x, y)) < 1e-12
+    assert network.mse(x, y) == pytest.approx(np.mean((y - plain.output(x)) ** 2), rel=1e-12)
 
 
 @settings(deadline=None, max_examples=20)

@@ -18,7 +18,7 @@ from rwn.networks.rates import (
     Thesis,
     Tightened,
 )
-from rwn.reference import rates as twin
+from rwn.reference import rates as reference
 
 ALL = rwn.StructuredNetwork.groups
 entries = st.floats(-2, 2, allow_subnormal=False)
@@ -130,13 +130,13 @@ RULES = {
 @pytest.mark.parametrize("wavelets", [0, 5, 15])
 @pytest.mark.parametrize("kind", RULES)
 @pytest.mark.parametrize("name", _core.wavelet_names())
-def test_the_thesis_rule_agrees_with_the_twin(wavelets: int, kind: str, name: str) -> None:
+def test_the_thesis_rule_agrees_with_the_reference(wavelets: int, kind: str, name: str) -> None:
     """Every group learns, the electrical ones of Appendix E too."""
     network = structured(wavelets, 4, name=name)
     u, y = drive(1200, frequency=10)
     rule = RULES[kind]
     got = rwn.train_structured(network, u, y, learn=ALL, rates=rule)
-    wanted, bounds = twin.train_thesis(network, u, y, learn=ALL, rule=rule)
+    wanted, bounds = reference.train_thesis(network, u, y, learn=ALL, rule=rule)
     np.testing.assert_allclose(got.bounds, bounds, rtol=1e-11)
     np.testing.assert_allclose(got.network.theta, wanted.theta, rtol=1e-11, atol=1e-15)
     moved = np.abs(wanted.theta - network.theta)
@@ -146,13 +146,13 @@ def test_the_thesis_rule_agrees_with_the_twin(wavelets: int, kind: str, name: st
 @pytest.mark.parametrize("shape", [(1, 3), (1, 15), (2, 7), (3, 5), (5, 3)])
 @pytest.mark.parametrize("kind", ["thesis", "tightened"])
 @pytest.mark.parametrize("name", _core.wavelet_names())
-def test_the_rates_of_chapter_3_agree_with_the_twin(shape: tuple[int, int], kind: str, name: str) -> None:
+def test_the_rates_of_chapter_3_agree_with_the_reference(shape: tuple[int, int], kind: str, name: str) -> None:
     network = recurrent(*shape, 6, name=name)
     x = np.sin(np.arange(400)[:, None] * np.linspace(0.01, 0.04, shape[0]) + np.arange(shape[0]))
     y = np.tanh(2 * x.sum(axis=1))
     rule = RULES[kind]
     got = rwn.train_recurrent(network, x, y, rates=rule)
-    wanted, bounds = twin.train_thesis_recurrent(network, x, y, learn=network.groups, rule=rule)
+    wanted, bounds = reference.train_thesis_recurrent(network, x, y, learn=network.groups, rule=rule)
     np.testing.assert_allclose(got.bounds, bounds, rtol=1e-12)
     np.testing.assert_allclose(got.network.theta, wanted.theta, rtol=1e-11, atol=1e-15)
     assert (got.network.theta != network.theta).all()
@@ -176,21 +176,21 @@ def test_the_report_knows_the_smallest_dilation(wavelets: int) -> None:
 
 
 @pytest.mark.parametrize("follow", [True, False])
-def test_the_normalised_rule_agrees_with_the_twin(follow: bool) -> None:
+def test_the_normalised_rule_agrees_with_the_reference(follow: bool) -> None:
     network = structured(5, 4)
     u, y = drive(1000, frequency=10)
     scales = {"v1": 0.05, "v2": 0.1, "w": 0.01, "m": 0.05}
     rule = Normalised(fraction=0.1, scales=scales)
     got = rwn.train_structured(network, u, y, learn=tuple(scales), rates=rule, follow_state=follow)
-    wanted = twin.train_normalised(network, u, y, rule=rule, follow_state=follow)
+    wanted = reference.train_normalised(network, u, y, rule=rule, follow_state=follow)
     np.testing.assert_allclose(got.network.theta, wanted.theta, rtol=1e-11, atol=1e-15)
 
 
-def test_the_impulse_response_rates_agree_with_the_twin() -> None:
+def test_the_impulse_response_rates_agree_with_the_reference() -> None:
     network = structured(5, 4)
     u, y = drive(1500)
     run = rwn.train_structured(network, u, y, learn=ALL, rates=ImpulseResponse())
-    np.testing.assert_allclose(run.rates[0], twin.impulse_response(network, u, y), rtol=1e-10)
+    np.testing.assert_allclose(run.rates[0], reference.impulse_response(network, u, y), rtol=1e-10)
 
 
 def test_every_rule_is_registered_and_states_its_guarantee() -> None:

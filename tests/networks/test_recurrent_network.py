@@ -9,7 +9,7 @@ import rwn
 from motor_networks import recurrent, relative_error
 from rwn import _core
 from rwn.networks.rates import Fixed, ImpulseResponse, Normalised, RateRule, Thesis, Tightened
-from rwn.reference import recurrent_network as twin
+from rwn.reference import recurrent_network as reference
 
 shapes = st.tuples(
     st.integers(1, 3), st.integers(0, 9), st.integers(0, 10**6), st.sampled_from(_core.wavelet_names())
@@ -31,13 +31,13 @@ def loop_gain(network: rwn.RecurrentNetwork) -> float:
 @pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(shapes)
-def test_training_agrees_with_the_twin(shape: tuple[int, int, int, str]) -> None:
+def test_training_agrees_with_the_reference(shape: tuple[int, int, int, str]) -> None:
     inputs, wavelets, seed, name = shape
     network = recurrent(inputs, wavelets, seed, name=name)
     x, y = signals(inputs, 1000, seed)
     rates = dict(zip(network.groups, (1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5), strict=True))
     got = rwn.train_recurrent(network, x, y, rates=Fixed(rates), cycles=2)
-    wanted, errors = twin.train(network, x, y, rates=np.array(list(rates.values())), cycles=2)
+    wanted, errors = reference.train(network, x, y, rates=np.array(list(rates.values())), cycles=2)
     assume(loop_gain(wanted) < 1.0)
     assert relative_error(got.network.theta, wanted.theta) < 1e-12
     assert relative_error(got.mse_learning, np.mean(errors**2, axis=1)) < 1e-12

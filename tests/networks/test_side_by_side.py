@@ -8,7 +8,7 @@ import pytest
 import rwn
 from motor_networks import drive, relative_error, structured
 from rwn.networks.rates import Fixed
-from rwn.reference import side_by_side as twin
+from rwn.reference import side_by_side as reference
 
 RATES = {"v1": 1e-6, "v2": 1e-6, "v3": 1e-7, "w": 1e-6, "m": 1e-5, "d": 1e-5, "c": 1e-5}
 
@@ -32,13 +32,13 @@ def test_runs_side_by_side_equal_runs_alone() -> None:
 
 
 @pytest.mark.parametrize("name", ["gaussian-derivative", "mexican-hat", "morlet"])
-def test_runs_side_by_side_agree_with_the_twin(name: str) -> None:
+def test_runs_side_by_side_agree_with_the_reference(name: str) -> None:
     u, y = drive(1000, frequency=20)
     networks = [structured(7, seed, name=name) for seed in range(3)]
     rates = {**RATES, "v4": 1e-8, "v5": 1e-8}
     got = rwn.train_side_by_side(networks, u, y, rates=Fixed(rates))
     values = np.tile([rates[group] for group in networks[0].groups], (3, 1))
-    wanted = twin.train(networks, u, y, rates=values, cycles=1)
+    wanted = reference.train(networks, u, y, rates=values, cycles=1)
     for one, other, start in zip(got.networks, wanted, networks, strict=True):
         assert relative_error(one.theta, other.theta) < 1e-12
         assert relative_error(one.theta, start.theta) > 1e-6

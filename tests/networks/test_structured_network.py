@@ -9,7 +9,7 @@ import rwn
 from motor_networks import MOTOR, SAMPLE_TIME, drive, relative_error, structured
 from rwn import _core
 from rwn.networks.rates import Fixed
-from rwn.reference import structured_network as twin
+from rwn.reference import structured_network as reference
 
 RATES = {
     "v1": 1e-6,
@@ -34,7 +34,7 @@ shapes = st.tuples(
 @pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(shapes)
-def test_training_agrees_with_the_twin(shape: tuple[int, int, str, bool, float]) -> None:
+def test_training_agrees_with_the_reference(shape: tuple[int, int, str, bool, float]) -> None:
     wavelets, seed, name, follow, first = shape
     network = structured(wavelets, seed, name=name)
     u, y = drive(1000, frequency=20)
@@ -43,18 +43,18 @@ def test_training_agrees_with_the_twin(shape: tuple[int, int, str, bool, float])
         network, u, y, learn=network.groups, rates=Fixed(RATES), cycles=2, follow_state=follow, start=start
     )
     rates = np.array(list(RATES.values()))
-    wanted, errors = twin.train(network, u, y, rates=rates, cycles=2, follow_state=follow, start=start)
+    wanted, errors = reference.train(network, u, y, rates=rates, cycles=2, follow_state=follow, start=start)
     assert got.status == "completed"
     assert relative_error(got.network.theta, wanted.theta) < 1e-12
     assert relative_error(got.mse_learning, np.mean(errors**2, axis=1)) < 1e-12
 
 
 @pytest.mark.parametrize("name", _core.wavelet_names())
-def test_sensitivities_agree_with_the_twin(name: str) -> None:
+def test_sensitivities_agree_with_the_reference(name: str) -> None:
     network = structured(15, 7, name=name)
     u, y = drive(1500)
     speed, jacobian = network.sensitivities(u, y)
-    wanted_speed, wanted = twin.sensitivities(network, u, y)
+    wanted_speed, wanted = reference.sensitivities(network, u, y)
     assert relative_error(speed, wanted_speed) < 1e-12
     scale = np.max(np.abs(wanted), axis=0)
     assert np.max(np.abs(jacobian - wanted) / scale) < 1e-12
@@ -104,7 +104,7 @@ def test_a_network_of_the_true_motor_simulates_it_exactly() -> None:
 def test_torque_of_a_recurrent_network() -> None:
     network = structured(4, 3)
     _, y = drive(300)
-    run = twin.StructuredRun(network, np.zeros(2))
+    run = reference.StructuredRun(network, np.zeros(2))
     wanted = []
     for speed in y:
         run.friction(speed)

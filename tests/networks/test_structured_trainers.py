@@ -9,7 +9,7 @@ import pytest
 import rwn
 from motor_networks import MOTOR, SAMPLE_TIME, drive, friction, relative_error, structured
 from rwn.networks.trainers import RecursiveGaussNewton, StructuredLevenbergMarquardt
-from rwn.reference import recursive_gauss_newton as twin
+from rwn.reference import recursive_gauss_newton as reference
 from rwn.reference.structured_network import StructuredRun
 
 CASES = {
@@ -127,7 +127,7 @@ def test_the_jacobian_of_the_fit_descends_and_never_rises() -> None:
 
 
 @pytest.mark.parametrize("wavelets", [0, 4])
-def test_recursive_gauss_newton_agrees_with_the_twin(wavelets: int) -> None:
+def test_recursive_gauss_newton_agrees_with_the_reference(wavelets: int) -> None:
     network = structured(wavelets, 3)
     u, y = drive(1200, frequency=10)
     spread = 0.02 * np.abs(network.theta)
@@ -137,13 +137,13 @@ def test_recursive_gauss_newton_agrees_with_the_twin(wavelets: int) -> None:
     spread = np.repeat([groups.get(g, 0.0) for g in network.groups], sizes)
     trainer = RecursiveGaussNewton(noise=0.1, forgetting=0.999, caution=0.0, cycles=1, spread=groups)
     got = trainer.train(network, u, y, learn=tuple(groups))
-    wanted, _ = twin.train(network, u, y, spread=spread, noise=0.1, forgetting=0.999)
-    # The twin carries the covariance, the core its square root: 1200 updates agree to 1e-10. The next test holds the
-    # update itself to 1e-12.
+    wanted, _ = reference.train(network, u, y, spread=spread, noise=0.1, forgetting=0.999)
+    # The reference carries the covariance, the core its square root: 1200 updates agree to 1e-10. The next test
+    # holds the update itself to 1e-12.
     assert relative_error(got.network.theta, wanted.theta) < 1e-10
 
 
-def test_one_recursive_gauss_newton_update_is_the_twin_s_at_1000_samples() -> None:
+def test_one_recursive_gauss_newton_update_is_the_references_at_1000_samples() -> None:
     u, y = drive(1002, frequency=10)
     groups = {"v1": 0.0012, "v2": 0.011, "v3": 0.0011, "w": 0.01, "m": 0.02, "d": 0.02, "c": 0.01}
     trainer = RecursiveGaussNewton(noise=0.1, forgetting=0.999, caution=0.0, cycles=1, spread=groups)
@@ -152,11 +152,11 @@ def test_one_recursive_gauss_newton_update_is_the_twin_s_at_1000_samples() -> No
     for k in range(1000):
         pair = u[k : k + 2], y[k : k + 2]
         got = trainer.train(network, *pair, learn=tuple(groups))
-        wanted, _ = twin.train(network, *pair, spread=spread, noise=0.1, forgetting=0.999)
+        wanted, _ = reference.train(network, *pair, spread=spread, noise=0.1, forgetting=0.999)
         assert relative_error(got.network.theta, wanted.theta) < 1e-12
 
 
-def test_a_levenberg_marquardt_step_solves_the_twin_s_normal_equations() -> None:
+def test_a_levenberg_marquardt_step_solves_the_references_normal_equations() -> None:
     network, damping = structured(6, 5), 10.0
     u, y = drive(1200, frequency=10)
     fit = StructuredLevenbergMarquardt(gauge=False, weights_first=False, damping=damping, iterations=1)

@@ -31,11 +31,11 @@ def test_the_registry_matches_the_core() -> None:
 @settings(deadline=None, max_examples=15)
 @given(wavelets, shapes, seeds)
 def test_gradient_descent_parity(wavelet: Wavelet, shape: dict[str, int], seed: int) -> None:
-    network, twin, rng = random_network(wavelet, **shape, seed=seed)
+    network, plain, rng = random_network(wavelet, **shape, seed=seed)
     x, y = rng.normal(size=(40, shape["inputs"])), rng.normal(size=(40, shape["outputs"]))
     options = {"rate": 2e-3, "momentum": 0.5, "iterations": 100}
     training = GradientDescent(**options, stall=-1).train(network, x, y)
-    want, history = reference.gradient_descent(twin, x, y, **options)
+    want, history = reference.gradient_descent(plain, x, y, **options)
     assert relative(training.network.parameters, want.parameters) < 1e-12
     assert relative(training.mse, np.array(history)) < 1e-12
 
@@ -44,28 +44,28 @@ def test_gradient_descent_parity(wavelet: Wavelet, shape: dict[str, int], seed: 
 @settings(deadline=None, max_examples=15)
 @given(wavelets, shapes, seeds)
 def test_pattern_descent_parity_over_1000_samples(wavelet: Wavelet, shape: dict[str, int], seed: int) -> None:
-    network, twin, rng = random_network(wavelet, **shape, seed=seed)
+    network, plain, rng = random_network(wavelet, **shape, seed=seed)
     x, y = rng.normal(size=(250, shape["inputs"])), rng.normal(size=(250, shape["outputs"]))
     # slow enough that no dilation passes zero, where two trajectories part however close they are
     options = {"rate": 3e-5, "momentum": 0.6, "shape_momentum": 0.8, "iterations": 4}
     training = PatternDescent(**options).train(network, x, y)
-    want, history = reference.pattern_descent(twin, x, y, **options)
+    want, history = reference.pattern_descent(plain, x, y, **options)
     assert relative(training.network.parameters, want.parameters) < 1e-12
     assert relative(training.mse, np.array(history)) < 1e-12
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_at_higher_rates_the_core_differs_from_the_twin_no_more_than_the_twin_from_itself(seed: int) -> None:
+def test_at_higher_rates_the_core_differs_from_the_reference_no_more_than_the_reference_from_itself(seed: int) -> None:
     """Why the parity tests keep the rate low: where a dilation passes near zero, phi' ~ 1/d makes training chaotic, and
     a start moved in its last digit ends as far away as the core does. Elsewhere 1e-12 holds at this rate too."""
-    network, twin, rng = random_network(Wavelet("morlet", 5.0), inputs=1, wavelets=6, outputs=1, seed=seed)
+    network, plain, rng = random_network(Wavelet("morlet", 5.0), inputs=1, wavelets=6, outputs=1, seed=seed)
     x, y = rng.normal(size=(250, 1)), rng.normal(size=(250, 1))
     options = {"rate": 1e-3, "momentum": 0.6, "shape_momentum": 0.8, "iterations": 2}
-    want, _ = reference.pattern_descent(twin, x, y, **options)
+    want, _ = reference.pattern_descent(plain, x, y, **options)
     own = 0.0
     for _ in range(3):
-        last_digit = 1 + 2.2e-16 * rng.choice([-1, 1], twin.parameters.size)
-        moved, _ = reference.pattern_descent(twin.with_parameters(twin.parameters * last_digit), x, y, **options)
+        last_digit = 1 + 2.2e-16 * rng.choice([-1, 1], plain.parameters.size)
+        moved, _ = reference.pattern_descent(plain.with_parameters(plain.parameters * last_digit), x, y, **options)
         own = max(own, relative(moved.parameters, want.parameters))
     got = PatternDescent(**options).train(network, x, y).network.parameters
     assert relative(got, want.parameters) < 1e-12 + 30 * own
@@ -77,28 +77,28 @@ def test_at_higher_rates_the_core_differs_from_the_twin_no_more_than_the_twin_fr
 def test_pattern_gauss_newton_parity_over_1000_samples(
     wavelet: Wavelet, shape: dict[str, int], seed: int
 ) -> None:
-    network, twin, rng = random_network(wavelet, **shape, seed=seed)
+    network, plain, rng = random_network(wavelet, **shape, seed=seed)
     x, y = rng.normal(size=(1000, shape["inputs"])), rng.normal(size=(1000, shape["outputs"]))
     trainer = PatternGaussNewton(
         noise=1.0, weight_prior=0.2, shape_prior=0.02, forgetting=0.999, iterations=1
     )
     shapes_prior = np.abs(np.tile(network.d.ravel(), 2)) * 0.02
     prior = np.concatenate([np.full(network.parameters.size - shapes_prior.size, 0.2), shapes_prior])
-    want = reference.pattern_gauss_newton(twin, x, y, prior=prior, noise=1.0, forgetting=0.999)
-    # The twin carries the covariance, the core its square root: over 1000 updates the former loses what the square
+    want = reference.pattern_gauss_newton(plain, x, y, prior=prior, noise=1.0, forgetting=0.999)
+    # The reference carries the covariance, the core its square root: over 1000 updates the former loses what the square
     # root keeps, so the iterated results agree to 1e-10. The next test holds the update itself to 1e-12.
     assert relative(trainer.train(network, x, y).network.parameters, want.parameters) < 1e-10
 
 
-def test_one_gauss_newton_update_is_the_twin_s_on_each_of_1000_patterns() -> None:
-    network, twin, rng = random_network(Wavelet(), inputs=2, wavelets=5, outputs=1, seed=7)
+def test_one_gauss_newton_update_is_the_references_on_each_of_1000_patterns() -> None:
+    network, plain, rng = random_network(Wavelet(), inputs=2, wavelets=5, outputs=1, seed=7)
     x, y = rng.normal(size=(1000, 2)), rng.normal(size=(1000, 1))
     trainer = PatternGaussNewton(noise=1.0, weight_prior=0.2, shape_prior=0.02, iterations=1)
     shapes_prior = np.abs(np.tile(network.d.ravel(), 2)) * 0.02
     prior = np.concatenate([np.full(network.parameters.size - shapes_prior.size, 0.2), shapes_prior])
     for k in range(1000):
         pattern = x[k : k + 1], y[k : k + 1]
-        want = reference.pattern_gauss_newton(twin, *pattern, prior=prior, noise=1.0, forgetting=0.999)
+        want = reference.pattern_gauss_newton(plain, *pattern, prior=prior, noise=1.0, forgetting=0.999)
         assert relative(trainer.train(network, *pattern).network.parameters, want.parameters) < 1e-12
 
 
@@ -114,27 +114,27 @@ def test_pattern_gauss_newton_is_recursive_least_squares_on_a_linear_problem() -
 @settings(deadline=None, max_examples=15)
 @given(wavelets, shapes, seeds)
 def test_levenberg_marquardt_parity(wavelet: Wavelet, shape: dict[str, int], seed: int) -> None:
-    network, twin, rng = random_network(wavelet, **shape, seed=seed)
+    network, plain, rng = random_network(wavelet, **shape, seed=seed)
     x, y = rng.normal(size=(200, shape["inputs"])), rng.normal(size=(200, shape["outputs"]))
     options = {"mu": 10.0, "beta": 2.0, "iterations": 5}
     training = LevenbergMarquardt(**options).train(network, x, y)
-    want, history = reference.levenberg_marquardt(twin, x, y, **options)
-    # Five solves in a row: rounding grows with the condition of J^T J + mu I (up to 1e4 here) at every one, in the twin
-    # as in the core. The next test holds the normal equations and the step themselves to 1e-12.
+    want, history = reference.levenberg_marquardt(plain, x, y, **options)
+    # Five solves in a row: rounding grows with the condition of J^T J + mu I (up to 1e4 here) at every one, in
+    # the reference as in the core. The next test holds the normal equations and the step themselves to 1e-12.
     assert relative(training.network.parameters, want.parameters) < 1e-10
     assert relative(training.mse, np.array(history)) < 1e-11
 
 
 @settings(deadline=None, max_examples=15)
 @given(wavelets, shapes, seeds)
-def test_a_levenberg_marquardt_step_solves_the_twin_s_normal_equations(
+def test_a_levenberg_marquardt_step_solves_the_references_normal_equations(
     wavelet: Wavelet, shape: dict[str, int], seed: int
 ) -> None:
-    network, twin, rng = random_network(wavelet, **shape, seed=seed)
+    network, plain, rng = random_network(wavelet, **shape, seed=seed)
     x, y = rng.normal(size=(1000, shape["inputs"])), rng.normal(size=(1000, shape["outputs"]))
     training = LevenbergMarquardt(mu=1e3, iterations=1).train(network, x, y)
-    error = (y - twin.output(x)).ravel()
-    jacobian = twin.jacobian(x).reshape(error.size, -1)
+    error = (y - plain.output(x)).ravel()
+    jacobian = plain.jacobian(x).reshape(error.size, -1)
     damped = jacobian.T @ jacobian + 1e3 * np.eye(jacobian.shape[1])
     step = training.network.parameters - network.parameters
     rounding = np.abs(damped) @ (np.abs(step) + 1e-3 * np.abs(network.parameters))  # step is a difference
@@ -144,11 +144,11 @@ def test_a_levenberg_marquardt_step_solves_the_twin_s_normal_equations(
 
 @settings(deadline=None, max_examples=15)
 @given(wavelets, seeds)
-def test_variable_projection_solves_the_linear_part_as_the_twin(wavelet: Wavelet, seed: int) -> None:
-    network, twin, rng = random_network(wavelet, inputs=2, wavelets=5, outputs=2, seed=seed)
+def test_variable_projection_solves_the_linear_part_as_the_reference(wavelet: Wavelet, seed: int) -> None:
+    network, plain, rng = random_network(wavelet, inputs=2, wavelets=5, outputs=2, seed=seed)
     x, y = rng.normal(size=(200, 2)), rng.normal(size=(200, 2))
     training = VariableProjection(iterations=0).train(network, x, y)
-    want = reference.project(twin, x, y)
+    want = reference.project(plain, x, y)
     assert relative(training.network.output(x), want.output(x)) < 1e-9  # as far as the basis is conditioned
 
 

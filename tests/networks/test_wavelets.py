@@ -12,16 +12,16 @@ from rwn.reference import wavelets as reference
 
 
 @given(wavelets, st.integers(0, 2**32))
-def test_parity_with_the_twin(wavelet: Wavelet, seed: int) -> None:
+def test_parity_with_the_reference(wavelet: Wavelet, seed: int) -> None:
     z = np.random.default_rng(seed).normal(scale=3.0, size=1000)
     want = reference.WAVELETS[wavelet.name](z, wavelet.omega0)
-    for got, twin in zip(
+    for got, wanted in zip(
         (wavelet.value(z), wavelet.derivative(z), wavelet.second_derivative(z)), want, strict=True
     ):
-        np.testing.assert_allclose(got, twin, rtol=1e-12, atol=1e-12 * np.abs(twin).max())
+        np.testing.assert_allclose(got, wanted, rtol=1e-12, atol=1e-12 * np.abs(wanted).max())
 
 
-def test_every_wavelet_has_a_twin() -> None:
+def test_every_wavelet_has_a_reference() -> None:
     assert set(reference.WAVELETS) == set(WAVELETS)
 
 

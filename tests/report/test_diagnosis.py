@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rwn.fit.intervals import Estimate
-from rwn.locate.regions import Region
+from rwn.mismatch_map.regions import Region
 from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.report.diagnosis import Diagnosis

@@ -8,7 +8,7 @@ import pytest
 import made_up
 from rwn.decide.account import Remainder
 from rwn.fit.intervals import Estimate
-from rwn.locate.regions import Region
+from rwn.mismatch_map.regions import Region
 from rwn.prove.proof import LEFT_OUT
 from rwn.report import text as words
 from rwn.report.sentences import before_after, headline, verdict_sentence

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "rwn/numerics/isa.hpp"
-#include "rwn/simulate/simulate_kernel.hpp"
+#include "rwn/simulate/active_effects.hpp"
+#include "rwn/simulate/simulation_slice.hpp"
+#include "rwn/simulate/transfer_function.hpp"
 
 namespace rwn {
 

@@ -57,6 +57,7 @@ class Parameter:
     idealised: bool
     natural: bool
     replaces: str | None
+    symbol: str = ""  # in the equation of its effect; formulas of own effects are written in the names
 
 
 @dataclass(frozen=True, kw_only=True)

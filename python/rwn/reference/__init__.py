@@ -1,3 +1,3 @@
-"""NumPy twins of the C++ core: slow, plain, written from the equations; the tests hold both together."""
+"""Reference implementations of the C++ core, in NumPy: slow, plain, written from the equations; tests compare both."""
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Twin of the conventional network: (2.4-2.5) and the derivatives (2.14-2.19), one loop per index of the
+"""Reference for the conventional network: (2.4-2.5) and the derivatives (2.14-2.19), one loop per index of the
 equations."""
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Twins of the initialisations (2.7-2.11; Oussar & Dreyfus 2000)."""
+"""Reference for the initialisations (2.7-2.11; Oussar & Dreyfus 2000)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Twins of the learning-rate rules on the structured network, one sample at a time."""
+"""Reference for the learning-rate rules on the structured network, one sample at a time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Twin of the recurrent network: eq. 3.1-3.19 as written."""
+"""Reference for the recurrent network: eq. 3.1-3.19 as written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Twin of the recursive Gauss-Newton trainer: the extended Kalman filter with full covariance."""
+"""Reference for the recursive Gauss-Newton trainer: the extended Kalman filter with full covariance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Twin of the structured network: eq. 4.6-4.29 and Appendix E as written, one sample at a time."""
+"""Reference for the structured network: eq. 4.6-4.29 and Appendix E as written, one sample at a time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Twins of the trainers of static networks: parameters after the given number of iterations, and the MSE
+"""Reference for the trainers of static networks: parameters after the given number of iterations, and the MSE
 history."""
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Twin of the mother wavelets: value, first and second derivative as written in the thesis, section 2.1."""
+"""Reference for the mother wavelets: value, first and second derivative as written in the thesis, section 2.1."""
 
 from __future__ import annotations
 

@@ -17,8 +17,8 @@ from rwn.decide.verdict import Verdict
 from rwn.faults.fault import SURE, Fault
 from rwn.fit.intervals import Doubt
 from rwn.fit.prior_weight import BELIEVABLE
-from rwn.locate.dependence import laws
-from rwn.locate.regions import regions
+from rwn.mismatch_map.dependence import laws
+from rwn.mismatch_map.regions import regions
 from rwn.model.model import Model
 from rwn.name.found_effect import coarse_speed, found_effects
 from rwn.name.ranking import Ranking

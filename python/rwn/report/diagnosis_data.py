@@ -11,7 +11,7 @@ import numpy as np
 
 from rwn.decide.account import Acting, Remainder
 from rwn.decide.verdict import Verdict
-from rwn.locate.regions import Region
+from rwn.mismatch_map.regions import Region
 from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding

@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator, Sequence
 
-from rwn.model.symbols import symbol_of
 from rwn.model.vocabulary import Effect
 
 _MEANING = 39  # column at which the meaning begins
@@ -29,6 +28,6 @@ def _detail(effect: Effect) -> Iterator[str]:
     yield f"equation: {effect.equation}"
     for p in effect.parameters:
         scale = f" x {p.scale.words} of the drive" if p.scale.powers else ""
-        symbol = f" {symbol_of(effect.name, p.name)}".rstrip()
+        symbol = f" {p.symbol}".rstrip()
         yield f"  {p.name}{symbol} [{p.unit}]: {p.meaning}; {p.lower:g} to {p.upper:g}{scale}"
     yield f"source: {effect.source}"

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from rwn.correct.network import NetworkCorrection
 from rwn.fit.network_formula import states_of, unit_of_state
-from rwn.locate.dependence import CLEAR, Law
-from rwn.locate.regions import regions
+from rwn.mismatch_map.dependence import CLEAR, Law
+from rwn.mismatch_map.regions import regions
 from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit

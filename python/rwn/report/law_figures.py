@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.locate.dependence import Law
+from rwn.mismatch_map.dependence import Law
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.report.plot import Plot, Trace

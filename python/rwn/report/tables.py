@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 
-from rwn.locate.regions import Region
+from rwn.mismatch_map.regions import Region
 from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding

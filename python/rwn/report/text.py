@@ -6,9 +6,9 @@ import math
 from collections.abc import Sequence
 
 from rwn.fit.intervals import Estimate
-from rwn.locate.dependence import CLEAR, Law
-from rwn.locate.regions import Region
-from rwn.model.symbols import symbol_of
+from rwn.mismatch_map.dependence import CLEAR, Law
+from rwn.mismatch_map.regions import Region
+from rwn.model.vocabulary import table
 
 STRONGEST = "strongest"  # begins what is said of the place alone
 CROWDED = 0.1  # share of the mismatch beyond that of the samples, from which a region is worth naming
@@ -118,7 +118,8 @@ def plain_name(effect: str) -> str:
 
 def parameter_name(effect: str, parameter: str) -> str:
     """A parameter with its symbol in the effect's equation: Coulomb torque T_c."""
-    name, sign = plain_name(parameter), symbol_of(effect, parameter)
+    among = table()[effect].parameters if effect in table() else ()
+    name, sign = plain_name(parameter), next((p.symbol for p in among if p.name == parameter), "")
     return name if not sign or sign == name.replace(" ", "_") else f"{name} {sign}"
 
 

@@ -1,4 +1,4 @@
-// The table of the kinds of drive. A new one is a file in drives/, its include and its entry in the tuple; its twin in
+// The table of the kinds of drive. A new one is a file in drives/, its include and its entry in the tuple; its counterpart in
 // Python is a file in python/rwn/model/drives/.
 //
 // A drive with equations of motion says how many states its electrical part has, whether its input is a torque, and in

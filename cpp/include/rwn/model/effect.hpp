@@ -99,6 +99,15 @@ consteval bool is_signature() {
   return std::is_same_v<Wanted, Given>;
 }
 
+/// True where every parameter has a symbol that occurs in the equation, or is an idealisation that it does without.
+template <class E>
+consteval bool is_written_in_symbols() {
+  for (const Parameter& p : E::parameters) {
+    if (p.symbol.empty() ? !p.idealised : E::info.equation.find(p.symbol) == std::string_view::npos) return false;
+  }
+  return true;
+}
+
 /// Refuses, with a sentence, what would compile and do nothing.
 template <class E>
 consteval bool is_effect() {
@@ -107,6 +116,7 @@ consteval bool is_effect() {
   static_assert(std::is_same_v<decltype(E::info), const EffectInfo>, "an effect has `info`");
   static_assert(E::parameters.size() >= 1 && E::parameters.size() <= max_effect_parameters,
                 "an effect has one to max_effect_parameters parameters");
+  static_assert(is_written_in_symbols<E>(), "a parameter of an effect has a `symbol`, as its equation writes it");
   static_assert(E::traits.memories >= 0 && E::traits.memories <= max_memories, "an effect has at most max_memories");
   static_assert(static_cast<unsigned>(hooks) != 0, "an effect does something: it lists at least one hook");
 #define RWN_HOOK(name, Type)                                                                                     \

@@ -13,6 +13,7 @@ namespace rwn {
 
 /// Of B, behind a joint: part of the law of every effect that brings one, since no data sheet says it.
 inline constexpr Parameter load_viscous_share{.name = "load_viscous_share",
+                                              .symbol = "s",
                                               .unit = "1",
                                               .meaning = "part of the viscous friction that is behind it",
                                               .lower = 0.0,

@@ -33,17 +33,17 @@ enum MotorParameter : int {
 };
 
 inline constexpr std::array<Parameter, motor_parameter_count> motor_parameters{{
-    {"resistance", "ohm", "terminal resistance R", 1e-3, 1e3, 1.0},
-    {"inductance", "H", "winding inductance L", 1e-3, 1e3, 1.0},
-    {"torque_constant", "N m/A", "torque per ampere Kt", 1e-3, 1e3, 1.0},
-    {"back_emf_constant", "V s/rad", "back-EMF per speed Ke", 1e-3, 1e3, 1.0},
-    {"inertia", "kg m^2", "moment of inertia J (mass of a linear axis)", 1e-3, 1e3, 1.0},
-    {"viscous_friction", "N m s/rad", "viscous friction B", 0.0, 1e3, 1.0},
-    {"coulomb_friction", "N m", "dry friction level Tc of the nominal model", 0.0, 1e3, 1.0},
-    {"pendulum_torque", "N m", "known pendulum load m g l: brakes with m g l sin(theta)", 0.0, 1e3, 1.0},
-    {"initial_current", "A", "current at the first sample", -1e3, 1e3, 0.0},
-    {"initial_speed", "rad/s", "speed at the first sample", -1e3, 1e3, 0.0},
-    {"initial_position", "rad", "position at the first sample", -1e6, 1e6, 0.0},
+    {"resistance", "R", "ohm", "terminal resistance R", 1e-3, 1e3, 1.0},
+    {"inductance", "L", "H", "winding inductance L", 1e-3, 1e3, 1.0},
+    {"torque_constant", "Kt", "N m/A", "torque per ampere Kt", 1e-3, 1e3, 1.0},
+    {"back_emf_constant", "Ke", "V s/rad", "back-EMF per speed Ke", 1e-3, 1e3, 1.0},
+    {"inertia", "J", "kg m^2", "moment of inertia J (mass of a linear axis)", 1e-3, 1e3, 1.0},
+    {"viscous_friction", "B", "N m s/rad", "viscous friction B", 0.0, 1e3, 1.0},
+    {"coulomb_friction", "Tc", "N m", "dry friction level Tc of the nominal model", 0.0, 1e3, 1.0},
+    {"pendulum_torque", "m g l", "N m", "known pendulum load m g l: brakes with m g l sin(theta)", 0.0, 1e3, 1.0},
+    {"initial_current", "i(0)", "A", "current at the first sample", -1e3, 1e3, 0.0},
+    {"initial_speed", "w(0)", "rad/s", "speed at the first sample", -1e3, 1e3, 0.0},
+    {"initial_position", "theta(0)", "rad", "position at the first sample", -1e6, 1e6, 0.0},
 }};
 
 /// Parameters of the motor itself, in scalar type S.

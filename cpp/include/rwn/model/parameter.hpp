@@ -10,6 +10,7 @@ namespace rwn {
 
 struct Parameter {
   std::string_view name;
+  std::string_view symbol{};  // in its equation; none where it is `idealised` and the equation does without
   std::string_view unit;
   std::string_view meaning;
   double lower = 0.0;  // in units of `scale`, as are upper, start and scan

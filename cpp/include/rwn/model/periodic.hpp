@@ -6,6 +6,7 @@
 namespace rwn::periodic {
 
 inline constexpr Parameter peak_torque{.name = "amplitude",
+                                       .symbol = "A",
                                        .unit = "N m",
                                        .meaning = "peak torque",
                                        .lower = 0.0,
@@ -20,6 +21,7 @@ inline constexpr Parameter any_peak_torque = [] {
   return p;
 }();
 inline constexpr Parameter phase{.name = "phase",
+                                 .symbol = "p",
                                  .unit = "rad",
                                  .meaning = "at position 0",
                                  .lower = -6.4,

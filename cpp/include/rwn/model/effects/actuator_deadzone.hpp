@@ -9,6 +9,7 @@ struct ActuatorDeadzone {
                                    "the amplifier passes nothing of small commands (dead time of a bridge)",
                                    "thesis ref. 21"};
   static constexpr std::array parameters{Parameter{.name = "deadzone",
+                                                   .symbol = "V_d",
                                                    .unit = "V",
                                                    .meaning = "command below which nothing acts",
                                                    .lower = 0.0,

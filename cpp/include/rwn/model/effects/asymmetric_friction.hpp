@@ -9,6 +9,7 @@ struct AsymmetricFriction {
                                    "dry friction of a different level in each direction",
                                    "B. Armstrong-Helouvry 1991; Janot, Gautier, Brunot 2019 (EMPS)"};
   static constexpr std::array parameters{Parameter{.name = "coulomb_torque_plus",
+                                                   .symbol = "T_c+",
                                                    .unit = "N m",
                                                    .meaning = "level for w > 0",
                                                    .lower = 0.0,
@@ -18,6 +19,7 @@ struct AsymmetricFriction {
                                                    .strength = true,
                                                    .replaces = coulomb_friction},
                                          Parameter{.name = "coulomb_torque_minus",
+                                                   .symbol = "T_c-",
                                                    .unit = "N m",
                                                    .meaning = "level for w < 0",
                                                    .lower = 0.0,

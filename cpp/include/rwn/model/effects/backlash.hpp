@@ -10,6 +10,7 @@ struct Backlash {
       "T_shaft = k dead(theta - theta_L, gap) + c (w - w_L) in contact, never pulls; J_L dw_L/dt = T_shaft - s B w_L",
       "play between motor and load", "Nordin, Gutman 2002; contact: Brogliato 1999, ch. 2"};
   static constexpr std::array parameters{Parameter{.name = "gap",
+                                                   .symbol = "gap",
                                                    .unit = "rad",
                                                    .meaning = "total play",
                                                    .lower = 2e-4,
@@ -17,6 +18,7 @@ struct Backlash {
                                                    .start = 0.05,
                                                    .scan = {0.01, 0.03, 0.1, 0.2, 0.3, 0.45, 0.65, 1.0}},
                                          Parameter{.name = "load_inertia",
+                                                   .symbol = "J_L",
                                                    .unit = "kg m^2",
                                                    .meaning = "part of the inertia that is behind it",
                                                    .lower = 0.02,

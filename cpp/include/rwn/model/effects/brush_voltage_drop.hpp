@@ -12,6 +12,7 @@ struct BrushVoltageDrop {
                                    "contact voltage of the brushes, nearly independent of current",
                                    "Fitzgerald, Electric Machinery; saturates over the transition current i_b"};
   static constexpr std::array parameters{Parameter{.name = "voltage_drop",
+                                                   .symbol = "V_b",
                                                    .unit = "V",
                                                    .meaning = "total drop at large current",
                                                    .lower = 0.0,
@@ -20,6 +21,7 @@ struct BrushVoltageDrop {
                                                    .scale = scale::voltage,
                                                    .strength = true},
                                          Parameter{.name = "transition_current",
+                                                   .symbol = "i_b",
                                                    .unit = "A",
                                                    .meaning = "current over which the drop builds up",
                                                    .lower = 5e-3,  // already as good as abrupt

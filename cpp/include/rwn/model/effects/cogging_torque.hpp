@@ -11,6 +11,7 @@ struct CoggingTorque {
                                    "Gieras, Permanent Magnet Motor Technology, ch. 6"};
   static constexpr std::array parameters{periodic::any_peak_torque,
                                          Parameter{.name = "periods_per_rev",
+                                                   .symbol = "N",
                                                    .unit = "1",
                                                    .meaning = "periods per revolution (per metre on a linear axis)",
                                                    .lower = 1.5,

@@ -9,6 +9,7 @@ struct ConstantLoad {
                                    "a steady load torque, or an offset of the drive",
                                    "Janot, Gautier, Brunot 2019 (EMPS)"};
   static constexpr std::array parameters{Parameter{.name = "torque",
+                                                   .symbol = "T_l",
                                                    .unit = "N m",
                                                    .meaning = "brakes positive rotation",
                                                    .lower = -1.0,

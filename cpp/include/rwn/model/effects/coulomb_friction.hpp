@@ -8,6 +8,7 @@ struct CoulombFriction {
   static constexpr EffectInfo info{"coulomb-friction", Site::torque, "T = -T_c sign(w), holds up to T_c at standstill",
                                    "dry friction of constant level", "C. A. Coulomb 1785; B. Armstrong-Helouvry 1991"};
   static constexpr std::array parameters{Parameter{.name = "coulomb_torque",
+                                                   .symbol = "T_c",
                                                    .unit = "N m",
                                                    .meaning = "friction level",
                                                    .lower = 0.0,

@@ -8,6 +8,7 @@ struct CurrentSensorLag {
   static constexpr EffectInfo info{"current-sensor-lag", Site::sensor, "tau dy/dt = i - y",
                                    "the current signal is low-pass filtered", "standard"};
   static constexpr std::array parameters{Parameter{.name = "time_constant",
+                                                   .symbol = "tau",
                                                    .unit = "s",
                                                    .meaning = "of the filter",
                                                    .lower = 1e-2,

@@ -9,6 +9,7 @@ struct InertiaVariation {
                                    "inertia that varies with angle (crank, linkage, eccentric load)",
                                    "Lagrange: (J + J2) dw/dt + w^2 J2'/2 = T"};
   static constexpr std::array parameters{Parameter{.name = "amplitude",
+                                                   .symbol = "J_2",
                                                    .unit = "kg m^2",
                                                    .meaning = "peak of the varying part",
                                                    .lower = -0.9,

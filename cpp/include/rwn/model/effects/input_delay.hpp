@@ -8,6 +8,7 @@ struct InputDelay {
   static constexpr EffectInfo info{"input-delay", Site::actuator, "v(t) = u(t - d)",
                                    "the command acts late (sampling, bus, amplifier)", "standard"};
   static constexpr std::array parameters{Parameter{.name = "delay",
+                                                   .symbol = "d",
                                                    .unit = "s",
                                                    .meaning = "need not be a whole number of samples",
                                                    .lower = 0.0,

@@ -10,6 +10,7 @@ struct LoadDependentFriction {
       "dry friction that grows with the transmitted torque, a known pendulum's included (gears)",
       "Rhoban BAM, models M3-M6; P. Hamon et al. 2010"};
   static constexpr std::array parameters{Parameter{.name = "friction_ratio",
+                                                   .symbol = "mu",
                                                    .unit = "1",
                                                    .meaning = "friction torque per transmitted torque",
                                                    .lower = 0.0,

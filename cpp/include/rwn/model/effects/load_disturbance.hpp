@@ -8,6 +8,7 @@ struct LoadDisturbance {
   static constexpr EffectInfo info{"load-disturbance", Site::load, "T = -T_d for t_start <= t < t_end",
                                    "a load that acts for a while, at the same time in every recording", "standard"};
   static constexpr std::array parameters{Parameter{.name = "torque",
+                                                   .symbol = "T_d",
                                                    .unit = "N m",
                                                    .meaning = "brakes positive rotation",
                                                    .lower = -2.0,
@@ -16,6 +17,7 @@ struct LoadDisturbance {
                                                    .scale = scale::torque,
                                                    .strength = true},
                                          Parameter{.name = "t_start",
+                                                   .symbol = "t_start",
                                                    .unit = "s",
                                                    .meaning = "begin, after the start of the recording",
                                                    .lower = 0.0,
@@ -23,6 +25,7 @@ struct LoadDisturbance {
                                                    .start = 0.3,
                                                    .scale = scale::duration},
                                          Parameter{.name = "t_end",
+                                                   .symbol = "t_end",
                                                    .unit = "s",
                                                    .meaning = "end",
                                                    .lower = 0.0,

@@ -9,6 +9,7 @@ struct MagneticSaturation {
                                    "flux and inductance that fall at high current (armature reaction, iron)",
                                    "Krause, Analysis of Electric Machinery"};
   static constexpr std::array parameters{Parameter{.name = "saturation_current",
+                                                   .symbol = "i_s",
                                                    .unit = "A",
                                                    .meaning = "current that halves the flux",
                                                    .lower = 0.3,

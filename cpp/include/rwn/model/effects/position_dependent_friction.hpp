@@ -10,6 +10,7 @@ struct PositionDependentFriction {
       "position-dependent-friction", Site::torque, "T = -T_c (1 + a cos(theta + p)) sign(w)",
       "dry friction that varies over the revolution (bent shaft, worn bearing)", "B. Armstrong-Helouvry 1991, ch. 4"};
   static constexpr std::array parameters{Parameter{.name = "coulomb_torque",
+                                                   .symbol = "T_c",
                                                    .unit = "N m",
                                                    .meaning = "mean friction level",
                                                    .lower = 0.0,
@@ -18,6 +19,7 @@ struct PositionDependentFriction {
                                                    .scale = scale::torque,
                                                    .replaces = coulomb_friction},
                                          Parameter{.name = "variation",
+                                                   .symbol = "a",
                                                    .unit = "1",
                                                    .meaning = "relative variation a",
                                                    .lower = 0.0,

@@ -12,6 +12,7 @@ struct PowerLawDrag {
                                    "drag by a power of the speed: grease, magnets (n below 1), churning (above 2)",
                                    "W. Ostwald 1925; A. de Waele 1923"};
   static constexpr std::array parameters{Parameter{.name = "drag_torque",
+                                                   .symbol = "T_d",
                                                    .unit = "N m",
                                                    .meaning = "torque at the reference speed",
                                                    .lower = 0.0,
@@ -20,6 +21,7 @@ struct PowerLawDrag {
                                                    .scale = scale::torque,
                                                    .strength = true},
                                          Parameter{.name = "exponent",
+                                                   .symbol = "n",
                                                    .unit = "1",
                                                    .meaning = "power of the speed; 0 is dry friction, 1 viscous",
                                                    .lower = 0.2,
@@ -27,6 +29,7 @@ struct PowerLawDrag {
                                                    .start = 3.0,
                                                    .scan = {0.5, 3.0}},
                                          Parameter{.name = "reference_speed",
+                                                   .symbol = "w_r",
                                                    .unit = "rad/s",
                                                    .meaning = "speed at which the torque is stated; a choice",
                                                    .lower = 0.0,

@@ -10,6 +10,7 @@ struct PreslidingHysteresis {
                                    "friction that acts as a bristle spring before it slides (LuGre)",
                                    "Canudas de Wit, Olsson, Astrom, Lischinsky 1995"};
   static constexpr std::array parameters{Parameter{.name = "bristle_stiffness",
+                                                   .symbol = "s0",
                                                    .unit = "N m/rad",
                                                    .meaning = "spring rate of the contact",
                                                    .lower = 1e-2,
@@ -19,6 +20,7 @@ struct PreslidingHysteresis {
                                                    .scan = {0.3, 3.0, 30.0, 300.0},
                                                    .strength = true},
                                          Parameter{.name = "bristle_damping",
+                                                   .symbol = "s1",
                                                    .unit = "N m s/rad",
                                                    .meaning = "damping of the contact",
                                                    .lower = 0.0,
@@ -26,6 +28,7 @@ struct PreslidingHysteresis {
                                                    .start = 0.1,
                                                    .scale = scale::damping},
                                          Parameter{.name = "coulomb_torque",
+                                                   .symbol = "T_c",
                                                    .unit = "N m",
                                                    .meaning = "sliding friction level",
                                                    .lower = 1e-4,

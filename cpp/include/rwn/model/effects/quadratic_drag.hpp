@@ -8,6 +8,7 @@ struct QuadraticDrag {
   static constexpr EffectInfo info{"quadratic-drag", Site::torque, "T = -k w |w|",
                                    "air or fluid drag of a fan, rotor or pump", "Lord Rayleigh 1876"};
   static constexpr std::array parameters{Parameter{.name = "drag_coefficient",
+                                                   .symbol = "k",
                                                    .unit = "N m s^2/rad^2",
                                                    .meaning = "torque per squared speed",
                                                    .lower = 0.0,

@@ -9,6 +9,7 @@ struct ResistanceHeating {
       "resistance-heating", Site::voltage, "R(T) = R (1 + alpha dT), C_th d(dT)/dt = R(T) i^2 - dT/R_th",
       "winding resistance that rises as the winding warms up; ambient at the start", "IEC 60034-1; alpha of copper"};
   static constexpr std::array parameters{Parameter{.name = "thermal_resistance",
+                                                   .symbol = "R_th",
                                                    .unit = "K/W",
                                                    .meaning = "winding to ambient",
                                                    .lower = 0.1,
@@ -18,6 +19,7 @@ struct ResistanceHeating {
                                                    .scan = {20.0, 200.0},
                                                    .strength = true},
                                          Parameter{.name = "heat_capacity",
+                                                   .symbol = "C_th",
                                                    .unit = "J/K",
                                                    .meaning = "of the winding",
                                                    .lower = 1e-4,
@@ -26,6 +28,7 @@ struct ResistanceHeating {
                                                    .scale = scale::loss * scale::duration,
                                                    .scan = {0.002, 0.02, 0.2}},
                                          Parameter{.name = "temperature_coefficient",
+                                                   .symbol = "alpha",
                                                    .unit = "1/K",
                                                    .meaning = "of the resistance",
                                                    .lower = 0.0,

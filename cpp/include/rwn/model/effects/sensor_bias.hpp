@@ -8,6 +8,7 @@ struct SensorBias {
   static constexpr EffectInfo info{"sensor-bias", Site::sensor, "y_w = w + b_w, y_i = i + b_i",
                                    "a constant offset of the speed or the current signal", "standard"};
   static constexpr std::array parameters{Parameter{.name = "speed_offset",
+                                                   .symbol = "b_w",
                                                    .unit = "rad/s",
                                                    .meaning = "added to the true speed",
                                                    .lower = -0.5,
@@ -16,6 +17,7 @@ struct SensorBias {
                                                    .scale = scale::speed,
                                                    .strength = true},
                                          Parameter{.name = "current_offset",
+                                                   .symbol = "b_i",
                                                    .unit = "A",
                                                    .meaning = "added to the true current",
                                                    .lower = -0.5,

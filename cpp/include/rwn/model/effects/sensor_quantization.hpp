@@ -8,6 +8,7 @@ struct SensorQuantization {
   static constexpr EffectInfo info{"sensor-quantization", Site::sensor, "y = q round(w / q)",
                                    "the speed signal comes in steps", "Widrow, Kollar 2008"};
   static constexpr std::array parameters{Parameter{.name = "resolution",
+                                                   .symbol = "q",
                                                    .unit = "rad/s",
                                                    .meaning = "step of the speed signal",
                                                    .lower = 0.0,

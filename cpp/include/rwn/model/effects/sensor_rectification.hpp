@@ -9,6 +9,7 @@ struct SensorRectification {
                                    "the speed sensor does not see the direction; with e > 1 it hardly sees slow motion",
                                    "Wigren, Schoukens 2017 (CED)"};
   static constexpr std::array parameters{Parameter{.name = "exponent",
+                                                   .symbol = "e",
                                                    .unit = "1",
                                                    .meaning = "1: an ideal rectifier; above: one with a soft foot",
                                                    .lower = 1.0,
@@ -17,6 +18,7 @@ struct SensorRectification {
                                                    .scan = {1.001, 1.5},
                                                    .idealised = true},
                                          Parameter{.name = "reference_speed",
+                                                   .symbol = "w_r",
                                                    .unit = "rad/s",
                                                    .meaning = "speed that is shown unchanged",
                                                    .lower = 0.0,

@@ -10,6 +10,7 @@ struct ShaftCompliance {
                                    "a shaft or coupling that twists between motor and load (two masses)",
                                    "Schroeder, Elektrische Antriebe; thesis ref. 25"};
   static constexpr std::array parameters{Parameter{.name = "stiffness",
+                                                   .symbol = "k",
                                                    .unit = "N m/rad",
                                                    .meaning = "torque per twist",
                                                    .lower = 1e-5,
@@ -19,6 +20,7 @@ struct ShaftCompliance {
                                                    .scan = {3e-4, 1e-3, 4e-3, 0.015, 0.05, 0.15, 0.5, 2.0, 8.0},
                                                    .strength = true},
                                          Parameter{.name = "damping",
+                                                   .symbol = "c",
                                                    .unit = "N m s/rad",
                                                    .meaning = "torque per rate of twist",
                                                    .lower = 0.0,
@@ -26,6 +28,7 @@ struct ShaftCompliance {
                                                    .start = 0.1,
                                                    .scale = scale::damping},
                                          Parameter{.name = "load_inertia",
+                                                   .symbol = "J_L",
                                                    .unit = "kg m^2",
                                                    .meaning = "part of the inertia that is behind it",
                                                    .lower = 0.02,

@@ -8,6 +8,7 @@ struct SpeedSensorLag {
   static constexpr EffectInfo info{"speed-sensor-lag", Site::sensor, "tau dy/dt = w - y",
                                    "the speed signal is low-pass filtered", "standard"};
   static constexpr std::array parameters{Parameter{.name = "time_constant",
+                                                   .symbol = "tau",
                                                    .unit = "s",
                                                    .meaning = "of the filter",
                                                    .lower = 1e-2,

@@ -10,6 +10,7 @@ struct StribeckFriction {
                                    "dry friction that is higher near standstill",
                                    "R. Stribeck 1902; thesis eq. 3.99; B. Armstrong-Helouvry 1991"};
   static constexpr std::array parameters{Parameter{.name = "coulomb_torque",
+                                                   .symbol = "T_c",
                                                    .unit = "N m",
                                                    .meaning = "level when sliding fast",
                                                    .lower = 0.0,
@@ -18,6 +19,7 @@ struct StribeckFriction {
                                                    .scale = scale::torque,
                                                    .replaces = coulomb_friction},
                                          Parameter{.name = "static_torque",
+                                                   .symbol = "T_s",
                                                    .unit = "N m",
                                                    .meaning = "level at standstill",
                                                    .lower = 0.0,
@@ -26,6 +28,7 @@ struct StribeckFriction {
                                                    .scale = scale::torque, .scan = {0.06, 0.08},
                                                    .strength = true},
                                          Parameter{.name = "stribeck_speed",
+                                                   .symbol = "w_s",
                                                    .unit = "rad/s",
                                                    .meaning = "speed over which the level falls",
                                                    .lower = 1e-3,

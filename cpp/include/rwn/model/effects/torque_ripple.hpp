@@ -10,6 +10,7 @@ struct TorqueRipple {
                                    "torque constant that varies with angle (commutation, few segments)",
                                    "Jahns, Soong 1996"};
   static constexpr std::array parameters{Parameter{.name = "amplitude",
+                                                   .symbol = "a",
                                                    .unit = "1",
                                                    .meaning = "relative variation",
                                                    .lower = 0.0,
@@ -17,6 +18,7 @@ struct TorqueRipple {
                                                    .start = 0.05,
                                                    .strength = true},
                                          Parameter{.name = "harmonic",
+                                                   .symbol = "N",
                                                    .unit = "1",
                                                    .meaning = "periods per revolution",
                                                    .lower = 0.5,

@@ -9,6 +9,7 @@ struct ViscousAsymmetry {
                                    "viscous friction differs between the directions: B + d and B - d",
                                    "Janot, Gautier, Brunot 2019 (EMPS)"};
   static constexpr std::array parameters{Parameter{.name = "difference",
+                                                   .symbol = "d",
                                                    .unit = "N m s/rad",
                                                    .meaning = "half the difference of the two directions",
                                                    .lower = -1.0,

@@ -9,6 +9,7 @@ struct ViscousFriction {
                                    "friction torque proportional to speed, beside the nominal one",
                                    "Newton; B. Armstrong-Helouvry, Control of Machines with Friction, 1991"};
   static constexpr std::array parameters{Parameter{.name = "damping",
+                                                   .symbol = "b",
                                                    .unit = "N m s/rad",
                                                    .meaning = "torque per speed",
                                                    .lower = 0.0,

@@ -8,6 +8,7 @@ struct VoltageSaturation {
   static constexpr EffectInfo info{"voltage-saturation", Site::actuator, "v = clip(u, -V_m, V_m)",
                                    "the supply cannot give the commanded voltage", "standard"};
   static constexpr std::array parameters{Parameter{.name = "limit",
+                                                   .symbol = "V_m",
                                                    .unit = "V",
                                                    .meaning = "largest voltage",
                                                    .lower = 0.05,
