@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "rwn/model/effect.hpp"
 
 namespace rwn {
@@ -31,7 +34,7 @@ struct PowerLawDrag {
                                                    .start = 1.0,
                                                    .scale = scale::speed,
                                                    .fixed = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate};
 
   /// Below a hundredth of the reference speed it is viscous, so that its slope is finite.
   template <class S>
@@ -39,6 +42,14 @@ struct PowerLawDrag {
     using std::pow;
     const S ratio = x.speed / p[2];
     t.torque -= p[0] * ratio * pow(ratio * ratio + 1e-4, 0.5 * (p[1] - 1.0));
+  }
+  /// By its steepest slope over the speeds of the next h: at the lowest of them below the first power, else the highest.
+  template <class S>
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
+    const double n = value_of(p[1]), w = std::abs(value_of(x.speed)), change = acceleration * h;
+    const double ratio = (n < 1.0 ? std::max(w - change, 0.0) : w + change) / value_of(p[2]);
+    const double slope = std::max(n, 1.0) * std::pow(ratio * ratio + 1e-4, 0.5 * (n - 1.0));
+    return value_of(p[0]) * slope / (value_of(p[2]) * value_of(m[inertia]));
   }
 };
 
