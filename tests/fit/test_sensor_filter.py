@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 import rwn
-from rwn.fit.fit import fit_nominal
+from rwn.fit.fit import fit, fit_nominal
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.noise import with_noise_of
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
-from rwn.fit.sensor_filter import filtered, sensor_filters
+from rwn.fit.sensor_filter import filtered, refitted_beside, sensor_filters
 from rwn.model.model import Model
 
 Array = NDArray[np.float64]
@@ -63,3 +64,13 @@ def test_a_filter_is_fitted_with_whatever_else_and_is_no_missing_physics() -> No
     off, before = (abs(f.value("inertia") / MOTOR["inertia"] - 1.0) for f in (fitted, plain))
     assert off < 0.05
     assert before > 2.0 * off
+
+
+def test_explanations_by_several_effects_go_on_beside_a_filter() -> None:
+    """What was found before the filter was is not lost; the lag that is the filter is no part of it any more."""
+    problem, noise = _problem(0.6)
+    added = ("coulomb-friction", "speed-sensor-lag")
+    before = fit(problem, hypothesis(problem.prior, added, problem.scales))
+    (again,) = refitted_beside([before], filtered(problem, sensor_filters(problem, noise)))
+    assert again.added == ("coulomb-friction",)
+    assert again.hypothesis.effects == ("speed-sensor-lag", "coulomb-friction")

@@ -13,8 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.budget import shares_by_rank
+from rwn.fit.fit import Fit, fit
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.prior import Nuisance
 from rwn.fit.problem import Problem
+from rwn.parallel import side_by_side
 from rwn.recording.noise import rough_noise
 from rwn.simulate.run import Run
 
@@ -103,3 +107,17 @@ def _correlation(share: float) -> float:
     c = share ** np.arange(5.0)
     covariance = [6 * c[0] - 8 * c[1] + 2 * c[2], -4 * c[0] + 7 * c[1] - 4 * c[2] + c[3]]
     return float(covariance[1] / covariance[0])
+
+
+def refitted_beside(known: Sequence[Fit], problem: Problem) -> list[Fit]:
+    """Explanations refitted beside the filters that `problem` fits, which are no part of them there."""
+    measured = {n.effect for n in problem.prior.nuisance}
+
+    def again(pair: tuple[Fit, float]) -> Fit:
+        this, share = pair
+        added = tuple(n for n in this.added if n not in measured)
+        starts = {n: this.values_of(n) for n in added}
+        return fit(problem, hypothesis(problem.prior, added, problem.scales, starts, this.motor), share=share)
+
+    shares = shares_by_rank(problem.work, [this.cost for this in known])
+    return side_by_side(again, list(zip(known, shares, strict=True)))
