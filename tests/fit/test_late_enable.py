@@ -50,3 +50,23 @@ def test_a_drive_that_is_on_from_the_beginning_has_none() -> None:
 def test_friction_that_holds_until_the_voltage_has_risen_is_no_late_enable() -> None:
     ramp = np.linspace(0.0, 3.0, 3000)
     assert late_enables([_run(ramp, 0, friction=0.02)], MODEL) == ()
+
+
+def test_a_drive_that_moves_elsewhere_under_less_was_held_by_no_friction() -> None:
+    """Its voltage still rises when it is enabled: alone, friction could have held it until then."""
+    rising = 3.0 * np.sin(2.0 * np.pi * np.arange(3000) / 1500.0)
+    ramp = np.linspace(0.0, 3.0, 3000)
+    held, free = _run(rising, 130, friction=0.02), _run(ramp, 0, friction=0.02)
+    assert late_enables([held], MODEL) == ()
+    (late,) = late_enables([held, free], MODEL)
+    assert late.place == 0
+    assert abs(late.samples - 130) <= 3
+
+
+def test_an_input_that_is_late_throughout_is_a_delay() -> None:
+    """A voltage that steps once from 0, and a drive that answers late: either would do; a delay says more."""
+    step = np.where(np.arange(3000) < 100, 0.0, 3.0)
+    late = np.where(np.arange(3000) < 160, 0.0, 3.0)
+    recording = _run(late, 0)
+    recording = rwn.Recording(name="run", time=recording.time, signals={**recording.signals, "voltage": step})
+    assert late_enables([recording], MODEL) == ()

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.fit import fit_nominal
+from rwn.fit.fit import fit, fit_nominal
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
-from rwn.fit.sensor_filter import filtered, sensor_filters
+from rwn.fit.sensor_filter import filtered, refitted_beside, sensor_filters
 from rwn.model.model import Model
 from rwn.recording.filters import as_filtered
 
@@ -79,3 +80,14 @@ def test_a_lag_of_the_sensor_is_fitted_with_whatever_else() -> None:
     fitted = fit_nominal(with_noise_of(nuisance, fit_nominal(nuisance)))
     assert fitted.added == ()
     assert fitted.value("speed-sensor-lag.time_constant") == pytest.approx(-STEP / np.log(0.6), rel=0.1)
+
+
+def test_explanations_by_several_effects_go_on_beside_a_filter() -> None:
+    """What was found before the filter was is not lost; the lag that is the filter is no part of it any more."""
+    for analog, measured in ((True, ("speed-sensor-lag",)), (False, ())):
+        problem, plain = weighted_by_nominal(_problem(0.6, analog=analog))
+        added = ("coulomb-friction", "speed-sensor-lag")
+        before = fit(problem, hypothesis(problem.prior, added, problem.scales))
+        (again,) = refitted_beside([before], filtered(problem, sensor_filters(problem, plain)))
+        assert again.added == ("coulomb-friction",)
+        assert again.hypothesis.effects == (*measured, "coulomb-friction")

@@ -54,3 +54,13 @@ def test_a_position_starts_within_its_steps_of_the_first_sample() -> None:
     assert not start.in_motion
     assert start.state[2] == pytest.approx(0.7)
     assert start.spread["initial_position"] == pytest.approx(count, rel=0.01)
+
+
+def test_the_speed_of_a_position_is_known_to_the_bend_of_its_first_samples() -> None:
+    """An axis that gathers speed; steps of 1e-8 m."""
+    position = np.round((0.006 * TIME + 0.5 * TIME**2 - 2.0 * TIME**3) / 1e-8) * 1e-8
+    axis = Model(kind="axis", parameters={"inertia": 95.0, "viscous_friction": 200.0}, linear=True)
+    start = start_of(TIME, {"force": np.ones(TIME.size), "position": position}, axis)
+    assert start.in_motion
+    assert start.state[1] == pytest.approx(0.006, abs=4.0 * start.spread["initial_speed"])
+    assert start.spread["initial_speed"] < 0.1 * 0.006

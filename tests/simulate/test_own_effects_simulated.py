@@ -95,6 +95,18 @@ def both(name: str, effect: OwnEffect, values: dict[str, float]) -> tuple[dict[s
             1e-12,
         ),
         (
+            "coasting-bridge",
+            own("drop", "-s * max(1 - abs(input) / v, 0) * back_emf_constant * speed", s="1", v="V"),
+            {"share": 0.7, "supply": 10.0},
+            1e-4,
+        ),
+        (
+            "amplifier-gain-curve",
+            own("input", "input * (1 + g * (abs(input) / v)^n)", g="1", n="1", v="V"),
+            {"gain_change": -0.2, "exponent": 2.5, "reference_command": 12.0},
+            1e-12,
+        ),
+        (
             "sensor-rectification",
             own("speed", "wr * exp(e * log(abs(speed) / wr))", e="1", wr="rad/s"),
             {"exponent": 1.2, "reference_speed": 50.0},
@@ -292,3 +304,17 @@ def test_the_worked_example_of_the_documentation(tmp_path: Path, monkeypatch: py
     assert wanted
     assert wanted[0] in said
     assert "Eddy brake: peak = 5.8" in said
+
+
+def test_a_gain_that_falls_is_constant_from_where_it_would_turn_back() -> None:
+    """v = u (1 - 0.5 (u/4)^2) is steepest at 0 and level at u = 4 sqrt(2/3)."""
+    curve = {"gain_change": -0.5, "exponent": 2.0, "reference_command": 4.0}
+    level = 4.0 * np.sqrt(2.0 / 3.0)
+
+    def settled(voltage: float, effects: dict[str, dict[str, float]]) -> float:
+        run = rwn.Recording(name="step", time=1e-3 * np.arange(900), signals={"voltage": np.full(900, voltage)})
+        model = Model(kind="dc", parameters=MOTOR, effects=effects)
+        return float(rwn.simulate(model, run).signals["speed"][-1])
+
+    for voltage in (level, 6.0, 12.0):
+        assert settled(voltage, {"amplifier-gain-curve": curve}) == pytest.approx(settled(2.0 / 3.0 * level, {}))

@@ -1,19 +1,22 @@
 """A power stage that was enabled after the recording began: a voltage was commanded, and nothing moved.
 
 Standing still under an input tells this apart from friction: an explanation under which the drive would have stood
-still anyway needs no late enable.
+still anyway needs no late enable. Nor does one under which the input acts late throughout: a delay says more.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.fit import Fit
+from rwn.fit.fit import Fit, fit, fit_nominal
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import nominal_of
+from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.model.start import CERTAIN, resolution
@@ -23,6 +26,7 @@ from rwn.simulate.run import Run, run_of
 Array = NDArray[np.float64]
 
 FEWEST = 3  # samples that stand still: fewer are what an inductance and an inertia take
+DELAY = "input-delay"
 TRIED = 64  # instants of enabling that are compared at a time
 
 
@@ -41,18 +45,18 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
 
     Raises InputError where a recording does not fit the model.
     """
-    still = [_still(r, model) for r in recordings]
+    still = _standing(recordings, model)
     if model.drive.coefficients or not any(still):
         return ()
     problem, nominal = nominal_of([_unpowered(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
-    found = []
+    found: list[LateEnable] = []
     for k, (recording, run, samples) in enumerate(zip(recordings, problem.runs, still, strict=True)):
         if samples and _moves(problem, nominal, recording, model, run, samples):
             enabled = _enabled(problem, nominal, recording, model, run, samples)
             time = float(recording.time[enabled] - recording.time[0])
             if enabled >= FEWEST:
                 found.append(LateEnable(place=k, recording=recording.name, samples=enabled, time=time))
-    return tuple(found)
+    return () if found and _is_a_delay(found, recordings, model, problem) else tuple(found)
 
 
 def powered(recordings: Sequence[Recording], found: Sequence[LateEnable], model: Model) -> list[Recording]:
@@ -72,19 +76,58 @@ def needed(
     )
 
 
-def _still(recording: Recording, model: Model) -> int:
-    """Samples from the first on that stand still under an input; 0 where few do.
+def _standing(recordings: Sequence[Recording], model: Model) -> list[int]:
+    """Samples from the first on that stand still under an input, of each recording; 0 where few do.
 
-    Or where no larger input acted on them than when the motion begins: friction or a dead zone may hold a drive then.
+    Or where friction or a dead zone may have held it: where no larger input acted on them than when the motion begins,
+    or than when other recordings begin to move.
     """
+    begun = [_begins(r, model) for r in recordings]
+    standing = []
+    for k, this in enumerate(begun):
+        elsewhere = [max(b.held, b.moved) for j, b in enumerate(begun) if j != k and b.samples > FEWEST]
+        held = 0.0 < this.moved <= this.held or this.held > max(elsewhere, default=np.inf)
+        standing.append(this.samples if this.samples > FEWEST and held else 0)
+    return standing
+
+
+class _Beginning(NamedTuple):
+    """How a recording begins: the samples that stand still, and the largest input before and when it moves."""
+
+    samples: int
+    held: float
+    moved: float
+
+
+def _begins(recording: Recording, model: Model) -> _Beginning:
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
     moved = [np.abs(x - np.median(x[:FEWEST])) > CERTAIN * resolution(x, x.size) for x in measured]
     samples = min((int(np.argmax(m)) for m in moved), default=0)
-    if samples <= FEWEST:
-        return 0
     given = np.abs(np.asarray(recording.signals[model.drive.input])[: samples + 1])
-    begins = samples - FEWEST
-    return samples if np.max(given[:begins]) >= np.max(given[begins:]) > 0.0 else 0
+    begins = max(samples - FEWEST, 0)
+    return _Beginning(samples, float(np.max(given[:begins], initial=0.0)), float(np.max(given[begins:])))
+
+
+def _is_a_delay(
+    found: Sequence[LateEnable], recordings: Sequence[Recording], model: Model, powered_later: Problem
+) -> bool:
+    """Whether an input that acts late in all recordings leaves no more of them than these late enables do.
+
+    Each late enable is a number of its own; a delay is one for all, and says what any other recording will do.
+    """
+    problem = replace(prepare(recordings, model), noise=powered_later.noise, colour=powered_later.colour)
+    if DELAY in problem.prior.effects:
+        return False
+    waits = [_wait(recordings[late.place], late, model) for late in found]
+    late = fit(problem, hypothesis(problem.prior, (DELAY,), problem.scales, {DELAY: {"delay": float(max(waits))}}))
+    return late.cost <= fit_nominal(powered_later).cost
+
+
+def _wait(recording: Recording, late: LateEnable, model: Model) -> float:
+    """From the first input to the power [s], between two rows: at a row a delay has two slopes."""
+    begins = int(np.argmax(np.asarray(recording.signals[model.drive.input]) != 0.0))
+    before, after = recording.time[late.samples - 1], recording.time[late.samples]
+    return float(max(0.5 * (before + after) - recording.time[begins], 0.0))
 
 
 def _unpowered(recording: Recording, model: Model, samples: int) -> Recording:

@@ -25,14 +25,15 @@ def with_priors_weighed(problem: Problem, this: Fit) -> tuple[Problem, Fit]:
     """
     if problem.colour == 1.0 and this.farthest_move < BELIEVABLE:
         return problem, this
-    colour = _colour(problem, this)
+    colour = worth(problem, this)
     free = refit(this, replace(problem, colour=1.0), share=one_stage(problem.work))
-    if _colour(problem, free) < WHITE:  # what was left were the priors' own doing
+    if worth(problem, free) < WHITE:  # what was left were the priors' own doing
         colour, this = 1.0, free
     # exactly 1 would forget that the fits had run away once
     return replace(problem, colour=max(colour, 1.0 + 1e-9)), this
 
 
-def _colour(problem: Problem, this: Fit) -> float:
+def worth(problem: Problem, this: Fit) -> float:
+    """How many samples of what a fit leaves count for one: its variance times its correlation time, at least 1."""
     left = statistics(problem, this)
     return max(1.0, left.variance * left.correlation_time)

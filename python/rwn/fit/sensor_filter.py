@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from rwn.fit.budget import one_stage
+from rwn.fit.budget import one_stage, shares_by_rank
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.likelihood import log_likelihood
@@ -22,6 +22,7 @@ from rwn.fit.prior import Nuisance
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.model.model import Model
+from rwn.parallel import side_by_side
 from rwn.recording.noise import rough_noise
 from rwn.simulate.run import Run
 
@@ -231,3 +232,17 @@ def _correlation(share: float) -> float:
     c = share ** np.arange(5.0)
     covariance = [6 * c[0] - 8 * c[1] + 2 * c[2], -4 * c[0] + 7 * c[1] - 4 * c[2] + c[3]]
     return float(covariance[1] / covariance[0])
+
+
+def refitted_beside(known: Sequence[Fit], problem: Problem) -> list[Fit]:
+    """Explanations refitted beside the filters that `problem` fits or that are undone, which are no part of them."""
+    measured = {n.effect for n in problem.prior.nuisance} | {LAGS[s] for s in problem.filters if s in LAGS}
+
+    def again(pair: tuple[Fit, float]) -> Fit:
+        this, share = pair
+        added = tuple(n for n in this.added if n not in measured)
+        starts = {n: this.values_of(n) for n in added}
+        return fit(problem, hypothesis(problem.prior, added, problem.scales, starts, this.motor), share=share)
+
+    shares = shares_by_rank(problem.work, [this.cost for this in known])
+    return side_by_side(again, list(zip(known, shares, strict=True)))

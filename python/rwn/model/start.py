@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 STATE = ("initial_current", "initial_speed", "initial_position")  # the parameters of a start
 _NONE: Mapping[str, NDArray[np.bool_]] = MappingProxyType({})
 
+MOST_BENT = 4  # degree of the curve through the first samples of a position
 CERTAIN = 5.0  # deviations of a first sample from rest that chance does not explain: 1 in 10^6
 
 
@@ -50,13 +51,13 @@ def start_of(
         place = float(position[0])
         if known_to["position"] > 0.0:
             spread["initial_position"] = known_to["position"]
-    current, speed = _first_current(signals), _first_speed(time, signals, first)
-    moving = abs(speed) > CERTAIN * _speed_deviation(time, known_to, first)
+    current, (speed, off) = _first_current(signals), _first_speed(time, signals, known_to, first)
+    moving = abs(speed) > CERTAIN * off
     flowing = abs(current) > CERTAIN * known_to.get("current", 0.0)
     initial = model.recording.initial
     if initial == "rest" or (initial == "auto" and not (moving or flowing)):
         return Start(state=(0.0, 0.0, place), spread=spread)
-    spread["initial_speed"] = max(abs(speed), known_to.get("speed", 0.0), 1e-9)
+    spread["initial_speed"] = max(abs(speed) if "speed" in signals else off, known_to.get("speed", 0.0), 1e-9)
     if model.drive.winding:
         if "current" not in signals:
             current = _steady_current(signals, speed, model)
@@ -73,25 +74,33 @@ def _first_current(signals: Mapping[str, Array]) -> float:
     return float(signals["current"][0]) if "current" in signals else 0.0
 
 
-def _first_speed(time: Array, signals: Mapping[str, Array], first: int) -> float:
-    """The first sample; of a position alone, the slope of a parabola through its first samples."""
+def _first_speed(
+    time: Array, signals: Mapping[str, Array], known_to: Mapping[str, float], first: int
+) -> tuple[float, float]:
+    """Speed at the first sample and its standard deviation; of a position alone, the slope of its first samples."""
     if "speed" in signals:
-        return float(signals["speed"][0])
-    position = signals.get("position", np.empty(0))
-    k = min(first, position.size - 1)
-    return float(np.polyfit(time[:k], position[:k], min(2, k - 1))[-2]) if k > 1 else 0.0
-
-
-def _speed_deviation(time: Array, known_to: Mapping[str, float], first: int) -> float:
-    """Standard deviation of the first speed where it stands still."""
-    if "speed" in known_to:
-        return known_to["speed"]
-    if "position" not in known_to:
-        return np.inf
+        return float(signals["speed"][0]), known_to["speed"]
     k = min(first, time.size - 1)
-    design = np.vander(time[:k] - time[0], min(2, k - 1) + 1)
-    unit = float(np.sqrt(np.linalg.inv(design.T @ design)[-2, -2]))
-    return unit * known_to["position"]
+    if "position" not in signals or k < 2:
+        return 0.0, np.inf
+    return _first_slope(time[:k] - time[0], signals["position"][:k], known_to["position"])
+
+
+def _first_slope(time: Array, position: Array, noise: float) -> tuple[float, float]:
+    """Slope at the first of some samples and its standard deviation.
+
+    Of a parabola, or of a curve of the next degrees while that moves the slope by more than chance does.
+    """
+    best = (0.0, np.inf)
+    for degree in range(min(2, time.size - 1), min(MOST_BENT, time.size - 2) + 1):
+        design = np.vander(time, degree + 1)
+        slope = float(np.linalg.lstsq(design, position, rcond=None)[0][-2])
+        deviation = noise * float(np.sqrt(np.linalg.inv(design.T @ design)[-2, -2]))
+        moved = abs(slope - best[0])
+        if np.isfinite(best[1]) and moved <= CERTAIN * deviation:
+            break
+        best = (slope, deviation if not np.isfinite(best[1]) else float(np.hypot(deviation, moved)))
+    return best
 
 
 def _steady_current(signals: Mapping[str, Array], speed: float, model: Model) -> float:

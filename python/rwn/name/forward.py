@@ -20,7 +20,7 @@ from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, join, statistics, statistics_of
 from rwn.fit.secant import all_down_secants
-from rwn.fit.sensor_filter import SensorFilter, filtered, sensor_filters
+from rwn.fit.sensor_filter import SensorFilter, filtered, refitted_beside, sensor_filters
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Pairs, Ranking, SameNoise
@@ -53,12 +53,13 @@ class _Grown(NamedTuple):
 
 def rank(
     problem: Problem, *, progress: Progress, names: Sequence[str] | None = None, at_once: int = MOST_EFFECTS,
-    after: Ranking | None = None,
+    after: Ranking | None = None, known: Sequence[Fit] = (),
 ) -> Ranking:  # fmt: skip
     """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most.
 
     `names`: of the effects that are tried; such a ranking is for comparison, simpler explanations than its best are
-    not. `after`: a ranking of the same recordings by fewer effects, or by some of them, to go on from.
+    not. `after`: a ranking of the same recordings by fewer effects, or by some of them, to go on from. `known`:
+    explanations by several effects that were found under another measurement.
     """
     as_prepared = problem
     wanted = [n for n in names or problem.prior.table if observable(n, problem)]
@@ -66,8 +67,9 @@ def rank(
     problem, nominal, fits = alone.problem, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
     before = statistics(problem, nominal)
     grown = _grown(alone, fits, wanted, after.pairs if after else NO_PAIRS, at_once=at_once, progress=progress)
-    fits = grown.fits
-    if grown.paired:
+    again = refitted_beside(known, problem)
+    fits = distinct([*grown.fits, *again])
+    if grown.paired or again:
         problem, nominal, fits = _under_own_noise(problem, nominal, fits)
     filters = _filters(problem, min([nominal, *fits], key=lambda f: f.cost))
     if filters:  # they are part of how it was measured, beside whatever is missing
@@ -75,7 +77,8 @@ def rank(
         alone_again = rank(measured, progress=progress, at_once=1)
         if names is None and at_once == 1:
             return alone_again
-        return rank(measured, progress=progress, names=names, at_once=at_once, after=alone_again)
+        several = [f for f in foremost(fits) if len(f.added) > 1]  # what a second search may not afford to find
+        return rank(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
     fits = with_simpler(problem, nominal, fits) if names is None else fits
     at_a_limit = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, problem))]

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 RAN_AWAY = 1e100  # error of a simulation that diverged
 FEWEST = 20  # samples that a row judges
 DRAWS = 400  # of the bootstrap
+DRIVING_FORCE = "driving force"  # the signal of rows of the inverse dynamics
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +85,7 @@ def _force_row(problem: Problem, run: Run, contenders: Sequence[Hypothesis], see
     found = len(percent) == 3
     return [
         HeldoutRow(
-            recording=run.name, region="all", signal="driving force", unit="%", samples=force.size,
+            recording=run.name, region="all", signal=DRIVING_FORCE, unit="%", samples=force.size,
             nominal=percent[0], refitted=percent[1], corrected=percent[2] if found else None, noise_floor=None,
             gain=_gain(percent[1], percent[2]) if found else None,
             gain_interval=gain_interval(errors[1], errors[2], seed=seed) if found else None,

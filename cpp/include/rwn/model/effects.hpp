@@ -4,9 +4,11 @@
 #include <tuple>
 
 #include "rwn/model/effects/actuator_deadzone.hpp"
+#include "rwn/model/effects/amplifier_gain_curve.hpp"
 #include "rwn/model/effects/asymmetric_friction.hpp"
 #include "rwn/model/effects/backlash.hpp"
 #include "rwn/model/effects/brush_voltage_drop.hpp"
+#include "rwn/model/effects/coasting_bridge.hpp"
 #include "rwn/model/effects/cogging_torque.hpp"
 #include "rwn/model/effects/constant_load.hpp"
 #include "rwn/model/effects/coulomb_friction.hpp"
@@ -39,8 +41,9 @@ using Effects =
     std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
                PowerLawDrag, LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque,
                Unbalance, ConstantLoad, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation, BrushVoltageDrop,
-               ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation, InputDelay,
-               SpeedSensorLag, CurrentSensorLag, SensorRectification, SensorBias, SensorQuantization>;
+               CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation,
+               AmplifierGainCurve, InputDelay, SpeedSensorLag, CurrentSensorLag, SensorRectification, SensorBias,
+               SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

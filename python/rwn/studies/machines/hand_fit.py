@@ -212,7 +212,11 @@ def _xl330(folder: Path) -> Errors:
         return xl330.closed_loop_error(values(np.abs(x)), fit, gain)
 
     best = minimize(error, np.ones(len(guess)), method="Nelder-Mead", options={"maxfev": 60})
-    return {("BAM XL330", xl330.MEASURE): xl330.closed_loop_error(values(np.abs(best.x)), judge, gain)}
+    found = values(np.abs(best.x))
+    return {
+        ("BAM XL330", xl330.MEASURE.format(law)): xl330.closed_loop_error(found, judge, duty)
+        for law, duty in xl330.laws(folder).items()
+    }
 
 
 def _ced(folder: Path) -> Errors:

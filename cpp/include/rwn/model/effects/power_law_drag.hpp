@@ -46,13 +46,13 @@ struct PowerLawDrag {
     const S ratio = x.speed / p[2];
     t.torque -= p[0] * ratio * pow(ratio * ratio + viscous_below * viscous_below, 0.5 * (p[1] - 1.0));
   }
-  /// How fast it brakes the motor by itself, or passes from viscous to its power.
+  /// By its steepest slope over the speeds of the next h: at the lowest of them below the first power, else the highest.
   template <class S>
-  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double) {
-    const double n = value_of(p[1]), w_r = value_of(p[2]), ratio = value_of(x.speed) / w_r;
-    const double slope = std::pow(ratio * ratio + viscous_below * viscous_below, 0.5 * (n - 1.0));
-    const double bends = std::abs(ratio) < 4.0 * viscous_below ? std::abs(acceleration) / (viscous_below * w_r) : 0.0;
-    return std::max(n * value_of(p[0]) / w_r * slope / value_of(m[inertia]), bends);
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
+    const double n = value_of(p[1]), w = std::abs(value_of(x.speed)), change = acceleration * h;
+    const double ratio = (n < 1.0 ? std::max(w - change, 0.0) : w + change) / value_of(p[2]);
+    const double slope = std::max(n, 1.0) * std::pow(ratio * ratio + viscous_below * viscous_below, 0.5 * (n - 1.0));
+    return value_of(p[0]) * slope / (value_of(p[2]) * value_of(m[inertia]));
   }
 };
 

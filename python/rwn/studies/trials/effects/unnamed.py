@@ -124,6 +124,7 @@ EFFECTS = (
         scale=times("coefficient"),
         rivals=("voltage-saturation", "quadratic-drag", "magnetic-saturation"),
         named=False,
+        known_as="amplifier-gain-curve",
     ),
     Effect(
         name="slew-rate-limit",

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "rwn/model/effect.hpp"
+
+namespace rwn {
+
+struct CoastingBridge {
+  static constexpr EffectInfo info{"coasting-bridge", Site::voltage, "v = u + s (1 - |u| / V_s) Ke w",
+                                   "the winding is open between the pulses of the bridge (fast decay): the back-EMF "
+                                   "acts for the share of the duty only",
+                                   "mean of discontinuous conduction: N. Mohan et al., Power Electronics"};
+  static constexpr std::array parameters{Parameter{.name = "share",
+                                                   .symbol = "s",
+                                                   .unit = "1",
+                                                   .meaning = "of the time between pulses in which the winding is open",
+                                                   .lower = 0.0,
+                                                   .upper = 1.0,
+                                                   .start = 0.8,
+                                                   .strength = true,
+                                                   .natural = true},
+                                         Parameter{.name = "supply",
+                                                   .symbol = "V_s",
+                                                   .unit = "V",
+                                                   .meaning = "voltage of the pulses: the command of full duty",
+                                                   .lower = 0.5,
+                                                   .upper = 20.0,
+                                                   .start = 1.2,
+                                                   .scale = scale::voltage,
+                                                   .scan = {2.5}}};
+  static constexpr EffectTraits traits{.hooks = Hook::apply};
+
+  template <class S>
+  static void apply(const S* p, const Motor<S>& motor, const Motion<S>& x, Terms<S>& t) {
+    using std::abs;
+    const S off = 1.0 - abs(x.input) / p[1];  // share of a period without a pulse
+    if (value_of(off) > 0.0) t.drop -= p[0] * off * motor[back_emf_constant] * x.speed;
+  }
+};
+
+}  // namespace rwn
