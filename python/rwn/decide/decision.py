@@ -66,5 +66,5 @@ def _together(ranking: Ranking, found: Account) -> RankedFit:
 def _without_the_rest(ranking: Ranking, this: Fit, names: set[str]) -> Fit:
     problem = ranking.problem
     kept = tuple(n for n in this.added if n in names)
-    starts = {n: this.values_of(n) for n in kept}
+    starts = this.starts(kept)
     return fit(problem, hypothesis(problem.prior, kept, problem.scales, starts, this.motor))

@@ -116,7 +116,7 @@ def _without(ranking: Ranking, leading: RankedFit, name: str) -> Fit:
     if known is not None:
         return known
     problem, this = ranking.weighted, leading.final
-    starts = {n: this.values_of(n) for n in others}
+    starts = this.starts(others)
     begun = hypothesis(problem.prior, others, problem.scales, starts, this.motor)
     return fit(problem, begun, max_iterations=ITERATIONS, share=one_stage(problem.work) / PARTS)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -113,6 +113,12 @@ class Fit:
         """Parameters of one effect as fitted."""
         effect = self.hypothesis.table[name]
         return {p.name: float(self.vector[effect.at(p.name)]) for p in effect.parameters}
+
+    def starts(self, names: Iterable[str]) -> dict[str, dict[str, float]]:
+        """Where an explanation by some of its effects begins: with their parameters and those of the measurement."""
+        measured = {u.name.partition(".")[0] for u in self.hypothesis.unknowns if u.nuisance}
+        known = (*names, *(name for name in self.hypothesis.effects if name in measured))
+        return {name: self.values_of(name) for name in known}
 
     def value(self, name: str) -> float:
         """A fitted unknown by name ("inertia", "coulomb-friction.coulomb_torque")."""

@@ -133,7 +133,7 @@ def _with_lags(problem: Problem, this: Fit) -> Fit:
     """The fit with the lag of every sensor: a filter that is not fitted hides its own noise."""
     lags = (lag for s, lag in LAGS.items() if s in problem.noise and lag in problem.prior.table)
     added = tuple(dict.fromkeys((*this.added, *(lag for lag in lags if lag not in problem.prior.effects))))
-    starts = {name: this.values_of(name) for name in this.added}
+    starts = this.starts(this.added)
     begun = hypothesis(problem.prior, added, problem.scales, starts, this.motor)
     return fit(problem, begun, share=one_stage(problem.work))
 
@@ -142,7 +142,7 @@ def _without_lags(problem: Problem, this: Fit) -> Fit:
     kept = tuple(name for name in this.added if name not in LAGS.values())
     if kept == this.added:
         return this
-    starts = {name: this.values_of(name) for name in kept}
+    starts = this.starts(kept)
     begun = hypothesis(problem.prior, kept, problem.scales, starts, this.motor)
     return fit(problem, begun, share=one_stage(problem.work))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -15,12 +15,19 @@ from rwn.model.vocabulary import table
 from rwn.parallel import side_by_side
 
 PLAIN = "coulomb-friction"  # the law of dry friction that the other ones elaborate
+# laws with a name of their own at one value of a parameter, and their parameters there
+SPECIAL_CASE: dict[str, tuple[str, Callable[[Mapping[str, float]], dict[str, float]]]] = {
+    "power-law-drag": (
+        "quadratic-drag",
+        lambda law: {"drag_coefficient": law["drag_torque"] / law["reference_speed"] ** 2},
+    ),
+}
 
 
 def with_simpler(problem: Problem, nominal: Fit, fits: list[Fit]) -> list[Fit]:
     """The fits and simpler ones than the best; where one of these costs less, simpler ones than that too."""
     fits, best = distinct(fits), min([nominal, *fits], key=lambda f: f.cost)
-    for _ in best.added[1:]:  # of which each time one at least is left out
+    for _ in best.added:  # of which each time one at least is left out or made plainer
         fits = distinct([*fits, *_simpler(problem, best)])
         last, best = best, min([nominal, *fits], key=lambda f: f.cost)
         if len(best.added) >= len(last.added):
@@ -33,19 +40,27 @@ def _simpler(problem: Problem, best: Fit) -> list[Fit]:
 
     The search adds what gains most, so that it may never have met the plain law beside the second effect.
     """
-    if len(best.added) < 2:
+    if len(best.added) < 2 and plainer(best.added) == set(best.added):
         return []
     sets = [best.added, *(tuple(n for n in best.added if n != name) for name in best.added)]
     plain = [tuple(sorted(plainer(names))) for names in sets]
 
     def less(pair: tuple[tuple[str, ...], float]) -> Fit:
         names, share = pair
-        starts = {n: best.values_of(n) if n in best.added else _plain_values(best) for n in names}
+        starts = best.starts(n for n in names if n in best.added)
+        starts |= {PLAIN: _plain_values(best)} if PLAIN in names and PLAIN not in starts else {}
+        for general in best.added:
+            if general in SPECIAL_CASE and _special(general) in names:
+                starts[_special(general)] = SPECIAL_CASE[general][1](best.values_of(general))
         this = hypothesis(problem.prior, names, problem.scales, starts, best.motor)
         return down_secants(problem, fit(problem, this, share=share), turns=1, share=share)
 
-    others = list(dict.fromkeys([*sets[1:], *plain]))
+    others = [names for names in dict.fromkeys([*sets[1:], *plain]) if names and set(names) != set(best.added)]
     return side_by_side(less, zip(others, equal_shares(problem.work, len(others)), strict=True))
+
+
+def _special(name: str) -> str:
+    return SPECIAL_CASE[name][0] if name in SPECIAL_CASE else name
 
 
 def _replaces(name: str) -> set[str]:
@@ -60,13 +75,13 @@ def replaced(this: Fit) -> set[str]:
 
 
 def plainer(names: Sequence[str]) -> set[str]:
-    """The same explanation with plain friction for its elaborations."""
-    return {PLAIN if _replaces(n) and _replaces(n) == _replaces(PLAIN) else n for n in names}
+    """The same explanation with plain friction for its elaborations, and special cases for what generalises them."""
+    return {PLAIN if _replaces(n) and _replaces(n) == _replaces(PLAIN) else _special(n) for n in names}
 
 
 def elaborations() -> list[str]:
-    """The laws that say more of friction than that it is dry."""
-    return [n for n in table() if n != PLAIN and _replaces(n) and _replaces(n) == _replaces(PLAIN)]
+    """The laws that say more than a plainer one: of friction than that it is dry, or with a power of their own."""
+    return [n for n in table() if plainer([n]) != {n}]
 
 
 def _plain_values(this: Fit) -> dict[str, float]:

@@ -60,7 +60,7 @@ def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start
     """The starts of `base` with the effect `name` added; `orders`: how many of a periodic effect."""
     effect = problem.prior.table[name]
     periodic = next((p.name for p in effect.parameters if p.order), "")
-    known = {other: base.values_of(other) for other in base.added}
+    known = base.starts(base.added)
     motors = [base.motor, *([{}] if _bent(base) else []), *problem.prior.starts]
     if effect.at_an_end:
         motors += _lighter(base)
