@@ -68,9 +68,9 @@ test-sanitize: install-tools
 test-python: install-test
 	$(PY) -m pytest -n $(JOBS) --dist worksteal
 
-# Alters the network kernels one line at a time and asks whether a test notices; by hand, it takes an hour.
+# Alters the network kernels one line at a time and asks whether a C++ test notices; by hand. Run again, it tries the survivors.
 mutants: install-test
-	$(PY) tools/mutants.py
+	$(PY) tools/mutants.py --page docs/mutants.md
 
 bench:
 	@./tools/setup.sh

@@ -21,7 +21,7 @@ from rwn.networks.arrays import Array
 from rwn.networks.rates import Fixed, Thesis
 from rwn.networks.trainers import GuardedDescent
 from rwn.studies.thesis import frictionless, viscous
-from rwn.studies.thesis.drive import linear_network
+from rwn.studies.thesis.drive import T, linear_network
 from rwn.studies.thesis.experiment import Experiment, Outcome, Row, Settings
 from rwn.studies.thesis.linear import Case
 from rwn.studies.thesis.methods import Guarded, Path, Trained, passes_to_one_percent
@@ -59,7 +59,7 @@ def tuned(case: Case, rule: Callable[[float], Path], cycles: int) -> Path:
 def drawn(case: Case, seed: int) -> Case:
     """Another start and another amplitude."""
     rng = np.random.default_rng(seed)
-    true = linear_network(viscous_friction=case.viscous).motor(1e-4)
+    true = linear_network(viscous_friction=case.viscous).motor(T)
     start = {name: float(getattr(true, name) * rng.uniform(0.5, 1.5)) for name in case.start}
     return replace(case, label=f"seed {seed}", start=start, volts=float(np.exp(rng.uniform(np.log(0.3), np.log(3)))))
 

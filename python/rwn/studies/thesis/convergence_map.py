@@ -14,12 +14,13 @@ import numpy as np
 import rwn
 from rwn.networks.rates import ImpulseResponse, Normalised, RateRule, Thesis
 from rwn.networks.trainers import GuardedDescent, RecursiveGaussNewton
+from rwn.studies.thesis.drive import MOTOR
 from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Panel, Row, Settings, Surface
 from rwn.studies.thesis.linear import Case
 
 FRACTIONS = [0.003, 0.01, 0.03, 0.1, 0.3, 0.95]
 ERRORS = [-0.5, -0.2, -0.05, 0.05, 0.2, 0.5]
-OTHER = {"frictionless": ("torque_constant", 0.055, 0.0), "viscous": ("viscous_friction", 0.06, 0.06)}
+OTHER = {"frictionless": ("torque_constant", 0.0), "viscous": ("viscous_friction", MOTOR.viscous_friction)}
 
 
 def rules(fraction: float) -> dict[str, tuple[RateRule, bool]]:
@@ -33,8 +34,8 @@ def rules(fraction: float) -> dict[str, tuple[RateRule, bool]]:
 
 def case(kind: str, error: float) -> Case:
     """J off by `error`, the other parameter by as much the other way."""
-    name, true, viscous = OTHER[kind]
-    start = {"inertia": 1.8e-4 * (1 + error), name: true * (1 - error)}
+    name, viscous = OTHER[kind]
+    start = {"inertia": MOTOR.inertia * (1 + error), name: float(getattr(MOTOR, name)) * (1 - error)}
     return Case(label=f"{kind} {error:+.0%}", start=start, thesis={}, viscous=viscous)
 
 

@@ -8,7 +8,7 @@ Open in the thesis, and chosen here: the friction's levels (Tc = no-load current
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -24,11 +24,21 @@ MOTOR = rwn.MotorParameters(
 )
 
 
-def coulomb(speed: ArrayLike, *, coulomb_torque: float = 0.044, static_torque: float = 0.06) -> Array:
-    """Coulomb friction and stiction of (3.99), without the viscous part [N m]."""
-    w = np.asarray(speed, dtype=np.float64)
-    level = coulomb_torque + (static_torque - coulomb_torque) * np.exp(-5 * w**2)
-    return np.asarray(np.tanh(10 * w) * level, dtype=np.float64)
+@dataclass(frozen=True, kw_only=True)
+class Friction:
+    """Friction of (3.99) without its viscous part; `coulomb` and `static` are its levels Tc and Ts [N m]."""
+
+    coulomb: float = 0.044
+    static: float = 0.06
+
+    def torque(self, speed: ArrayLike) -> Array:
+        """Torque [N m] at a speed [rad/s]."""
+        w = np.asarray(speed, dtype=np.float64)
+        level = self.coulomb + (self.static - self.coulomb) * np.exp(-5 * w**2)
+        return np.asarray(np.tanh(10 * w) * level, dtype=np.float64)
+
+
+FRICTION = Friction()
 
 
 def sine(amplitude: float, frequency: float, samples: int = SAMPLES) -> Array:
@@ -43,22 +53,24 @@ def chirp(amplitude: float, low: float, high: float, samples: int = SAMPLES) -> 
 
 
 @cache
-def _speed(voltage: bytes, viscous: float) -> Array:
+def _speed(voltage: bytes, viscous: float, friction: Friction) -> Array:
     u, (speed, current) = np.frombuffer(voltage), (0.0, 0.0)
     out = np.empty(len(u))
     m = MOTOR
     for n, volts in enumerate(u):
         out[n] = speed
-        level = 0.044 + 0.016 * np.exp(-5 * speed * speed)
+        level = friction.coulomb + (friction.static - friction.coulomb) * np.exp(-5 * speed * speed)
         torque = m.torque_constant * current - viscous * speed - np.tanh(10 * speed) * level
         current += T / m.inductance * (volts - m.resistance * current - m.torque_constant * speed)
         speed += T / m.inertia * torque
     return out
 
 
-def speed_with_friction(voltage: Array, viscous: float = MOTOR.viscous_friction) -> Array:
+def speed_with_friction(
+    voltage: Array, viscous: float = MOTOR.viscous_friction, friction: Friction = FRICTION
+) -> Array:
     """Speed (n,) [rad/s] of the motor with the friction of (3.99)."""
-    return _speed(np.ascontiguousarray(voltage, dtype=np.float64).tobytes(), viscous)
+    return _speed(np.ascontiguousarray(voltage, dtype=np.float64).tobytes(), viscous, friction)
 
 
 def linear_network(**changes: float) -> rwn.StructuredNetwork:

@@ -20,7 +20,7 @@ import numpy as np
 
 from rwn.networks.arrays import Array
 from rwn.networks.trainers import StructuredFit
-from rwn.studies.thesis.drive import MOTOR, T, chirp, coulomb
+from rwn.studies.thesis.drive import FRICTION, MOTOR, T, chirp
 from rwn.studies.thesis.experiment import Experiment, Outcome, Row, Settings
 from rwn.studies.thesis.noisy import RATIOS, Estimate, Feed, Noisy, noisy, rows_of
 from rwn.studies.thesis.simultaneous import total_slope, true_torque
@@ -42,7 +42,7 @@ def simulate(u: Array) -> tuple[Array, Array]:
     out = np.empty((2, len(u)))
     for n, volts in enumerate(u):
         out[:, n] = speed, current
-        torque = MOTOR.torque_constant * current - MOTOR.viscous_friction * speed - float(coulomb(speed))
+        torque = MOTOR.torque_constant * current - MOTOR.viscous_friction * speed - float(FRICTION.torque(speed))
         current += T / MOTOR.inductance * (volts - MOTOR.resistance * current - MOTOR.torque_constant * speed)
         speed += T / MOTOR.inertia * torque
     return out[0], out[1]

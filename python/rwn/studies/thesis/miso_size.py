@@ -20,7 +20,10 @@ from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Panel, Se
 from rwn.studies.thesis.functions import grid, miso
 from rwn.studies.thesis.offline import MISO, Case, compare_initialisers
 
-SEEDS = "the start of small random weights decides: see the range over the seeds"
+SEEDS = (
+    "the patterns and the size of the first weights are not said, and each moves it by 2 and more (choices); so does "
+    "the draw of the weights (range)"
+)
 CASES = [
     Case(label="Nw 7", wavelets=7, rate=0.1, momentum=0.6, heuristic=0.0136, dyadic=0.0104, cause=SEEDS),
     Case(label="Nw 15", wavelets=15, rate=0.1, momentum=0.6, heuristic=5.0251e-4, dyadic=4.4011e-4, cause=SEEDS),

@@ -6,7 +6,6 @@ import inspect
 from collections.abc import Sequence
 from pathlib import Path
 
-from rwn.studies.made import made
 from rwn.studies.thesis.comparison import markdown_table
 from rwn.studies.thesis.experiment import SHORTER
 from rwn.studies.thesis.overview import numbers_markdown, overview_markdown
@@ -59,8 +58,10 @@ def write_page(results: Sequence[Finished], page: Path) -> None:
 
 
 def _made(results: Sequence[Finished]) -> str:
-    """When, from which commit and on which machine the results were made."""
-    origins = dict.fromkeys((r.made.date, r.made.commit, r.made.machine) for r in results)
-    lines = [f"Made {date} from {commit} on {machine}." for date, commit, machine in origins]
+    """When, from which commits and on which machines the results were made."""
+    commits: dict[tuple[str, str], set[str]] = {}
+    for r in results:
+        commits.setdefault((r.made.date, r.made.machine), set()).add(r.made.commit)
+    lines = [f"- {date}, commit {', '.join(sorted(of))}: {machine}." for (date, machine), of in commits.items()]
     minutes = sum(r.seconds for r in results) / 60
-    return "\n".join([*lines, f"{minutes:.0f} minutes of processor time; page written from {made().commit}."])
+    return "\n".join(["Made:\n", *lines, f"- {minutes:.0f} minutes of processor time in all."])

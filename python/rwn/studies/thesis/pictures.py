@@ -46,10 +46,12 @@ def _fill(axes: Any, panel: Panel) -> None:
         return
     for line in panel.curves:
         beside = line.style == ":" and not line.label and axes.lines  # the range of the curve before it
-        colour = {"color": axes.lines[-1].get_color(), "alpha": 0.6} if beside else {}
-        axes.plot(line.x, line.y, line.style, label=line.label or None, linewidth=1.3, **colour)
+        same = {"color": axes.lines[-1].get_color(), "alpha": 0.6} if beside else {}
+        axes.plot(line.x, line.y, line.style, label=line.label or None, linewidth=1.3, **same)
+    drawn = {line.get_label(): line.get_color() for line in axes.lines}
     for k, (label, value) in enumerate(panel.thesis.items()):
-        axes.axhline(value, color=f"C{k}", linestyle=(0, (1, 3)), linewidth=1.6, label=f"thesis: {label}")
+        colour = drawn.get(label, f"C{k}")
+        axes.axhline(value, color=colour, linestyle=(0, (1, 3)), linewidth=1.6, label=f"thesis: {label}")
     if panel.log_x:
         axes.set_xscale("log")
     if panel.log_y:

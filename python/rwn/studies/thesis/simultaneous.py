@@ -23,10 +23,10 @@ from rwn.networks.initialisation import StructuredSelection
 from rwn.networks.rates import Thesis
 from rwn.networks.trainers import StructuredLevenbergMarquardt
 from rwn.studies.thesis.drive import (
+    FRICTION,
     MOTOR,
     T,
     chirp,
-    coulomb,
     error_percent,
     friction_network,
     linear_network,
@@ -54,7 +54,7 @@ def total_slope(torque: Array, speed: Array) -> float:
 
 def true_torque(speed: Array) -> Array:
     """Whole friction of the motor [N m]."""
-    return coulomb(speed) + MOTOR.viscous_friction * speed
+    return FRICTION.torque(speed) + MOTOR.viscous_friction * speed
 
 
 def online_rows(

@@ -18,7 +18,7 @@ import rwn
 from rwn.networks.arrays import Array
 from rwn.networks.initialisation import StructuredSelection
 from rwn.networks.trainers import StructuredLevenbergMarquardt
-from rwn.studies.thesis.drive import MOTOR, chirp, coulomb, friction_network, linear_network, sine, speed_with_friction
+from rwn.studies.thesis.drive import FRICTION, MOTOR, chirp, friction_network, linear_network, sine, speed_with_friction
 from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Panel, Row, Settings, curve, median_row
 from rwn.studies.thesis.linear import thesis_rule
 from rwn.studies.thesis.panels import signal_panel
@@ -67,7 +67,7 @@ def torque_panels(networks: dict[str, rwn.StructuredNetwork], y: Array) -> list[
     """Torque against speed beside the true one, and the error of each."""
     w = np.linspace(float(y.min()), float(y.max()), 400)
     b = MOTOR.viscous_friction
-    true = coulomb(w) + b * w
+    true = FRICTION.torque(w) + b * w
     learned = {label: n.torque(w) + b * w for label, n in networks.items()}
     lines = [curve(true, w, label="true", style="k-")]
     lines += [curve(torque, w, label=label, style="--") for label, torque in learned.items()]
