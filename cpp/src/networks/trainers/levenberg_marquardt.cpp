@@ -40,10 +40,10 @@ Training LevenbergMarquardt::train(ConventionalNetwork network, const Patterns& 
   Eigen::VectorXd held = network.parameters();
   for (int n = 0; !watch.stop(squares * per_error, network.parameters()) && n < iterations; ++n) {
     normal.form(network, batch);
-    const double hopeless = 1e10 * normal.squared.diagonal().maxCoeff();
+    const double most = 1e10 * normal.squared.diagonal().maxCoeff();
     held = network.parameters();
     double tried = squares;
-    for (; damping < hopeless; damping *= beta) {
+    for (; damping < most; damping *= beta) {
       const bool solved = normal.solve(damping);
       network.parameters() = held + normal.step;
       tried = solved ? batch.evaluate(network) : squares;
