@@ -57,7 +57,9 @@ def start_of(
     initial = model.recording.initial
     if initial == "rest" or (initial == "auto" and not (moving or flowing)):
         return Start(state=(0.0, 0.0, place), spread=spread)
-    spread["initial_speed"] = max(abs(speed) if "speed" in signals else off, known_to.get("speed", 0.0), 1e-9)
+    sooner = _first_speed(time, signals, known_to, first // 2)[0]  # a step response is no curve of a few degrees
+    known_within = abs(speed) if "speed" in signals else float(np.hypot(off, speed - sooner))
+    spread["initial_speed"] = max(known_within, known_to.get("speed", 0.0), 1e-9)
     if model.drive.winding:
         if "current" not in signals:
             current = _steady_current(signals, speed, model)
@@ -94,8 +96,10 @@ def _first_slope(time: Array, position: Array, noise: float) -> tuple[float, flo
     best = (0.0, np.inf)
     for degree in range(min(2, time.size - 1), min(MOST_BENT, time.size - 2) + 1):
         design = np.vander(time, degree + 1)
-        slope = float(np.linalg.lstsq(design, position, rcond=None)[0][-2])
-        deviation = noise * float(np.sqrt(np.linalg.inv(design.T @ design)[-2, -2]))
+        found = np.linalg.lstsq(design, position, rcond=None)[0]
+        slope, left = float(found[-2]), position - design @ found
+        off = max(noise, float(np.sqrt(left @ left / max(time.size - degree - 1, 1))))  # a curve that does not fit
+        deviation = off * float(np.sqrt(np.linalg.inv(design.T @ design)[-2, -2]))
         moved = abs(slope - best[0])
         if np.isfinite(best[1]) and moved <= CERTAIN * deviation:
             break
