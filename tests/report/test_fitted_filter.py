@@ -16,6 +16,7 @@ from rwn.fit.residuals import statistics
 from rwn.fit.sensor_filter import SensorFilter, filtered
 from rwn.model.model import Model
 from rwn.report.sensor_filter import fitted_filters
+from rwn.report.text import filter_in_words
 
 SHARE, STEP = 0.6, 1e-3  # of a sample's noise that was in the sample before; [s]
 MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
@@ -59,6 +60,7 @@ def test_a_filter_that_is_undone_is_reported_too() -> None:
     (undone,) = fitted_filters(this, statistics(problem, this), problem.filters)
     assert undone.time_constant.value == 2e-3
     assert undone.time_constant.interval is None
+    assert "it was undone" in filter_in_words(undone.signal, undone.time_constant)
 
 
 @pytest.mark.slow

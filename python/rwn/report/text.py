@@ -142,7 +142,12 @@ def law_in_words(law: Law, *, linear: bool) -> str:
 
 
 def filter_in_words(signal: str, time_constant: Estimate) -> str:
-    """A filter of a sensor that was fitted beside whatever is missing."""
+    """A filter of a sensor that was fitted beside whatever is missing; without an interval it was undone."""
+    if time_constant.interval is None:
+        return (
+            f"The samples of the {signal} went through a first-order filter of {estimate(time_constant)}, seen in its "
+            "noise and in its motion: it was undone before anything was fitted."
+        )
     return (
         f"The {signal} was measured through a first-order filter of {estimate(time_constant)}, seen in its noise: "
         "it was fitted as part of the measurement, beside whatever is missing."

@@ -1,0 +1,43 @@
+"""Rows off their clock: no length between them comes back, so that their steps lie between those of a grid."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.model.model import Model
+
+MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+         "viscous_friction": 2e-5}  # fmt: skip
+STEP, ROWS, PARTS = 1e-3, 400, 3
+LAWS = {
+    "linear": {},
+    "coulomb-friction": {"coulomb_torque": 0.01},
+    "shaft-compliance": {"stiffness": 2.0, "damping": 1e-3, "load_inertia": 1e-5, "load_viscous_share": 0.3},
+    "brush-voltage-drop": {"voltage_drop": 0.5, "transition_current": 0.2},
+}
+# linear pieces are exact but for the interpolation (1e-9 of a matrix a step), what is nonlinear is integrated
+EXACT = {"linear": 1e-8, "coulomb-friction": 1e-8, "shaft-compliance": 1e-8, "brush-voltage-drop": 1e-4}
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_parts_of_an_interval_lead_where_the_whole_does(law: str) -> None:
+    rng = np.random.default_rng(11)
+    time = np.concatenate([[0.0], np.cumsum(STEP * rng.uniform(0.5, 1.5, ROWS - 1))])
+    inner = np.sort(rng.uniform(0.1, 0.9, (ROWS - 1, PARTS - 1)), axis=1)
+    parts = time[:-1, None] + np.diff(time)[:, None] * np.column_stack([np.zeros(ROWS - 1), inner])
+    fine = np.append(parts.ravel(), time[-1])
+    voltage = np.repeat(rng.uniform(-10.0, 10.0, ROWS // 20), 20)
+    held = np.append(np.repeat(voltage[:-1], PARTS), voltage[-1])
+    model = Model(kind="dc", parameters=MOTOR, effects={} if law == "linear" else {law: LAWS[law]})
+
+    def run(at: np.ndarray, given: np.ndarray) -> dict[str, np.ndarray]:
+        done = rwn.simulate(model, rwn.Recording(name="rows", time=at, signals={"voltage": given}))
+        assert done.status == "ok"
+        return dict(done.signals)
+
+    whole, pieces = run(time, voltage), run(fine, held)
+    for name in ("current", "speed", "position"):
+        of, by = whole[name], pieces[name][::PARTS]
+        assert np.max(np.abs(of - by)) < EXACT[law] * np.max(np.abs(by)), name
