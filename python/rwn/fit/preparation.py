@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -32,7 +33,7 @@ def prepare(recordings: Sequence[Recording], model: Model, *, work: _core.Work |
 
     `work`: meter of what simulations cost, of a diagnosis that prepares several times.
     """
-    runs, prior = tuple(run_of(r, model) for r in recordings), Prior.of(model)
+    runs, prior = _one_sensor(tuple(run_of(r, model) for r in recordings)), Prior.of(model)
     if not model.drive.coefficients:  # a transfer function's initial state is eliminated from every fit
         runs, starts = _unknown_starts(runs)
         prior = replace(prior, of_runs=starts)
@@ -45,6 +46,18 @@ def prepare(recordings: Sequence[Recording], model: Model, *, work: _core.Work |
     if model.drive.force and any(r.in_motion for r in runs):
         problem = replace(problem, runs=tuple(windowed(r) if r.position.size else r for r in runs))
     return problem
+
+
+def _one_sensor(runs: tuple[Run, ...]) -> tuple[Run, ...]:
+    """The runs with the speed measured in all as most of them show; as many, the way over fewest samples.
+
+    One recording may show it wrongly: an input that is held for some samples leaves gaps in the spectrum of its own.
+    """
+    ways = Counter(r.speed_measured for r in runs if r.speed.size)
+    if len(ways) < 2:
+        return runs
+    usual = max(ways, key=lambda way: (ways[way], -way.before - way.after))
+    return tuple(replace(r, speed_measured=usual) if r.speed.size else r for r in runs)
 
 
 def _unknown_starts(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[RunUnknown, ...]]:
