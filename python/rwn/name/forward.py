@@ -217,10 +217,11 @@ def _beside(
     """
     found, tried, names = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted)
     for place, base in enumerate(bases):
-        if (place or known.fits) and not affords_more(problem.work):
-            break
         parts = _all_there_is(problem, found)
-        beside = [n for n in names if n in parts] if parts and not parts & set(base.added) else names
+        rivals = bool(parts) and not parts & set(base.added)
+        if (place or known.fits) and not rivals and not affords_more(problem.work):
+            continue
+        beside = [n for n in names if n in parts] if rivals else names
         new = [name for name in beside if (base.added, name) not in tried]
         found += screen(problem, base, new, keep=1, best=min((f.cost for f in found), default=np.inf))
         tried |= {(base.added, name) for name in new}
@@ -232,7 +233,7 @@ def _beside(
 def _all_there_is(problem: Problem, found: Sequence[Fit]) -> frozenset[str]:
     """The effects of the best that was found if it leaves but noise; none otherwise."""
     best = min(found, key=lambda f: f.cost, default=None)
-    done = best and statistics(problem, best).at_the_floor
+    done = best and (statistics(problem, best).at_the_floor or _at_its_floor(problem, best))
     return frozenset(best.added) if best and done else frozenset()
 
 
