@@ -15,9 +15,10 @@ import shutil
 import signal
 import sys
 import tempfile
+import warnings
 from collections import Counter, defaultdict
 from collections.abc import Iterable
-from contextlib import redirect_stdout
+from contextlib import redirect_stdout, suppress
 from pathlib import Path
 
 import numpy as np
@@ -28,6 +29,7 @@ from tools.trust.good_files import write_formats, write_recordings, write_result
 
 ENDS = ("clear line", "no result, said", "accepted", "unclear line", "traceback", "crash", "hang", "nonsense accepted")
 GOOD = ENDS[:3]
+LIBRARIES = ("scipy.io", "matio", "pyarrow.parquet", "python_calamine", "mcap_ros2.decoder", "nptdms", "asammdf")
 SECONDS, WAITED, BYTES = 30, 300, 3 * 2**30  # of processor time, of waiting, of memory
 
 
@@ -55,6 +57,10 @@ def load(base: Path) -> None:
     """A good run, before the processes are forked: what every command loads once is no part of a case."""
     for module in ("thesis.cli", "thesis.registry", "trials.cli", "trials.make", "trials.grade", "machines.registry"):
         importlib.import_module(f"rwn.studies.{module}")
+    for module in LIBRARIES:
+        with suppress(ImportError), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            importlib.import_module(module)
     with tempfile.TemporaryDirectory() as name, redirect_stdout(io.StringIO()):
         model, recording = str(base / "motor.toml"), str(base / "a.csv")
         cli.app(["simulate", model, "--input", recording, "--out", f"{name}/out.csv"], standalone_mode=False)
