@@ -109,3 +109,43 @@ docs: install-test
 develop: install-tools
 	@$(PY) -c 'import scikit_build_core' 2>/dev/null || $(PIP) scikit-build-core pybind11 cmeel-eigen
 	@$(PIP) --no-build-isolation '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON -C cmake.define.RWN_KERNELS_FOR=this
+
+# How rwn is tested, as figures; docs/testing.md says what they printed. By hand: each takes minutes or more.
+TRUST := PYTHONPATH=. $(PY) -m tools.trust
+COUNT ?= 100
+SECONDS ?= 60
+TARGET ?= csv
+.PHONY: coverage coverage-cpp fuzz hostile kills soak mutants-python long-csv install-trust
+install-trust:
+	@$(PIP) --group trust
+
+# Lines and branches of Python; WHICH='not slow' leaves the long tests out.
+WHICH ?= slow or not slow
+coverage: install-trust
+	$(PY) -m coverage run --branch --source-pkgs=rwn -m pytest -q -m "$(WHICH)"
+	$(PY) -m coverage report --skip-covered
+
+# Lines and branches of C++, with the kernels that any processor runs.
+coverage-cpp: install-trust
+	cmake --preset dev -B build/coverage -DCMAKE_CXX_FLAGS="--coverage -O0" >/dev/null
+	cmake --build build/coverage -j $(JOBS) -- --quiet
+	build/coverage/rwn_tests --gtest_brief=1
+	$(PY) -m gcovr --root . --filter cpp/ --exclude cpp/tests/ --exclude-throw-branches --print-summary build/coverage | tail -4
+
+fuzz: install-trust
+	$(TRUST).fuzz $(TARGET) --seconds $(SECONDS)
+
+hostile:
+	$(TRUST).hostile --damaged $(COUNT)
+
+kills:
+	$(TRUST).kills --count $(COUNT)
+
+soak:
+	$(TRUST).soak --count $(COUNT)
+
+mutants-python: install-trust
+	$(TRUST).mutants --count $(COUNT)
+
+long-csv:
+	$(TRUST).long_csv --count $(COUNT)

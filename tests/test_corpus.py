@@ -1,0 +1,56 @@
+"""What fuzzing has found is read again, and altered: a reader raises InputError, or nothing."""
+
+from __future__ import annotations
+
+import random
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))  # tools are no part of the package
+
+from tools.trust.cases import _damage  # noqa: E402
+from tools.trust.fuzz import CORPUS, TARGETS  # noqa: E402
+from tools.trust.hostile import GOOD, count, ended  # noqa: E402
+
+ALTERED = 20  # inputs for each target, made of its corpus
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_a_reader_refuses_or_reads(target: str) -> None:
+    corpus = [path.read_bytes() for path in sorted((CORPUS / target).iterdir())]
+    assert corpus
+    draw = random.Random(target)
+    for data in corpus:
+        TARGETS[target](data)
+    for _ in range(ALTERED):
+        TARGETS[target](_damage(draw.choice(corpus), draw))
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="forks a process that has loaded rwn")
+def test_the_table_of_hostile_inputs(tmp_path: Path) -> None:
+    """The cases by hand; `make hostile` runs damaged files beside them."""
+    from tools.trust.cases import cases
+    from tools.trust.good_files import write_recordings
+
+    write_recordings(tmp_path / "base")
+    (tmp_path / "good").mkdir()
+    _, bad = count(cases(0, 0, tmp_path / "good"), tmp_path / "base", show=False)
+    assert not bad
+
+
+@pytest.mark.slow
+def test_what_does_not_end_well_is_counted_so(tmp_path: Path) -> None:
+    """The counts would show a traceback, nonsense and an unclear line."""
+    from tools.trust.cases import Case
+    from tools.trust.good_files import write_recordings
+
+    write_recordings(tmp_path)
+    good = Case(kind="", what="")
+    assert ended(good, tmp_path)[0] == "nonsense accepted"
+    assert ended(Case(kind="", what="", refuse=False), tmp_path)[0] == "accepted"
+    assert ended(Case(kind="", what="", command=("trials",)), tmp_path)[0] == "unclear line"  # a page of help
+    assert set(GOOD) == {"clear line", "no result, said", "accepted"}

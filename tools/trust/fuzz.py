@@ -1,0 +1,98 @@
+"""Fuzzes what reads files and formulas, guided by coverage: `make fuzz SECONDS=60 TARGET=csv` (atheris).
+
+A target takes bytes and may raise InputError alone; anything else is a finding, whose bytes are left in the folder
+`crash-...`. Inputs that reach new code are kept in the corpus, tests/corpus/TARGET, which a test replays and alters.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+CORPUS = Path(__file__).resolve().parents[2] / "tests" / "corpus"
+Target = Callable[[bytes], None]
+
+
+def _reads(ending: str) -> Target:
+    def read(data: bytes) -> None:
+        from rwn.errors import InputError
+        from rwn.recording.columns import Layout
+        from rwn.recording.recording import read_recording
+
+        path = _FOLDER / f"x{ending}"
+        path.write_bytes(data)
+        part = "#slow-forward" if ending == ".json" else ""
+        for layout in (Layout(), Layout(sample_time=1e-3, profile="moteus")):
+            with suppress(InputError):
+                read_recording(f"{path}{part}", layout=layout)
+
+    return read
+
+
+def model(data: bytes) -> None:
+    """A model file."""
+    from rwn.errors import InputError
+    from rwn.model.toml_reader import parse_model
+    from rwn.model.toml_writer import format_model
+
+    with suppress(InputError):
+        found = parse_model(data.decode("utf-8", "replace"), where="x.toml")
+        again = parse_model(format_model(found), where="x.toml")
+        assert again.parameters == found.parameters, "what is written is read back"
+
+
+def formula(data: bytes) -> None:
+    """The formula of an effect of a user's own."""
+    import json
+
+    from rwn.errors import InputError
+    from rwn.model.toml_reader import parse_model
+    from tools.trust.cases import MODEL, OWN
+
+    text = json.dumps(data.decode("utf-8", "replace")).encode("ascii", "replace").decode()[1:-1]
+    with suppress(InputError):
+        parse_model(MODEL + OWN.replace("{}", text, 1), where="x.toml")
+
+
+def diagnosis(data: bytes) -> None:
+    """diagnosis.json, and a page of it."""
+    from rwn.errors import InputError
+    from rwn.report.diagnosis import Diagnosis
+
+    (_FOLDER / "diagnosis.json").write_bytes(data)
+    with suppress(InputError):
+        Diagnosis.load(_FOLDER)
+
+
+_FOLDER = Path(tempfile.mkdtemp(prefix="rwn-fuzz-"))
+TARGETS: dict[str, Target] = {
+    "csv": _reads(".csv"), "wpilog": _reads(".wpilog"), "sysid": _reads(".json"), "npz": _reads(".npz"),
+    "mat": _reads(".mat"), "model": model, "formula": formula, "diagnosis": diagnosis,
+}  # fmt: skip
+
+
+def main() -> None:
+    """Fuzzes one target for a while; atheris ends the process."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("target", choices=TARGETS)
+    parser.add_argument("--seconds", type=int, default=60)
+    options = parser.parse_args()
+    import atheris
+
+    with atheris.instrument_imports(include=["rwn"]):
+        import rwn.report.diagnosis  # noqa: F401
+
+    corpus = CORPUS / options.target
+    corpus.mkdir(parents=True, exist_ok=True)
+    arguments = [sys.argv[0], str(corpus), f"-max_total_time={options.seconds}", "-timeout=20", "-max_len=4096",
+                 "-rss_limit_mb=3000", "-print_final_stats=1"]  # fmt: skip
+    atheris.Setup(arguments, TARGETS[options.target])
+    atheris.Fuzz()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,146 @@
+"""Mutation score of readers and of the code that decides: `make mutants-python COUNT=100` (operators of cosmic-ray).
+
+Alters one place of one file at a time, in a copy, and runs the tests named for that file; a mutant that no test kills
+is listed. Mutants are drawn at random with --seed from all that the operators give. Each runs in a process forked from
+one that has loaded what the tests need but rwn itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import os
+import random
+import resource
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SECONDS = 60  # of processor time: what takes longer was altered into a loop without end
+FORMATS, RECORDING = "python/rwn/recording/formats/", "python/rwn/recording/"
+# file -> the tests that are to notice
+FILES = {
+    f"{FORMATS}csv.py": ("tests/recording/test_csv.py", "tests/recording/test_bad_input.py"),
+    f"{FORMATS}csv_dialect.py": ("tests/recording/test_csv.py", "tests/recording/test_bad_input.py"),
+    f"{FORMATS}scope.py": ("tests/recording/test_profiles.py",),
+    f"{FORMATS}wpilog.py": ("tests/recording/test_logs.py",),
+    f"{FORMATS}channels.py": ("tests/recording/test_logs.py",),
+    f"{FORMATS}sysid.py": ("tests/recording/test_logs.py",),
+    f"{FORMATS}part.py": ("tests/recording/test_logs.py",),
+    f"{RECORDING}profiles/__init__.py": ("tests/recording/test_profiles.py",),
+    f"{RECORDING}copies.py": ("tests/test_python_calls.py", "tests/test_hostile.py"),
+    f"{RECORDING}selection.py": ("tests/recording/test_selection.py",),
+    "python/rwn/decide/account.py": ("tests/decide/test_account.py",),
+}
+# A | of types is not looked at when the code runs.
+_IDLE = ("core/ReplaceBinaryOperator_BitOr_", "core/VariableInserter", "core/VariableReplacer")  # the last: need names
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change of one file."""
+
+    path: str
+    operator: str
+    occurrence: int
+
+
+def mutants(paths: list[str]) -> Iterator[Mutant]:
+    """All that cosmic-ray's operators make of the files."""
+    from cosmic_ray.ast import get_ast_from_path
+    from cosmic_ray.plugins import get_operator, operator_names
+
+    for path in paths:
+        tree = get_ast_from_path(ROOT / path)
+        for name in sorted(operator_names()):
+            if name.startswith(_IDLE):
+                continue
+            operator = get_operator(name)()
+            count = sum(1 for node in _nodes(tree) for _ in operator.mutation_positions(node))
+            yield from (Mutant(path, name, k) for k in range(count))
+
+
+def _nodes(node: object) -> Iterator[object]:
+    yield node
+    for child in getattr(node, "children", ()):
+        yield from _nodes(child)
+
+
+def killed(mutant: Mutant, copy: Path) -> bool:
+    """Whether a test fails, in a process of its own with the altered file."""
+    from cosmic_ray.mutating import mutate_code
+    from cosmic_ray.plugins import get_operator
+
+    source = (ROOT / mutant.path).read_text()
+    altered = mutate_code(source, get_operator(mutant.operator)(), mutant.occurrence)
+    if altered is None:
+        return True
+    (copy / mutant.path).write_text(altered)
+    passes = _pass(FILES[mutant.path], copy)
+    (copy / mutant.path).write_text(source)
+    return not passes
+
+
+def _pass(tests: tuple[str, ...], copy: Path) -> bool:
+    child = os.fork()
+    if child == 0:
+        _test(tests, copy)
+    _, status = os.waitpid(child, 0)
+    return os.WIFEXITED(status) and os.WEXITSTATUS(status) == 0
+
+
+def _test(tests: tuple[str, ...], copy: Path) -> None:
+    """In the child: never returns."""
+    import pytest
+
+    code = 1
+    try:
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+        os.chdir(copy)
+        sys.path.insert(0, str(copy / "python"))
+        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+            code = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", "-m", "not slow", "--no-header", *tests]))
+    finally:
+        os._exit(code)
+
+
+def main() -> int:
+    """Prints the score and the survivors; 1 below --least."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=100, help="mutants, drawn at random")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--least", type=float, default=0.85)
+    parser.add_argument("--only", help="files whose path holds this")
+    options = parser.parse_args()
+    paths = [path for path in FILES if options.only is None or options.only in path]
+    every = list(mutants(paths))
+    drawn = random.Random(options.seed).sample(every, min(options.count, len(every)))
+    for module in ("numpy", "scipy.io", "pint", "msgspec", "typer", "pytest", "narwhals.stable.v1"):
+        __import__(module)
+    with tempfile.TemporaryDirectory() as name:
+        copy = Path(name)
+        for part in ("python", "tests", "pyproject.toml", "tools"):
+            whole = ROOT / part
+            shutil.copytree(whole, copy / part) if whole.is_dir() else shutil.copy(whole, copy / part)
+        for tests in {FILES[mutant.path] for mutant in drawn}:
+            if not _pass(tests, copy):
+                print(f"{', '.join(tests)} fail on what is not altered: no score", file=sys.stderr)
+                return 2
+        survivors = []
+        for k, mutant in enumerate(drawn):
+            if not killed(mutant, copy):
+                survivors.append(mutant)
+                print(f"survives: {mutant.path}: {mutant.operator} {mutant.occurrence}", flush=True)
+            print(f"{k + 1}/{len(drawn)}", end="\r", file=sys.stderr)
+    score = 1.0 - len(survivors) / max(len(drawn), 1)
+    print(f"{len(drawn)} of {len(every)} mutants of {len(paths)} files, {score:.0%} killed")
+    return 0 if score >= options.least else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,64 @@
+"""Diagnoses the same small recording again and again in one process, and prints its memory: `make soak COUNT=1000`.
+
+Exit code 1 where the answers differ, or where memory grows over the last half of the runs by more than 4 kB a
+diagnosis: a leak of one array of 500 samples in each would show.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import hashlib
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+import rwn
+
+PAGE = 4096  # bytes
+GROWTH = 4.0  # kB a diagnosis
+MOTOR = {
+    "resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 3e-4,
+    "viscous_friction": 7e-5,
+}  # fmt: skip
+
+
+def recording(model: rwn.Model) -> rwn.Recording:
+    """0.3 s of a motor with dry friction, with noise."""
+    time_, rng = np.arange(300) * 1e-3, np.random.default_rng(0)
+    voltage = 5.0 * np.sin(40.0 * time_)
+    made = rwn.Model(kind="dc", parameters=MOTOR, effects={"coulomb-friction": {"coulomb_torque": 0.02}})
+    run = rwn.simulate(made, rwn.Recording(name="run", time=time_, signals={"voltage": voltage}))
+    signals = {"voltage": voltage} | {s: run.signals[s] + rng.normal(0, 0.02, 300) for s in ("current", "speed")}
+    return rwn.Recording(name="run", time=time_, signals=signals, linear=model.linear)
+
+
+def resident() -> float:
+    """Memory of this process [kB]."""
+    gc.collect()
+    return int(Path("/proc/self/statm").read_text().split()[1]) * PAGE / 1024
+
+
+def main() -> int:
+    """Prints memory at ten moments and its growth."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=1000)
+    options = parser.parse_args()
+    model = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.3})
+    run, answers, memory, start = recording(model), set(), [], time.process_time()
+    for k in range(options.count):
+        answers.add(hashlib.sha256(rwn.diagnose(run, model, jobs=1).to_json()).hexdigest())
+        memory.append(resident())
+        if (k + 1) % max(options.count // 10, 1) == 0:
+            print(f"{k + 1} diagnoses: {memory[-1] / 1024:.1f} MB", flush=True)
+    half = np.array(memory[len(memory) // 2 :])
+    growth = float(np.polyfit(np.arange(half.size), half, 1)[0]) if half.size > 1 else 0.0
+    took = time.process_time() - start
+    print(f"{growth:+.2f} kB a diagnosis over the last half; {len(answers)} answer(s); {took:.0f} s of processor time")
+    return 1 if growth > GROWTH or len(answers) != 1 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
