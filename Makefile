@@ -5,8 +5,8 @@ JOBS ?= $(shell nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 PIP := $(PY) -m pip install -q --disable-pip-version-check
 
-.PHONY: demo demo-real test check test-cpp test-sanitize test-sanitize-lint test-python mutants lint lint-only bench install install-tools \
-  install-test stubs docs develop clean
+.PHONY: demo demo-real test check test-cpp test-sanitize test-sanitize-lint test-python mutants lint lint-only bench install \
+  install-cmake install-tools install-test stubs docs develop clean
 
 # Installed once; again only where something that goes into it has changed.
 SOURCES := $(shell find cpp cmake python CMakeLists.txt pyproject.toml -type f -not -name '*.pyc' -not -name '*.so' 2>/dev/null)
@@ -19,9 +19,14 @@ $(INSTALLED): $(SOURCES)
 	@$(PIP) .
 	@touch $@
 
-install-tools:
+# What the C++ tests need, which are built while the rest is downloaded.
+install-cmake:
 	@./tools/setup.sh test
-	@$(PIP) --group test --group dev
+	@$(PIP) cmake ninja
+
+# Not compiled to bytecode: most of these files are other packages' own tests, which nothing imports.
+install-tools: install-cmake
+	@$(PIP) --no-compile --group test --group dev
 
 install-test: install-tools
 	@$(PIP) '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON -C cmake.define.RWN_KERNELS_FOR=this
@@ -38,11 +43,12 @@ demo-real: install
 	@.venv/bin/rwn diagnose $(EMPS)/DATA_EMPS.mat --heldout $(EMPS)/DATA_EMPS_PULSES.mat \
 	  --model python/rwn/demo/emps.toml --out demo-out/emps --overwrite
 
-# Everything that CI runs. The sanitized build goes on beside pip, which waits for downloads much of its time.
-test: install-tools
+# Everything that CI runs. The sanitized build goes on beside pip, which waits for downloads much of its time; the linters,
+# which read the packages that pip installs, beside pytest.
+test:
 	@$(MAKE) -j2 --no-print-directory test-sanitize-lint test-python
 
-test-sanitize-lint: test-sanitize
+test-sanitize-lint: test-sanitize install-test
 	@$(MAKE) --no-print-directory lint-only
 
 # What to run while working: lint, types, imports, and every test that is not marked slow, on the checkout as it is (`make develop` built it).
@@ -51,7 +57,7 @@ check: lint-only
 	$(PY) -m pytest -q -n $(JOBS) --dist worksteal -m "not slow"
 
 # The C++ tests as they are shipped: optimised, with the kernels of this processor.
-test-cpp: install-tools
+test-cpp: install-cmake
 	cmake --preset release >/dev/null
 	cmake --build --preset release -j $(JOBS) -- --quiet
 	build/release/rwn_tests --gtest_brief=1
@@ -60,7 +66,7 @@ test-cpp: install-tools
 KERNELS_FOR ?= any
 ISAS_any := baseline
 ISAS_every := baseline avx2 avx512
-test-sanitize: install-tools
+test-sanitize: install-cmake
 	cmake --preset sanitize -DRWN_KERNELS_FOR=$(KERNELS_FOR) >/dev/null
 	cmake --build --preset sanitize -j $(JOBS) -- --quiet
 	for isa in $(ISAS_$(KERNELS_FOR)); do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done

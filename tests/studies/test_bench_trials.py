@@ -75,6 +75,7 @@ def test_some_backgrounds_are_kept_for_tests() -> None:
     assert {p.background for p in plans(10_005, 300)} & TEST_ONLY
 
 
+@pytest.mark.slow
 def test_a_bench_trial_is_the_same_every_time(trial: Trial, tmp_path: Path) -> None:
     again = make_bench_trial(PLAN)
     for name, one in (("a", trial), ("b", again)):
@@ -112,6 +113,7 @@ def test_clean_speeds_fit_the_rows_of_the_files(trial: Trial, tmp_path: Path) ->
         assert float(np.median(np.abs(off))) < 2.0 * sigma
 
 
+@pytest.mark.slow
 def test_a_set_is_sealed_and_its_kind_is_known(tmp_path: Path) -> None:
     make_bench(SEED, 1, tmp_path / "one", judge="plant", jobs=1)
     shutil.copytree(tmp_path / "one", tmp_path / "two")
