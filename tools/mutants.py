@@ -194,12 +194,13 @@ def page(found: dict[str, list[Mutant]], every: int) -> str:
 
     here = made()
     killed, survived = len(found["killed"]), len(found["survived"])
-    machine = here.machine.split(", Python")[0]
+    machine, tried = here.machine.split(", Python")[0], sum(map(len, found.values()))
+    rest = "" if tried == every else " (the others not yet)"
     lines = [
         "# Altered kernels\n",
         "`make mutants` alters one line of the network kernels at a time (a sign, a factor, a constant, a maximum, an",
         "index) and asks whether a C++ test of the networks fails. Written by `tools/mutants.py`; do not edit.\n",
-        f"{here.date}, {here.commit}, {machine}: {sum(map(len, found.values()))} of {every} mutants tried,",
+        f"{here.date}, {here.commit}, {machine}: {tried} of {every} mutants tried{rest},",
         f"{len(found['no mutant'])} of which do not compile. Of those that compute something else "
         f"{killed} of {killed + survived} are killed.\n",
         "| file | killed | survived | computes the same |",
