@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 
 from rwn.fit.budget import one_stage, shares_by_rank
 from rwn.fit.fit import Fit, fit, refit
@@ -172,6 +171,8 @@ def _likeliest(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter 
 
 def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFilter, float]:
     """The digital filter under which the errors are likeliest, and their log-likelihood."""
+    from scipy.optimize import minimize_scalar  # late: the command line starts without it
+
     samples = sum(r.signal(seen.signal).size for r in problem.runs)
 
     def unlikely(logarithm: float) -> float:
