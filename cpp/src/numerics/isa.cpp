@@ -29,9 +29,6 @@ Isa chosen_isa() {
   }
   const std::string_view name{wish};
   const Isa asked = name == "baseline" ? Isa::baseline : name == "avx2" ? Isa::avx2 : Isa::avx512;
-#ifndef RWN_AVX2
-  if (asked == Isa::avx2) return Isa::baseline;  // AVX2 was left out where AVX-512 is wider
-#endif
   return std::min(asked, best);
 }
 
