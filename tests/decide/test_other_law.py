@@ -37,9 +37,10 @@ def test_a_cubic_drag_is_not_sure_to_be_a_quadratic_one(power: int, seen: str) -
 
 
 @pytest.mark.slow
-def test_a_name_that_a_curve_goes_beyond_is_not_certain_and_the_curve_is_said() -> None:
+def test_a_cubic_drag_is_named_by_its_power() -> None:
     runs = [recorded(seed, lambda w, _: -0.03 * (w / 90.0) ** 3) for seed in range(3)]
     said = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
-    drag = next(e for e in said.account if e.name == "quadratic-drag")
-    assert drag.probability < 0.95
-    assert any("torque over speed explains most of what is left" in warning for warning in said.warnings)
+    assert [e.name for e in said.effects] == ["power-law-drag"]
+    low, high = said.effects[0].parameters["exponent"].interval or (0.0, 0.0)
+    assert low < 3.0 < high < low + 0.1
+    assert not any("has no name" in warning for warning in said.warnings)

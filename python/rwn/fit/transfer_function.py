@@ -72,7 +72,7 @@ class TransferFunctionProblem(Problem):
     def _first_samples(self, run: Run, vector: Array) -> tuple[Run, list[Array], Array]:
         """The samples that the state is estimated from, starts of that estimate, and the weight of its prior."""
         k = max(run.judged_from, 2)
-        first = replace(run, time=run.time[:k], input=run.input[:k], speed=run.speed[:k], angle=run.angle[:k])
+        first = run.until(k)
         a, b = state_space(*self._coefficients(vector))
         seen = np.concatenate([states(a, b, r.time, r.input) for r in self.runs])
         spread = np.cov(seen.T).reshape(self.order, self.order)

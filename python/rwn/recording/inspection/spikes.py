@@ -16,26 +16,23 @@ Array = NDArray[np.float64]
 LEVEL = 0.01  # chance that one is found in Gaussian noise, in all samples together
 RARE = 0.02  # most of the samples that are called spikes: a signal that jumps more often does so by itself
 BESIDE = 0.25  # most that the neighbours may differ from each other, in units of the jump
-OUTSTANDING = 3.0  # changes of the input, in units of their median, that are steps: those of sines have 1.4 at most
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
 SETTLING = 3  # samples after a step of the input in which a current may peak by itself
 
 
-def _after_steps(recording: Recording, signal: str) -> Flags:
-    """Samples at or shortly after a step of the input, where a current may peak; what has inertia does not."""
+def _after_steps(recording: Recording) -> Flags:
+    """Samples at or shortly after a step of the input that stands out from its other changes."""
     flags = np.zeros(len(recording), dtype=bool)
-    if signal != "current":
-        return flags
     for name in (s for s in recording.signals if s not in MEASURED):
         change = np.abs(np.diff(recording.signals[name], prepend=recording.signals[name][0]))
-        stepped = change > max(BESIDE * float(np.max(change, initial=0.0)), OUTSTANDING * float(np.median(change)))
+        stepped = change > BESIDE * float(np.max(change, initial=0.0))
         for late in range(SETTLING + 1):
             flags[late:] |= stepped[: flags.size - late]
     return flags
 
 
 def _spikes(recording: Recording, signal: str) -> Flags:
-    x, after_steps = np.asarray(recording.signals[signal]), _after_steps(recording, signal)
+    x, after_steps = np.asarray(recording.signals[signal]), _after_steps(recording)
     found = np.zeros(x.size, dtype=bool)
     bridged = x
     for together in TOGETHER:
@@ -46,24 +43,32 @@ def _spikes(recording: Recording, signal: str) -> Flags:
 
 
 def _alone(x: Array, after_steps: Flags, together: int) -> Flags:
-    """So many samples off both neighbours by more than noise, which differ little from each other; dropouts to 0."""
+    """So many samples off both neighbours by more than noise, which differ little from each other; dropouts to 0.
+
+    Several together have to be beyond all others: a motor may well swing within a few samples.
+    """
     from scipy.stats import norm
 
-    flags = np.zeros(x.size, dtype=bool)
     noise = max(rough_noise(x), quantum(x))
     if x.size < 8 or noise == 0.0:
-        return flags
+        return np.zeros(x.size, dtype=bool)
     limit = float(norm.isf(0.5 * LEVEL / x.size)) * noise * np.sqrt(1.5)  # a sample against the mean of two
     before, after = x[: -together - 1], x[together + 1 :]
     here = np.stack([x[1 + k : x.size - together + k] for k in range(together)])
     jump = np.min(np.abs(here - 0.5 * (before + after)), axis=0)
     off = np.all((here - before) * (here - after) > 0.0, axis=0) & (jump > limit)
     smooth = np.abs(after - before) < BESIDE * jump
-    beyond = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[1:-together][~off]), initial=0.0))
+    beyond = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[~_in_all(off, together)]), initial=0.0))
     dropped = np.all(here == 0.0, axis=0)
-    first = np.flatnonzero(off & (dropped | (smooth & (beyond | ~after_steps[1:-together]))))
+    may = beyond | (~after_steps[1:-together] & (together == 1))
+    return _in_all(off & (dropped | (smooth & may)), together)
+
+
+def _in_all(first: Flags, together: int) -> Flags:
+    """The samples that belong to so many together, by whether such begin at each sample but the first."""
+    flags = np.zeros(first.size + together + 1, dtype=bool)
     for k in range(together):
-        flags[1 + first + k] = True
+        flags[1 + k : 1 + k + first.size] |= first
     return flags
 
 
