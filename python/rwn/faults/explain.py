@@ -30,7 +30,7 @@ class Explained:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """How the input acted, as a check of recordings says it."""
+        """How the input acted and the motion began, as a check of recordings says it."""
         given = self.model.drive.input
         found = [
             Finding(
@@ -39,6 +39,14 @@ class Explained:
                 done=f"the {given} is taken as 0 until then",
             )
             for late in self.late
+        ]  # fmt: skip
+        found += [
+            Finding(
+                kind="in-motion", recording=run.name, signals=(), count=0, words="it starts in motion",
+                done="the exact state is fitted with it",
+            )
+            for run in self.ranking.problem.whole
+            if run.in_motion and self.model.recording.initial == "auto"
         ]  # fmt: skip
         law = self.model.recording.intersample
         if law not in (AUTO, HELD):

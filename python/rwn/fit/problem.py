@@ -107,7 +107,7 @@ class Problem:
         here = [adds_to.get(k, k) for k in by]  # what is unknown of other runs changes nothing here
         wanted = sorted({k for k in here if k < core})
         found = self.normal_at(run, self.started(run, vector, active), active, wanted)
-        if wanted == list(by) or not found.finite:
+        if wanted == list(by) or not (found.finite and np.isfinite(found.curvature).all()):
             return found
         column = {k: j for j, k in enumerate(wanted)}
         chosen = np.zeros((len(wanted), len(by)))

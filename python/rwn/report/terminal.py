@@ -11,7 +11,17 @@ import typer
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.next_steps import next_steps
 from rwn.report.sentences import SLIGHT, sentences
-from rwn.report.text import capital, estimate, filter_in_words, likelihood, listing, parameter_name, percent, plain_name
+from rwn.report.text import (
+    capital,
+    estimate,
+    filter_in_words,
+    likelihood,
+    listing,
+    number,
+    parameter_name,
+    percent,
+    plain_name,
+)
 
 _COLOURS = {"missing-physics": "cyan", "adequate": "green", "recording-mistake": "red"}  # else yellow
 _BAR = 20  # characters of a share of one
@@ -67,6 +77,18 @@ def _parameters(found: DiagnosisData) -> Iterator[str]:
     for effect in found.effects:
         for name, value in effect.parameters.items():
             yield f"{capital(plain_name(effect.name))}: {parameter_name(effect.name, name)} = {estimate(value)}"
+    if not found.effects:
+        yield from _off_the_data_sheet(found)
+
+
+def _off_the_data_sheet(found: DiagnosisData) -> Iterator[str]:
+    """The parameters whose given values lie outside what the recordings say, the farthest first."""
+    fitted = [(name, p) for name, p in found.nominal_fit.parameters.items() if p.uncertainty > 0.0]
+    for name, p in sorted(fitted, key=lambda pair: -pair[1].moved):
+        low, high = p.refitted.interval or (p.nominal, p.nominal)
+        if not low <= p.nominal <= high:
+            off = f"{number(p.moved, 2)} declared deviations from the data sheet"
+            yield f"{capital(plain_name(name))} = {estimate(p.refitted)}, {off}"
 
 
 def _measured(found: DiagnosisData) -> Iterator[str]:
