@@ -21,6 +21,7 @@ from rwn.fit.part import look
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import variance
+from rwn.fit.sensor_filter import noise_before_filters
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.screening import FURTHER
@@ -144,8 +145,8 @@ def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:
 
 
 def _left(problem: Problem, this: Fit, noise: Mapping[str, Noise]) -> float:
-    """Mean squared error above the noise, in units of it."""
-    return variance(replace(problem, noise=dict(noise)), this) - 1.0
+    """Mean squared error above the noise of the recordings, in units of it."""
+    return variance(replace(problem, noise=noise_before_filters(problem, noise)), this) - 1.0
 
 
 # ---- delays that are worth a refit -----------------------------------------------------------------------------------

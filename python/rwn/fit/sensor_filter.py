@@ -7,7 +7,7 @@ windows hold one. Whether the motion went through it too, sample by sample or as
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,7 +22,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
-from rwn.recording.noise import rough_noise
+from rwn.recording.noise import Noise, rough_noise
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -58,7 +58,14 @@ def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
         seen = coloured_signals(problem, residuals) or seen
     if not seen:
         return ()
-    base = _without_lags(problem, this)
+    told = [_told(problem, base, seen, residuals) for base in _bases(problem, this)]
+    return max(told, key=lambda pair: pair[1])[0]
+
+
+def _told(
+    problem: Problem, base: Fit, seen: Sequence[SensorFilter], residuals: Sequence[Mapping[str, Array]]
+) -> tuple[tuple[SensorFilter, ...], float]:
+    """The filters beside an explanation, and how likely both are (log, BIC)."""
     found: dict[str, SensorFilter] = {}
     for _ in range(ROUNDS if len(seen) > 1 else 1):  # what one signal tells depends on the others' filters
         for one in seen:
@@ -68,7 +75,15 @@ def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
             if told is None and _nothing_else(problem, residuals, one):
                 told = one
             found = {f.signal: f for f in (*others, told) if f is not None}
-    return tuple(found.values())
+    on = filtered(problem, tuple(found.values()))
+    this = _again(base, on)
+    shown = sum(_samples(problem, f.signal) * float(np.log(1.0 - f.share)) for f in found.values() if f.digital)
+    unknowns = len(this.hypothesis.unknowns) + len(on.filters)
+    return tuple(found.values()), log_likelihood(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
+
+
+def _samples(problem: Problem, signal: str) -> int:
+    return sum(r.signal(signal).size for r in problem.runs)
 
 
 def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
@@ -116,10 +131,19 @@ def _undone(problem: Problem, signal: str, time_constant: float) -> Problem:
         tuple(r.unfiltered(signal, time_constant) if r.signal(signal).size else r for r in of)
         for of in (problem.runs, problem.whole)
     )
-    share = _share_kept(problem, signal, time_constant)
-    noise = {**problem.noise, signal: problem.noise[signal].scaled(np.sqrt((1.0 + share) / (1.0 - share)))}
     filters = {**problem.filters, signal: time_constant}
+    noise = noise_before_filters(replace(problem, filters={signal: time_constant}), problem.noise)
     return replace(problem, runs=runs, whole=whole, noise=noise, filters=filters)
+
+
+def noise_before_filters(problem: Problem, noise: Mapping[str, Noise]) -> dict[str, Noise]:
+    """Noise as recorded, as it is where the filters of a problem are undone: a filter had taken some of it off."""
+    before = dict(noise)
+    for signal, time_constant in problem.filters.items():
+        if signal in before:
+            share = _share_kept(problem, signal, time_constant)
+            before[signal] = before[signal].scaled(float(np.sqrt((1.0 + share) / (1.0 - share))))
+    return before
 
 
 def _share_kept(problem: Problem, signal: str, time_constant: float) -> float:
@@ -137,13 +161,17 @@ def _with_lags(problem: Problem, this: Fit) -> Fit:
     return fit(problem, begun, share=one_stage(problem.work))
 
 
-def _without_lags(problem: Problem, this: Fit) -> Fit:
-    kept = tuple(name for name in this.added if name not in LAGS.values())
-    if kept == this.added:
-        return this
-    starts = this.starts(kept)
-    begun = hypothesis(problem.prior, kept, problem.scales, starts, this.motor)
-    return fit(problem, begun, share=one_stage(problem.work))
+def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
+    """An explanation without lags of the sensors, and without delays too: both stand in for a filter."""
+    table = problem.prior.table
+    without_lags = tuple(name for name in this.added if name not in LAGS.values())
+    without_ends = tuple(name for name in without_lags if not table[name].at_an_end)
+    for kept in dict.fromkeys((without_lags, without_ends)):
+        if kept == this.added:
+            yield this
+            continue
+        begun = hypothesis(problem.prior, kept, problem.scales, this.starts(kept), this.motor)
+        yield fit(problem, begun, share=one_stage(problem.work))
 
 
 def _again(this: Fit, problem: Problem) -> Fit:
@@ -173,7 +201,7 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFil
     """The digital filter under which the errors are likeliest, and their log-likelihood."""
     from scipy.optimize import minimize_scalar  # late: the command line starts without it
 
-    samples = sum(r.signal(seen.signal).size for r in problem.runs)
+    samples = _samples(problem, seen.signal)
 
     def unlikely(logarithm: float) -> float:
         time_constant = float(np.exp(logarithm))
