@@ -10,7 +10,7 @@ from rwn.decide.decision import Decision
 from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
 from rwn.name.weights import RankedFit
-from rwn.prove.heldout import heldout_error, helps, likely_better
+from rwn.prove.heldout import heldout_error, helps, log_change
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
 
@@ -60,12 +60,12 @@ def _proved_part(
     That an effect acts does not make its fitted parameters good enough to predict with.
     """
     chosen, ranking = decision.chosen, decision.ranking
-    if not chosen.added or likely_better(decision.rows):
+    if not chosen.added or log_change(decision.rows) < 0.0:
         return chosen, ()
     parts = [r for r in ranking.fits if r.added and set(r.added) < set(chosen.added)]
-    judged = [(r, proved(ranking, r, heldout, seed=seed)) for r in parts]
-    better = [(heldout_error(rows), r) for r, rows in judged if likely_better(rows)]
-    best = min(better, key=lambda pair: pair[0])[1] if better else ranking.nothing_missing
+    judged = [(0.0, ranking.nothing_missing)]
+    judged += [(log_change(proved(ranking, r, heldout, seed=seed)), r) for r in parts]
+    _, best = min(judged, key=lambda pair: pair[0])
     return best, tuple(name for name in chosen.added if name not in best.added)
 
 

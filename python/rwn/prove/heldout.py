@@ -158,14 +158,14 @@ def heldout_error(rows: Sequence[HeldoutRow]) -> float:
     return float(np.mean(shares)) if shares and np.isfinite(shares).all() else np.inf
 
 
-def likely_better(rows: Sequence[HeldoutRow]) -> bool:
-    """Whether the corrected model is better than the refitted one on the whole: by the mean logarithm of its errors."""
+def log_change(rows: Sequence[HeldoutRow]) -> float:
+    """Mean logarithm of the errors of the corrected model over those of the refitted one; -inf where none is judged."""
     logs = [
         float(np.log(max(r.corrected, 1e-300) / r.refitted))
         for r in rows
         if r.region == "all" and r.corrected is not None and r.refitted > 0.0
     ]
-    return not logs or float(np.mean(logs)) < 0.0
+    return float(np.mean(logs)) if logs else -np.inf
 
 
 def helps(rows: Sequence[HeldoutRow]) -> bool:
