@@ -29,7 +29,7 @@ class Calibration:
     weights: tuple[float, ...]
     means: tuple[float, ...]
     deviations: tuple[float, ...]
-    bent: float = 0.0  # relative deviation of a parameter over the root of the share of the mismatch that is left
+    bias: float = 0.0  # relative deviation of a parameter over the root of the share of the mismatch that is left
     fitted_on: str = ""  # the sets with their seeds, how many names of how many trials, and the commit
 
     def probability(self, found: Evidence) -> float:

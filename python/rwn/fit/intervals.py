@@ -41,8 +41,8 @@ def deviations(this: Fit, left: Statistics) -> Array:
 class Doubt:
     """What makes the values of a fit less sure than its noise."""
 
-    apart: float = 1.0  # how much farther apart than their deviations values lie that were fitted to parts
-    bent: float = 0.0  # relative standard deviation by what the fit does not explain
+    birge: float = 1.0  # how much farther apart than their deviations values lie that were fitted to parts
+    bias: float = 0.0  # relative standard deviation of the bias by what the fit does not explain
 
 
 NO_DOUBT = Doubt()
@@ -51,7 +51,7 @@ NO_DOUBT = Doubt()
 def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[str, Estimate]:
     """Value and 95 % interval of every unknown on which something depends, cut at its bounds."""
     seen = np.diag(this.minimum.information) > 0.0
-    spread = np.hypot(doubt.apart * deviations(this, left), _systematic(this, doubt.bent))
+    spread = np.hypot(doubt.birge * deviations(this, left), _systematic(this, doubt.bias))
     found = {}
     for u, value, std, known in zip(this.hypothesis.unknowns, this.minimum.values, spread, seen, strict=True):
         if u.nuisance or not known:
@@ -67,10 +67,10 @@ def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[s
     return found
 
 
-def _systematic(this: Fit, bent: float) -> Array:
+def _systematic(this: Fit, bias: float) -> Array:
     """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians.
 
-    `bent`: what is added to that part, in quadrature.
+    `bias`: what is added to that part, in quadrature.
     """
     known = this.hypothesis.table
     angles = {f"{name}.{p.name}" for name in this.added for p in known[name].parameters if p.cyclic}
@@ -78,7 +78,7 @@ def _systematic(this: Fit, bent: float) -> Array:
     pairs = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
     return np.array(
         [
-            np.hypot(IDEALISED if k in contacts else AGREEMENT, bent) * (1.0 if u.name in angles else abs(v))
+            np.hypot(IDEALISED if k in contacts else AGREEMENT, bias) * (1.0 if u.name in angles else abs(v))
             for k, (u, v) in enumerate(pairs)
         ]
     )

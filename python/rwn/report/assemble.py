@@ -73,15 +73,7 @@ def assemble(
         effects=effects,
         set=names,
         beneath=beneath,
-        alternatives=tuple(
-            Alternative(
-                effects=r.added,
-                probability=r.probability,
-                separated_by=separated_by((*chosen.added, *r.added)),
-            )
-            for r in ranking.fits[:6]
-            if r is not chosen and r.added and r.probability > 1e-3
-        ),
+        alternatives=_alternatives(ranking, chosen),
         location=Location(equation=equation, regions=where, description=place),
         nominal_fit=nominal_fit(ranking, chosen, model, doubt=doubt),
         heldout=rows,
@@ -100,11 +92,22 @@ def assemble(
     )
 
 
+def _alternatives(ranking: Ranking, chosen: RankedFit) -> tuple[Alternative, ...]:
+    """The next explanations, each with the experiment that would tell it from the chosen one."""
+    return tuple(
+        Alternative(
+            effects=r.added, probability=r.probability, separated_by=separated_by((*chosen.added, *r.added))
+        )
+        for r in ranking.fits[:6]
+        if r is not chosen and r.added and r.probability > 1e-3
+    )
+
+
 def _doubt(decision: Decision) -> Doubt:
-    """Of the parameters of what is stated: what is left of the mismatch may have bent them."""
+    """Of the parameters of what is stated: what is left of the mismatch may bias them."""
     left = decision.remainder
     share = float(np.clip(left.share, 0.0, 1.0)) if left.signals else 0.0
-    return Doubt(apart=decision.account.birge, bent=calibration().bent * float(np.sqrt(share)))
+    return Doubt(birge=decision.account.birge, bias=calibration().bias * float(np.sqrt(share)))
 
 
 def _probability(fault: Fault) -> float:

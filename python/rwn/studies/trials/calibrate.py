@@ -79,13 +79,13 @@ def _true(answer: Mapping[str, Any]) -> set[str]:
     return set().union(*map(known_as, kinds), answer.get("equivalent", ()), answer.get("also_true", ()))
 
 
-def bent(folders: Sequence[Path], *, results: Path | None = None) -> float:
+def bias_of(folders: Sequence[Path], *, results: Path | None = None) -> float:
     """Relative deviation of a parameter over the root of the share of the mismatch that a right name leaves.
 
     Such that 95 % of all intervals cover; 0 where there are none.
     """
     needed = [
-        _bent_by(estimate, float(answered["value"]), diagnosis.remainder)
+        _bias_needed(estimate, float(answered["value"]), diagnosis.remainder)
         for answer, diagnosis in _diagnosed(folders, results)
         for effect in diagnosis.effects
         for true in (e.get("parameters", {}) for e in answer["effects"] if e["name"] == effect.name)
@@ -95,18 +95,18 @@ def bent(folders: Sequence[Path], *, results: Path | None = None) -> float:
     return float(np.quantile(needed, COVERED, method="higher")) if needed else 0.0
 
 
-def _bent_by(estimate: Estimate, true: float, left: Remainder) -> float:
+def _bias_needed(estimate: Estimate, true: float, left: Remainder) -> float:
     """What an interval needs to cover the truth, over the root of what is left; as a logarithm where that is less."""
     low, high = estimate.interval or (np.nan, np.nan)
     root = float(np.sqrt(np.clip(left.share, 0.0, 1.0))) if left.signals else 0.0
     ratio = true / estimate.value
     error = min(abs(ratio - 1.0), abs(np.log(ratio)) if ratio > 0.0 else np.inf) / HALF_WIDTH
-    noise = ((high - low) / (2.0 * HALF_WIDTH * estimate.value)) ** 2 - (calibration().bent * root) ** 2
+    noise = ((high - low) / (2.0 * HALF_WIDTH * estimate.value)) ** 2 - (calibration().bias * root) ** 2
     more = float(np.sqrt(max(error**2 - noise, 0.0)))
     return more / root if root else (np.inf if more else 0.0)
 
 
-def calibrated(names: Names, *, what: str, bent: float = 0.0) -> Calibrated:
+def calibrated(names: Names, *, what: str, bias: float = 0.0) -> Calibrated:
     """The calibration by all names; its reliability, and the prior of its weights, by those of trials left out.
 
     Raises ValueError where there are too few names to learn from.
@@ -121,7 +121,7 @@ def calibrated(names: Names, *, what: str, bent: float = 0.0) -> Calibrated:
     edges = np.array([0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 + 1e-9])
     bins = [(a, b, (unseen >= a) & (unseen < b)) for a, b in pairwise(edges)]
     return Calibrated(
-        calibration=replace(_fitted(names.features, names.acts, what, ridge), bent=bent),
+        calibration=replace(_fitted(names.features, names.acts, what, ridge), bias=bias),
         names=names.acts.size,
         trials=int(np.unique(names.trial).size),
         acting=int(names.acts.sum()),
@@ -190,6 +190,6 @@ def words(found: Calibrated) -> str:
         ),
         "weight per standard deviation of a feature: "
         + ", ".join(f"{n} {w:+.2f}" for n, w in zip(FEATURES, found.calibration.weights, strict=True)),
-        f"a parameter is bent by {found.calibration.bent:.2f} times the root of the share of the mismatch that is left",
+        f"bias of a parameter: {found.calibration.bias:.2f} times the root of the share of the mismatch that is left",
     ]
     return "\n".join(lines)

@@ -112,10 +112,10 @@ def calibrate(
     out: Annotated[Path | None, typer.Option(help="Write calibration.json here (default: print alone).")] = None,
 ) -> None:
     """Fit the probability that an effect acts to the evidence and answers of development trials."""
-    from rwn.studies.trials.calibrate import bent, calibrated, commit, names_of, words, write
+    from rwn.studies.trials.calibrate import bias_of, calibrated, commit, names_of, words, write
 
     what = f"{', '.join(f.name for f in folders)} at {commit()}"
-    found = calibrated(names_of(folders, results=results), what=what, bent=bent(folders, results=results))
+    found = calibrated(names_of(folders, results=results), what=what, bias=bias_of(folders, results=results))
     if out is not None:
         write(found.calibration, out)
     typer.echo(words(found))
