@@ -47,9 +47,7 @@ def diagnose(
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of everything random.")] = 0,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processors to use (default: all).")] = None,
-    effort: Annotated[
-        float, typer.Option(min=0.1, max=1000.0, help="What the search may cost, as a multiple of the usual.")
-    ] = 1.0,
+    effort: Annotated[float, typer.Option(min=0.1, max=1e3, help="Cost of the search, over the usual.")] = 1.0,
     overwrite: Overwrite = False,
     profile: Profile = None,
 ) -> None:
@@ -65,9 +63,8 @@ def diagnose(
         files = read_recordings([*recordings, *(heldout or [])], nominal)
         fitted, judged = files[: len(recordings)], files[len(recordings) :]
         with _progress() as progress:
-            found = _rwn().diagnose(
-                fitted, nominal, heldout=judged, seed=seed, jobs=jobs, effort=effort, progress=progress
-            )
+            options = {"seed": seed, "jobs": jobs, "effort": effort, "progress": progress}
+            found = _rwn().diagnose(fitted, nominal, heldout=judged, **options)
         used = [
             source(model, "model"),
             *(source(r, "fit") for r in fitted),

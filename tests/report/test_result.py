@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import builtins
 import copy
 import json
 import pickle
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import jsonschema
 import numpy as np
@@ -54,15 +52,8 @@ def test_it_can_be_pickled_with_its_corrected_model() -> None:
     assert copy.deepcopy(found) == found
 
 
-def test_the_table_is_plain_rows_without_pandas(monkeypatch: pytest.MonkeyPatch) -> None:
-    real = builtins.__import__
-
-    def without_pandas(name: str, *rest: Any) -> Any:
-        if name == "pandas":
-            raise ModuleNotFoundError(name)
-        return real(name, *rest)
-
-    monkeypatch.setattr(builtins, "__import__", without_pandas)
+@pytest.mark.usefixtures("without_pandas")
+def test_the_table_is_plain_rows_without_pandas() -> None:
     (row,) = made_up.found().table()
     assert (row["effect"], row["value"], row["low"], row["unit"]) == ("coulomb-friction", 0.0208, 0.0203, "N m")
 

@@ -146,7 +146,7 @@ def filter_in_words(signal: str, time_constant: Estimate) -> str:
     if time_constant.interval is None:
         return (
             f"The samples of the {signal} went through a first-order filter of {estimate(time_constant)}, seen in its "
-            "noise and in its motion: it was undone before anything was fitted."
+            "noise and in its motion: it was undone, and errors are those of the samples before it."
         )
     return (
         f"The {signal} was measured through a first-order filter of {estimate(time_constant)}, seen in its noise: "
