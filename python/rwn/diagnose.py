@@ -23,7 +23,7 @@ from rwn.parallel import thread_pool
 from rwn.recording.inspection import inspected
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
-from rwn.simulate.run import judging_run
+from rwn.simulate.run import judging_run, measured_alike
 
 LEAST_EFFORT, MOST_EFFORT = 0.1, 1000.0
 
@@ -70,7 +70,7 @@ def diagnose(
         for fault in found.faults:
             heldout = without(heldout, fault)
         heldout = powered(heldout, late_enables(heldout, model), model)
-        unseen = [judging_run(r, model) for r in heldout]
+        unseen = measured_alike([judging_run(r, model) for r in heldout], found.ranking.problem.whole)
         decision = decide(found.ranking, unseen, model, seed=seed)
         say("correcting the model", 0.9)
         correction = correct(decision, unseen, model, seed=seed)

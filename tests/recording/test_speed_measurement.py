@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
 import rwn
 from made_up_motor import MOTOR, plant, shaking
@@ -23,6 +25,7 @@ from rwn.recording.speed_measurement import (
     integral,
     speed_measurement,
 )
+from rwn.recording.speed_window import window_of
 
 Array = NDArray[np.float64]
 TIME = np.arange(4000) * 1e-3
@@ -66,7 +69,7 @@ def test_a_coarse_converter_whose_step_fits_an_encoder_is_no_difference_of_count
 def test_a_difference_of_the_recorded_position_repeats_its_noise(way: SpeedMeasurement) -> None:
     position = ANGLE + 1e-4 * np.random.default_rng(2).standard_normal(TIME.size)
     speed = np.round(difference(way, TIME, position), 4)
-    assert speed_measurement(TIME, speed, np.round(position, 7)) is way
+    assert speed_measurement(TIME, speed, np.round(position, 7)) == way
     tachometer = SPEED + 0.1 * np.random.default_rng(3).standard_normal(TIME.size)
     assert speed_measurement(TIME, tachometer, position) is INSTANTANEOUS
 
@@ -124,3 +127,27 @@ def _recorded(seed: int, way: SpeedMeasurement, *, counts: int, friction: float)
         "speed": difference(way, t, counted(rows[:, 2], counts)),
     }
     return rwn.Recording(name=f"run_{seed}.csv", time=t, signals=signals)
+
+
+def _held(values: Array, rows: int) -> tuple[Array, NDArray[np.bool_]]:
+    """Values (n,) updated every so many rows, and where they are new."""
+    return np.repeat(values[::rows], rows)[: values.size], np.arange(values.size) % rows == 0
+
+
+@pytest.mark.parametrize("update", [1, 4])
+def test_a_difference_over_many_rows_is_told_by_the_position_beside_it(update: int) -> None:
+    angle = counted(ANGLE + 20.0 * np.sin(2.0 * np.pi * 3.0 * TIME), 4096)
+    speed, new = _held(difference(SpeedMeasurement(20, 0), TIME, angle), update)
+    position, _ = _held(angle, update)
+    assert speed_measurement(TIME, speed, position, new=new, new_position=new) == SpeedMeasurement(20, 0)
+
+
+def _first_order(speed: Array) -> Array:
+    return np.asarray(lfilter([0.1], [1.0, -0.9], speed), dtype=np.float64)
+
+
+@pytest.mark.parametrize("of", [_first_order, lambda w: np.roll(w, 10), lambda w: w], ids=["filter", "delay", "none"])
+def test_a_lag_or_a_delay_of_the_speed_is_no_difference_over_many_rows(of: Callable[[Array], Array]) -> None:
+    angle = ANGLE + 20.0 * np.sin(2.0 * np.pi * 3.0 * TIME)
+    speed = of(np.gradient(angle, 1e-3) + 0.05 * np.random.default_rng(4).standard_normal(TIME.size))
+    assert window_of(TIME, speed, counted(angle, 4096), np.full(TIME.size, True)) == 0

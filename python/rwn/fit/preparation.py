@@ -52,9 +52,13 @@ def _one_sensor(runs: tuple[Run, ...]) -> tuple[Run, ...]:
     """The runs with the speed measured in all as most of them show; as many, the way over fewest samples.
 
     One recording may show it wrongly: an input that is held for some samples leaves gaps in the spectrum of its own.
+    A difference of the position beside it is told by its values: a recording that shows none does not speak against it.
     """
-    ways = Counter(r.speed_measured for r in runs if r.speed.size)
-    if len(ways) < 2:
+    shown = Counter(
+        r.speed_measured for r in runs if r.speed.size and r.position.size and r.speed_measured.is_difference
+    )
+    ways = shown or Counter(r.speed_measured for r in runs if r.speed.size)
+    if not ways:
         return runs
     usual = max(ways, key=lambda way: (ways[way], -way.before - way.after))
     return tuple(replace(r, speed_measured=usual) if r.speed.size else r for r in runs)
@@ -87,9 +91,7 @@ def _problem(runs: tuple[Run, ...], model: Model, prior: Prior, work: _core.Work
             drive=model.drive, simulator=simulator, runs=runs, whole=runs, noise=noise, prior=prior, scales={},
             at_rest=not any(r.in_motion for r in runs),
         )  # fmt: skip
-    return Problem(
-        drive=model.drive, simulator=simulator, runs=runs, whole=runs, noise=noise, prior=prior, scales={}
-    )
+    return Problem(drive=model.drive, simulator=simulator, runs=runs, whole=runs, noise=noise, prior=prior, scales={})
 
 
 def _guessed(problem: Problem, guesses: Sequence[Mapping[str, float]]) -> Prior:

@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.quantisation import quantum
+from rwn.recording.speed_window import window_of
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 SHORTEST = 20  # samples that say how a speed was obtained
 REPEATED = 0.05  # error of a difference of the recorded position, in units of the noise that it has
@@ -41,13 +43,30 @@ AVERAGED = tuple(SpeedMeasurement(k, 0) for k in range(LONGEST, 2, -1))
 DIFFERENCES = (CENTRAL, BACKWARD, FORWARD, SpeedMeasurement(2, 0), *AVERAGED)
 
 
-def speed_measurement(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
+def speed_measurement(
+    time: Array, speed: Array, position: Array, *, new: Flags | None = None, new_position: Flags | None = None
+) -> SpeedMeasurement:
     """How a speed was obtained, as far as the values (n,) show it; instantaneous where they do not.
 
     A difference of the position that was recorded beside it repeats its noise; one of encoder counts that were not
     recorded lies on multiples of a step. Whether such a difference is a backward or a forward one no value tells: the
     backward one is what a drive can compute as it runs.
+
+    `new`, `new_position`: where these were updated (default: everywhere); the samples of the result are rows.
     """
+    every = np.full(time.size, True)
+    new, known = (every if new is None else new), (every if new_position is None else new_position)
+    if speed.size and position.size and (rows := window_of(time, speed, position, new)):
+        return SpeedMeasurement(rows, 0)
+    known = known & new
+    if not known.all():
+        update = max(round(float(np.median(np.diff(np.nonzero(known)[0])))), 1) if known.sum() > 1 else 1
+        way = _of_rows(time[known], *(x[known] if x.size else x for x in (speed, position)))
+        return SpeedMeasurement(way.before * update, way.after * update) if update > 1 else way
+    return _of_rows(time, speed, position)
+
+
+def _of_rows(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
     if speed.size < SHORTEST:
         return INSTANTANEOUS
     if position.size:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -165,9 +165,8 @@ def run_of(recording: Recording, model: Model) -> Run:
     start = start_of(time, signals, model, missing=recording.missing)
     way = INSTANTANEOUS
     if not drive.coefficients:
-        lost = [recording.missing[s] for s in ("speed", "position") if s in recording.missing]
-        known = ~np.any(lost, axis=0) if lost else np.full(time.size, True)
-        way = speed_measurement(time[known], *(x[known] if x.size else x for x in (speed, position)))
+        new = {s: ~recording.missing.get(s, np.zeros(time.size, dtype=bool)) for s in ("speed", "position")}
+        way = speed_measurement(time, speed, position, new=new["speed"], new_position=new["position"])
     run = Run(
         name=recording.name,
         time=np.ascontiguousarray(time),
@@ -195,6 +194,12 @@ def judging_run(recording: Recording, model: Model) -> Run:
     run = run_of(recording, model)
     estimated = model.drive.coefficients and run.in_motion
     return replace(run, judged_from=model.recording.initial_samples if estimated else 0)
+
+
+def measured_alike(runs: Sequence[Run], known: Sequence[Run]) -> list[Run]:
+    """The runs with their speed measured as in `known`, which were all measured by one sensor."""
+    way = next((k.speed_measured for k in known if k.speed.size), None)
+    return [replace(r, speed_measured=way) if way and r.speed.size else r for r in runs]
 
 
 def windowed(run: Run, length: int = WINDOW) -> Run:

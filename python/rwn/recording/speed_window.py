@@ -1,0 +1,75 @@
+"""A speed that a drive computes as the difference of its position over many rows, told from position and speed alone.
+
+Motor controllers difference an encoder over a fixed time (100 ms is a common default), update the result every few
+rows, and log the position beside it. The mean speed of the last rows then fits what was recorded far better than a mean
+over any other time, with any other delay, or a first-order filter, which other ways to measure do not bring about.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+LONGEST = 40  # rows of a window
+JUDGED = 4000  # rows that are looked at
+LIKELIER = float(np.log(1000.0))  # than every other window, delay and filter
+MEMORIES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)  # of first-order filters, from update to update
+
+
+def window_of(time: Array, speed: Array, position: Array, new: Flags) -> int:
+    """Rows over which a speed (n,) is a backward difference of the position (n,), more than two updates; 0: none.
+
+    `new`: where the speed was updated. The errors of a mean speed over `width` rows, its middle `delay` half rows
+    before the row, are taken as independent from one window to the next and as Laplace's, so that a few rows that are
+    out of step do not decide.
+    """
+    rows = np.nonzero(new)[0]
+    rows = rows[(rows >= 2 * LONGEST) & (rows < time.size - LONGEST)]
+    moving = np.abs(position[rows] - position[rows - 2 * LONGEST]) > 0.0
+    if moving.sum() < 2 * LONGEST:
+        return 0
+    update = max(round(float(np.median(np.diff(rows)))), 1)
+    filtered = _filtered(time, speed, position, rows, moving, update)
+    rows = rows[moving][:JUDGED]
+    errors = _errors(time, speed, position, rows)
+    best = 1 + int(np.argmin([errors[width - 1, width] for width in range(1, LONGEST + 1)]))
+    if best <= 2 * update:  # not told from its neighbours
+        return 0
+    widths, delays = np.arange(1, LONGEST + 1)[:, None], np.arange(2 * LONGEST + 1)
+    other = (np.abs(widths - best) > update) | (
+        np.abs(delays - best) > 2 * update
+    )  # out of step by more than an update
+    own, rival = float(np.min(errors[~other])), min(float(np.min(errors[other])), filtered)
+    floor = 1e-12 * float(np.max(np.abs(speed)))
+    independent = rows.size * min(update / best, 1.0)
+    return best if independent * np.log(max(rival, floor) / max(own, floor)) > LIKELIER else 0
+
+
+def _filtered(time: Array, speed: Array, position: Array, rows: NDArray[np.intp], moving: Flags, update: int) -> float:
+    """Median error of the best first-order filter of differences from update to update."""
+    from scipy.signal import lfilter  # late: scipy takes half a second to load
+
+    mean = (position[rows] - position[rows - update]) / (time[rows] - time[rows - update])
+    best = np.inf
+    for memory in MEMORIES:
+        shown, _ = lfilter([1.0 - memory], [1.0, -memory], mean, zi=[memory * mean[0]])
+        best = min(best, float(np.median(np.abs(speed[rows] - shown)[moving][:JUDGED])))
+    return best
+
+
+def _errors(time: Array, speed: Array, position: Array, rows: NDArray[np.intp]) -> Array:
+    """Median error of the mean speed over each width, with each delay of its middle: (LONGEST, 2 LONGEST + 1).
+
+    Infinite where width and delay make no whole rows, or reach further than the recording is looked at.
+    """
+    errors = np.full((LONGEST, 2 * LONGEST + 1), np.inf)
+    for width in range(1, LONGEST + 1):
+        for delay in range(width % 2, 2 * LONGEST + 1, 2):
+            first, last = (-delay - width) // 2, (width - delay) // 2
+            if first >= -2 * LONGEST and last <= LONGEST:
+                mean = (position[rows + last] - position[rows + first]) / (time[rows + last] - time[rows + first])
+                errors[width - 1, delay] = np.median(np.abs(speed[rows] - mean))
+    return errors
