@@ -10,8 +10,7 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.fit.preparation import prepare
-from rwn.prove.heldout import DRIVING_FORCE, HeldoutRow, _gain, gain_interval, heldout_rows
-from rwn.prove.proof import hurts
+from rwn.prove.heldout import _gain, gain_interval, heldout_rows
 from rwn.simulate.run import judging_run
 
 MODEL = rwn.Model(kind="dc", parameters=MOTOR)
@@ -25,14 +24,10 @@ def test_of_no_error_nothing_can_be_removed(before: float, after: float, gain: f
 def test_a_model_that_is_exact_has_rows_of_zeros() -> None:
     run = recorded(3, lambda *_: 0.0)
     own = rwn.simulate(MODEL, run).signals
-    exact = rwn.Recording(
-        name="own", time=run.time, signals={"voltage": run.signals["voltage"], "speed": own["speed"]}
-    )
+    exact = rwn.Recording(name="own", time=run.time, signals={"voltage": run.signals["voltage"], "speed": own["speed"]})
     problem = prepare([exact], MODEL)
     given = problem.as_given()
-    rows = heldout_rows(
-        problem, [judging_run(exact, MODEL)], given, given, given, units={"speed": "rad/s"}, seed=0
-    )
+    rows = heldout_rows(problem, [judging_run(exact, MODEL)], given, given, given, units={"speed": "rad/s"}, seed=0)
     assert rows
     assert all(row.corrected == 0.0 and row.gain == 0.0 for row in rows)
 
@@ -60,27 +55,3 @@ def test_the_interval_of_a_gain_covers_it() -> None:
     low, high = gain_interval(2.0 * noise[0], noise[1], seed=0)
     assert low < 0.5 < high
     assert high - low < 0.1
-
-
-@pytest.mark.parametrize(
-    ("nominal", "refitted", "corrected", "refused"),
-    [
-        (95.0, 292.0, 95.1, True),  # the refit has lost the forces, and what was found has not found them
-        (95.0, 292.0, 26.0, False),
-        (25.8, 18.6, 5.2, False),
-        (5.0, 4.9, 5.1, False),  # the refit has not lost them: a gain in free run may cost a little here
-    ],
-)
-def test_a_correction_that_leaves_the_forces_lost_is_refused(
-    nominal: float, refitted: float, corrected: float, refused: bool
-) -> None:
-    position = HeldoutRow(
-        recording="held out", region="all", samples=900, noise_floor=None, signal="position", unit="rad", nominal=51.0,
-        refitted=0.9, corrected=0.1, gain_interval=(0.8, 0.9),
-    )  # fmt: skip
-    force = replace(
-        position, signal=DRIVING_FORCE, unit="%", nominal=nominal, refitted=refitted, corrected=corrected,
-        gain_interval=(-0.1, 0.7),
-    )  # fmt: skip
-    assert hurts([position, force]) is refused
-    assert not hurts([position])

@@ -67,7 +67,7 @@ def evidence(
     chance = float(np.sqrt(2.0 / max(statistics(problem, this).effective, 2.0)))  # deviation of a mean square
     halves = _halves(problem)
     seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(this, half)), halves)
-    judges = [replace(problem, runs=tuple(r.following_nothing() for r in heldout))] if heldout else []
+    judges = [problem.on(heldout)] if heldout else []
 
     def one(name: str) -> Evidence:
         without = _without(ranking, leading, name)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
+from rwn.fit.driving_force import of_driving_force
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.noise import noise_of
@@ -20,7 +21,7 @@ from rwn.fit.transfer_function import TransferFunctionProblem, first_guesses
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.recording.recording import Recording
-from rwn.simulate.run import Run, run_of, windowed
+from rwn.simulate.run import Run, run_of
 from rwn.simulate.simulator import Simulator
 
 Array = NDArray[np.float64]
@@ -43,9 +44,8 @@ def prepare(recordings: Sequence[Recording], model: Model, *, work: _core.Work |
     vector = hypothesis(problem.prior, (), {}).vector
     outputs = [_with_motion(r, problem.simulate(r, vector, []).signals) for r in runs]
     problem = replace(problem, scales=scales(model.drive, vector, runs, outputs))
-    if model.drive.force and any(r.in_motion for r in runs):
-        problem = replace(problem, runs=tuple(windowed(r) if r.position.size else r for r in runs))
-    return problem
+    held = model.drive.force and any(r.in_motion for r in runs) and all(r.position.size for r in runs)
+    return of_driving_force(problem) if held else problem
 
 
 def _one_sensor(runs: tuple[Run, ...]) -> tuple[Run, ...]:

@@ -60,6 +60,10 @@ class Problem:
         """The same over whole recordings as they were recorded."""
         return replace(self, runs=self.whole)
 
+    def on(self, runs: Sequence[Run]) -> Problem:
+        """The same on other recordings, simulated from their input alone."""
+        return replace(self, runs=tuple(r.following_nothing() for r in runs))
+
     def as_given(self) -> Hypothesis:
         """The nominal model at its given values."""
         return hypothesis(self.prior, (), self.scales)

@@ -12,6 +12,7 @@ from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.noise import noise_of
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import correlation_time
+from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.inverse_dynamics import force_error
 from rwn.simulate.run import Run
 
@@ -19,7 +20,6 @@ Array = NDArray[np.float64]
 RAN_AWAY = 1e100  # error of a simulation that diverged
 FEWEST = 20  # samples that a row judges
 DRAWS = 400  # of the bootstrap
-DRIVING_FORCE = "driving force"  # the signal of rows of the inverse dynamics
 
 
 @dataclass(frozen=True, kw_only=True)

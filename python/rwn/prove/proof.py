@@ -13,7 +13,7 @@ from rwn.fit.problem import Problem
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
-from rwn.prove.heldout import DRIVING_FORCE, HeldoutRow, heldout_rows
+from rwn.prove.heldout import HeldoutRow, heldout_rows
 from rwn.simulate.run import Run
 
 Again = Callable[[Problem], tuple[Ranking, Fit] | None]
@@ -55,9 +55,6 @@ def hurts(rows: Sequence[HeldoutRow]) -> bool:
     main = [r for r in rows if r.region == "all" and r.gain_interval is not None]
     if any(r.corrected is not None and not np.isfinite(r.corrected) for r in main):
         return True  # it runs away
-    forces = [r for r in main if r.signal == DRIVING_FORCE and r.corrected is not None]
-    if forces and all(r.nominal < r.refitted and r.nominal <= (r.corrected or 0.0) for r in forces):
-        return True  # where a refit loses the forces, short free runs say nothing, and this one has not found them
     return bool(main) and all(r.gain_interval[1] < 0.0 for r in main if r.gain_interval)
 
 

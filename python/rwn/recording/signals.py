@@ -18,6 +18,8 @@ class Signal:
     also: tuple[str, ...] = ()  # other names people write; suggested, never taken silently
 
 
+DRIVING_FORCE = "driving force"  # that moves an axis, where what is compared is the balance of forces
+
 TIME = Signal(
     name="time", meaning="time of the row", unit="s", linear_unit="s", also=("t", "timestamp", "seconds")
 )

@@ -1,0 +1,77 @@
+"""An axis whose motion a stiff loop holds is judged by the force that this took."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.fit.driving_force import BalancedRun, DrivingForceProblem
+from rwn.fit.fit import fit_nominal
+from rwn.fit.preparation import prepare
+from rwn.fit.residuals import statistics
+
+INERTIA, VISCOUS, COULOMB, COGGING, ORDER = 0.003, 0.05, 0.2, 0.3, 12
+STEP = 1e-3
+SHEET = rwn.Model(
+    kind="axis",
+    parameters={"inertia": 0.0033, "viscous_friction": 0.06, "coulomb_friction": 0.17},
+    uncertainty={"inertia": 0.2, "viscous_friction": 0.5, "coulomb_friction": 0.3},
+)
+
+
+def held(seed: int, *, cogging: float = COGGING) -> rwn.Recording:
+    """A slow turn there and back under a position loop, in motion when the recording begins: torque and position."""
+    rng = np.random.default_rng(seed)
+    rows = int(6.0 / STEP)
+    angle, speed, kept = 0.0, 0.0, []
+    for k in range(-500, rows):
+        wanted = 1.5 * np.cos(0.9 * k * STEP + seed)
+        target = 1.5 / 0.9 * np.sin(0.9 * k * STEP + seed)
+        torque = 60.0 * (target - angle) + 1.2 * (wanted - speed) if k > -500 else 0.0
+        if k == -500:
+            angle, speed = target, wanted
+        kept.append((k * STEP, torque, angle))
+        lost = VISCOUS * speed + COULOMB * np.tanh(speed / 1e-3) + cogging * np.sin(ORDER * angle + 0.4)
+        speed += STEP * (torque - lost) / INERTIA
+        angle += STEP * speed
+    time, torque, angle_ = np.array(kept[500:]).T
+    counted = 2.0 * np.pi / 65536 * np.round(angle_ * 65536 / (2.0 * np.pi))
+    noisy = torque + 0.01 * rng.standard_normal(torque.size)
+    return rwn.Recording(name=f"run {seed}", time=time, signals={"torque": noisy, "position": counted})
+
+
+def test_derivatives_are_those_of_the_squared_error() -> None:
+    problem = prepare([held(1)], SHEET)
+    assert isinstance(problem, DrivingForceProblem)
+    this = problem.as_given()
+    found = problem.normal(this.vector, this.active, this.by)
+    known = [k for k, place in enumerate(this.by) if this.vector[place]]  # the others are starts, which do not count
+    assert len(known) == len(SHEET.uncertainty)
+    for k in known:
+        place = this.by[k]
+        step = 1e-3 * this.vector[place]
+        ends = []
+        for sign in (1.0, -1.0):
+            there = this.vector.copy()
+            there[place] += sign * step
+            ends.append(problem.error(there, this.active))
+        assert -2.0 * found.gradient[k] == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-4)
+
+
+def test_what_a_sound_axis_leaves_is_noise() -> None:
+    problem = prepare([held(1, cogging=0.0)], SHEET)
+    left = statistics(problem, fit_nominal(problem))
+    assert left.coloured < 2.0
+    assert left.count == sum(isinstance(r, BalancedRun) and r.time.size for r in problem.runs)
+
+
+def test_cogging_is_named_by_the_force_of_a_position_loop() -> None:
+    found = rwn.diagnose([held(1)], SHEET, heldout=[held(2)])
+    assert [e.name for e in found.effects] == ["cogging-torque"]
+    values = found.effects[0].parameters
+    assert values["periods_per_rev"].value == pytest.approx(ORDER, rel=0.01)
+    assert values["amplitude"].value == pytest.approx(COGGING, rel=0.1)
+    force = next(r for r in found.heldout if r.signal == "driving force" and r.region == "all")
+    assert force.corrected is not None
+    assert force.corrected < 0.25 * force.refitted
