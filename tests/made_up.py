@@ -143,7 +143,7 @@ def _fit() -> NominalFit:
 
 def acting(name: str, probability: float, share: float) -> Acting:
     """An effect of the account."""
-    evidence = Evidence(share=share, unseen=share, part=share, certainty=40.0, odds=9.0, moved=0.5)
+    evidence = Evidence(share=share, unseen=share, part=share, odds=9.0, curve=1.0)
     return Acting(name=name, probability=probability, together=probability, share=share, evidence=evidence)
 
 

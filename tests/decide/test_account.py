@@ -12,15 +12,18 @@ import rwn
 from rwn.decide.account import Account, Acting, Remainder, account, remainder
 from rwn.decide.calibration import calibration, features
 from rwn.decide.evidence import Evidence
+from rwn.decide.other_law import curve_instead
 from rwn.decide.verdict import verdict_of
+from rwn.fit.fit import fit
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 
 DEMO = Path(rwn.__file__).parent / "demo"
 MODEL = rwn.read_model(DEMO / "model.toml")
-CERTAIN = Evidence(share=0.999, unseen=0.99, part=0.999, certainty=200.0, odds=5000.0, moved=0.5)
-MIMIC = Evidence(share=0.03, unseen=0.01, part=0.2, certainty=3.0, odds=0.5, moved=3.0)
+CERTAIN = Evidence(share=0.999, unseen=0.99, part=0.999, odds=5000.0, curve=1.0)
+MIMIC = Evidence(share=0.03, unseen=0.01, part=0.2, odds=0.5, curve=0.6)
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +35,7 @@ def ranking() -> Ranking:
 
 
 def test_what_acts_is_stated_and_its_elaboration_is_not(ranking: Ranking) -> None:
-    found = account(ranking, [])
+    found = account(ranking, [], MODEL)
     assert [e.name for e in found.stated] == ["coulomb-friction"]
     (acting,) = found.stated
     assert acting.probability > 0.9
@@ -40,7 +43,7 @@ def test_what_acts_is_stated_and_its_elaboration_is_not(ranking: Ranking) -> Non
 
 
 def test_what_was_kept_back_may_withdraw_a_name(ranking: Ranking) -> None:
-    found = account(ranking, [])
+    found = account(ranking, [], MODEL)
     assert found.withdrawn().stated == ()
     assert len(found.withdrawn().effects) == len(found.effects)
 
@@ -49,12 +52,12 @@ def test_the_remainder_is_that_of_the_nominal_model_or_noise(ranking: Ranking) -
     nothing = remainder(ranking, ranking.nothing_missing.final)
     assert nothing.share == pytest.approx(1.0)
     assert nothing.signals
-    named = remainder(ranking, account(ranking, []).leading.final)
+    named = remainder(ranking, account(ranking, [], MODEL).leading.final)
     assert named.share < 0.01
 
 
 def test_the_verdict_follows_from_what_is_stated_and_what_is_left(ranking: Ranking) -> None:
-    leading = account(ranking, []).leading
+    leading = account(ranking, [], MODEL).leading
 
     def of(probability: float, left: Remainder) -> str:
         acting = Acting(
@@ -82,5 +85,13 @@ def test_the_calibration_tells_what_acts_from_a_mimic() -> None:
 
 
 def test_no_evidence_is_out_of_scale() -> None:
-    wild = Evidence(share=-np.inf, unseen=np.inf, part=0.0, certainty=np.inf, odds=-np.inf, moved=np.inf)
+    wild = Evidence(share=-np.inf, unseen=np.inf, part=0.0, odds=-np.inf, curve=0.0)
     assert np.isfinite(features(wild)).all()
+
+
+def test_a_curve_in_the_place_of_a_law_says_no_more_of_its_state(ranking: Ranking) -> None:
+    friction = next(r for r in ranking.fits if r.added == ("coulomb-friction",)).fit
+    problem = ranking.problem
+    mimic = fit(problem, hypothesis(problem.prior, ("quadratic-drag",), problem.scales))
+    assert curve_instead(ranking.problem, friction, "coulomb-friction", MODEL) > 0.99
+    assert curve_instead(ranking.problem, mimic, "quadratic-drag", MODEL) < 0.5

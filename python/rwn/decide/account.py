@@ -14,6 +14,7 @@ from rwn.decide.calibration import calibration
 from rwn.decide.evidence import Evidence, evidence
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import join, structured, variance
+from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.simulate.run import Run
@@ -68,11 +69,11 @@ class Account:
         return replace(self, effects=tuple(refused))
 
 
-def account(ranking: Ranking, heldout: Sequence[Run]) -> Account:
+def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     """What acts, of the best explanation that has effects at all; empty where none was found."""
     leading = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
     rivals = {name: _rivals(ranking, leading, name) for name in leading.added}
-    found = evidence(ranking, leading, heldout, rivals=rivals)
+    found = evidence(ranking, leading, heldout, model, rivals=rivals)
     rows = sorted((_acting(name, e, rivals[name]) for name, e in found.evidence.items()), key=lambda row: -row.share)
     return Account(effects=tuple(rows), leading=leading, birge=found.birge)
 

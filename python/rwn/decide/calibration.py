@@ -18,7 +18,7 @@ from rwn.decide.evidence import Evidence
 
 Array = NDArray[np.float64]
 
-FEATURES = ("share", "unseen", "part", "certainty", "odds", "moved")
+FEATURES = ("share", "unseen", "part", "odds", "curve")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +48,7 @@ class Calibration:
 
 
 def features(found: Evidence) -> Array:
-    """The evidence on the scales on which it is added up, (6,)."""
+    """The evidence on the scales on which it is added up, (5,)."""
     known = asdict(found)
     return np.array([_SCALES[name](known[name]) for name in FEATURES])
 
@@ -63,9 +63,8 @@ _SCALES: dict[str, Callable[[float], float]] = {
     "share": _log_odds,
     "unseen": _log_odds,
     "part": _log_odds,
-    "certainty": lambda x: float(np.log10(np.clip(x, 0.1, 1e4))),
     "odds": lambda x: float(np.arcsinh(np.clip(x, -100.0, 1e4))),
-    "moved": lambda x: float(np.log1p(np.clip(x, 0.0, 1e3))),
+    "curve": float,
 }
 
 

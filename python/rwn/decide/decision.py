@@ -37,7 +37,7 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
 
     Effects that certainly make recordings worse that were kept back are not stated.
     """
-    found = account(ranking, heldout)
+    found = account(ranking, heldout, model)
     chosen = _together(ranking, found)
     rows = proved(ranking, chosen, heldout, seed=seed)
     if chosen.added and heldout and hurts(rows):

@@ -1,8 +1,8 @@
-"""What tells an effect that acts from a mimic: what it removes, also unseen, and whether its strength stays the same.
+"""What tells an effect that acts from a mimic: what it removes, also unseen, and whether a free curve removes more.
 
 A mimic absorbs what has another cause: it removes little beside the other effects, or on the samples that it was fitted
-to alone, or bends the declared parameters. The features are those that cross-validation of the calibration kept
-(docs/method.md).
+to alone, and a curve over the right state, in its place, leaves less than it does. The features are those that
+cross-validation of the calibration kept (docs/method.md).
 """
 
 from __future__ import annotations
@@ -13,12 +13,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.decide.other_law import curve_instead
 from rwn.fit.budget import one_stage
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intervals import deviations
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics, variances
+from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
@@ -36,10 +38,9 @@ class Evidence:
 
     share: float  # of what the nominal model leaves above the noise, that goes without the effect; mean of signals
     unseen: float  # the same on the halves that were not fitted, and on recordings kept back
-    part: float  # of what the other effects leave above the noise, that goes with it; mean of signals
-    certainty: float  # strength in units of its standard deviation
+    part: float  # of what the other effects leave above the noise, that goes with it; mean of signals but the position
     odds: float  # logarithm of the evidence for its explanation against the best without it and its rivals
-    moved: float  # farthest move of a declared parameter, in declared deviations
+    curve: float  # squared error with the best curve over one state in its place, in units of that with it; at most 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +60,7 @@ class _Half:
 
 
 def evidence(
-    ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], *, rivals: Mapping[str, Collection[str]]
+    ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model, *, rivals: Mapping[str, Collection[str]]
 ) -> Witnesses:
     """Features of every effect of the leading explanation; `rivals`: names by effect that may act in its place."""
     problem, this = ranking.weighted, leading.final
@@ -76,14 +77,13 @@ def evidence(
         pairs = [(other, part, mine.fit) for other, part, mine in zip(halves[::-1], parts, seen, strict=True)]
         pairs += [(judge, without, this) for judge in judges]
         unseen = [_share(variances(on, a), variances(on, b), nothing, chance) for on, a, b in pairs]
-        strength, spread = _strength(this, problem, name)
+        beside = _without_drift(before)
         return Evidence(
             share=_share(before, after, nothing, chance),
             unseen=float(np.mean(unseen)),
-            part=_share(before, after, before, chance),
-            certainty=abs(strength) / max(spread, 1e-12 * abs(strength), 1e-300),
+            part=_share(beside, after, beside, chance),
             odds=_odds(ranking, leading, {name, *rivals[name]}),
-            moved=this.farthest_move,
+            curve=curve_instead(ranking.problem, leading.fit, name, model),
         )
 
     return Witnesses(evidence={name: one(name) for name in leading.added}, birge=_birge(seen))
@@ -103,6 +103,11 @@ def _share(
         for s in off
     ]
     return float(np.mean([np.clip(x, -1.0, 1.0) if np.isfinite(x) else 1.0 for x in shares]))
+
+
+def _without_drift(variances: Mapping[str, float]) -> Mapping[str, float]:
+    """Without the position where other signals tell the motion too: it adds up what the speed shows already."""
+    return {s: v for s, v in variances.items() if s != "position"} or variances
 
 
 def _odds(ranking: Ranking, leading: RankedFit, names: set[str]) -> float:
@@ -134,19 +139,6 @@ def _birge(halves: Sequence[_Half]) -> float:
     told = physics & (spread > 0.0) & (spread < np.abs(a) + np.abs(b))
     apart = (a - b)[told] / spread[told]
     return max(float(np.sqrt(np.mean(apart**2))), 1.0) if apart.size else 1.0
-
-
-def _strength(this: Fit, problem: Problem, name: str) -> tuple[float, float]:
-    """Strength of an effect with its standard deviation: the best known of its parameters that say how strong it is."""
-    effect = this.hypothesis.table[name]
-    wanted = [p.name for p in effect.parameters if p.strength] or [effect.parameters[0].name]
-    spreads = deviations(this, statistics(problem, this))
-    found = [
-        (float(value), float(spread))
-        for u, value, spread in zip(this.hypothesis.unknowns, this.minimum.values, spreads, strict=True)
-        if u.name in {f"{name}.{p}" for p in wanted}
-    ]
-    return max(found, key=lambda pair: abs(pair[0]) / max(pair[1], 1e-300), default=(0.0, np.inf))
 
 
 def _halves(problem: Problem) -> list[Problem]:

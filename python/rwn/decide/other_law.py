@@ -1,4 +1,4 @@
-"""Whether another law is seen in what an explanation leaves: a few wavelets beside it, over each state.
+"""Whether another law is seen: a few wavelets over each state, beside an explanation or in place of one of its effects.
 
 A cubic drag called quadratic leaves a per cent of the mismatch. That may be as little as a right name leaves, but it is
 a curve over speed, where a right name leaves noise.
@@ -6,18 +6,23 @@ a curve over speed, where a right name leaves noise.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from rwn.fit.budget import one_stage
 from rwn.fit.fit import Fit, fit
 from rwn.fit.network import has_room, with_network
 from rwn.fit.network_formula import PART, Place, places
 from rwn.fit.part import look
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import statistics
+from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
 
-ITERATIONS = 3
+ITERATIONS = 4  # the weights are linear but for the motion that they change
+SHARES = 16  # of the work of a stage, for each curve
 SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights at the best of five places
 MOST = 0.5  # share of the squared error above the noise that the curve has to explain
 
@@ -43,13 +48,34 @@ def curve_beside(problem: Problem, this: Fit, model: Model) -> Curve | None:
         return None
     part = look(problem, this)
     left = statistics(part, this, drift=False)
-    effects = {name: this.values_of(name) for name in this.added}
 
     def curve(place: Place) -> Curve:
-        on, with_it = with_network(part, model, place, PART, motor=this.motor, effects=effects)
-        after = statistics(on, fit(on, with_it, max_iterations=ITERATIONS), drift=False)
+        after = _with_curve(part, model, place, this, this.added)
         gained = left.variance - after.variance
         seen = 0.5 * gained * left.count / (after.variance * after.correlation_time)
         return Curve(place=place, gained=gained, seen=seen, left=left.variance)
 
     return max(side_by_side(curve, places(problem, model)), key=lambda c: c.gained)
+
+
+def curve_instead(problem: Problem, this: Fit, name: str, model: Model) -> float:
+    """Squared error with the best curve over one state in place of an effect, in units of that with it; at most 1.
+
+    A law says as much of its state as any curve does. 1 where the drive has no place for a curve.
+    """
+    if not has_room(model, 1, beside=len(this.added) - 1):
+        return 1.0
+    part = look(problem, this)
+    law = statistics(part, this, drift=False).variance
+    others = tuple(n for n in this.added if n != name)
+    found = side_by_side(lambda place: _with_curve(part, model, place, this, others).variance, places(problem, model))
+    best = min((v for v in found if np.isfinite(v)), default=np.inf)
+    return float(min(max(best, 1.0) / max(law, 1.0), 1.0))
+
+
+def _with_curve(part: Problem, model: Model, place: Place, this: Fit, beside: Sequence[str]) -> Statistics:
+    """What a curve at a place leaves beside some effects of a fit."""
+    effects = {name: this.values_of(name) for name in beside}
+    on, with_it = with_network(part, model, place, PART, motor=this.motor, effects=effects)
+    share = one_stage(part.work) / SHARES
+    return statistics(on, fit(on, with_it, max_iterations=ITERATIONS, share=share), drift=False)

@@ -31,7 +31,7 @@ FOLDS = 10  # of the cross-validation; all names of a trial are in one
 
 @dataclass(frozen=True, kw_only=True)
 class Names:
-    """The effects of the leading explanations: features (n, 6), whether each or a rival acts (n,), its trial (n,)."""
+    """The effects of the leading explanations: features (n, 5), whether each or a rival acts (n,), its trial (n,)."""
 
     features: Array
     acts: Array
