@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 WAVELETS = 15
 CLEAR = 0.25  # least share of the error's energy for which a dependence is put into words
 ORDERS = np.arange(1, 61)
+DRAWN = 20_000  # samples of a picture; of longer recordings as many means of consecutive samples
 COORDINATES = {"speed": "rad/s", "acceleration": "rad/s^2", "current": "A", "time": "s"}
 
 
@@ -65,8 +66,10 @@ def laws(
 def _error(problem: Problem, this: Fit, unknown: Sequence[UnknownInputs]) -> _Error:
     from scipy.signal import lfilter  # late: the command line starts without it
 
-    states = {name: np.concatenate([getattr(u, name) for u in unknown]) for name in (*COORDINATES, "angle")}
-    ends = np.cumsum([u.time.size for u in unknown])[:-1]
+    thin = 1 + sum(u.time.size for u in unknown) // DRAWN
+    names = (*COORDINATES, "angle", "torque")
+    states = {name: np.concatenate([_means(getattr(u, name), thin) for u in unknown]) for name in names}
+    ends = np.cumsum([u.time.size // thin for u in unknown])[:-1]
     by_filter = problem.drive.winding and all(r.speed.size for r in problem.runs)
 
     def answer(columns: Array) -> Array:
@@ -74,18 +77,24 @@ def _error(problem: Problem, this: Fit, unknown: Sequence[UnknownInputs]) -> _Er
             return columns
         parts = []
         for run, part in zip(problem.runs, np.split(columns, ends), strict=True):
-            a, b = speed_filter(problem.drive, this.vector, run.sample_time)
+            a, b = speed_filter(problem.drive, this.vector, thin * run.sample_time)
             parts.append(lfilter([0.0, b], [1.0, -a], part, axis=0))
         return np.concatenate(parts)
 
+    value = states["torque"]
     if by_filter:
         residuals = problem.residuals(this.vector, this.active)
-        value = np.concatenate([r["speed"] for r in residuals])
-    else:
-        value = np.concatenate([u.torque for u in unknown])
+        value = np.concatenate([_means(r["speed"], thin) for r in residuals])
     speed = states["speed"]
     regressors = [speed, np.sign(speed), states["acceleration"], states["current"], np.ones(speed.size)]
     return _Error(states=states, value=value, answer=answer, nominal=answer(np.stack(regressors, axis=1)))
+
+
+def _means(values: Array, count: int) -> Array:
+    """Means of every `count` consecutive values."""
+    whole = values.size - values.size % count
+    means: Array = values[:whole].reshape(-1, count).mean(axis=1) if count > 1 else values
+    return means
 
 
 def _over(name: str, error: _Error, linear: bool) -> Law:
@@ -104,15 +113,18 @@ def _over(name: str, error: _Error, linear: bool) -> Law:
 
 def _over_angle(error: _Error) -> Law:
     angle = error.states["angle"]
-    pairs = [error.answer(np.stack([np.cos(n * angle), np.sin(n * angle)], axis=1)) for n in ORDERS]
+
+    def pair_of(order: int) -> Array:
+        return error.answer(np.stack([np.cos(order * angle), np.sin(order * angle)], axis=1))
+
     explained = []
-    for pair in pairs:
+    for pair in (pair_of(int(n)) for n in ORDERS):
         gram = pair.T @ pair + 1e-9 * np.trace(pair.T @ pair) * np.eye(2) + 1e-300 * np.eye(2)
         load = pair.T @ error.value
         explained.append(float(load @ np.linalg.solve(gram, load)))
     best = int(np.argmax(explained))
     order = int(ORDERS[best])
-    share, weights = _fitted(pairs[best], error)
+    share, weights = _fitted(pair_of(order), error)
     grid = np.linspace(0.0, 2.0 * np.pi, 400)
     curve = np.stack([np.cos(order * grid), np.sin(order * grid)], axis=1) @ weights
     return Law(
