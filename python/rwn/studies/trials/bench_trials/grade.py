@@ -27,6 +27,7 @@ from rwn.studies.trials.grade import (
 from rwn.studies.trials.run import out_of, trial_folders
 
 LATE = frozenset({"input-delay", "speed-sensor-lag", "current-sensor-lag"})
+ROUNDED = "sensor-quantization"
 LATE_RECORDING = "time-shift"  # right where a channel is late
 WORSE = 1.01  # times the error of the refitted model, noise included
 
@@ -152,11 +153,12 @@ def _accepted(answer: Mapping[str, Any], truth: Sequence[str]) -> tuple[set[str]
     """The names that are asked for, and those that are true beside them.
 
     True beside them are names that describe an imperfection rightly, and the name of the background: it is "unnamed"
-    when the trials are written, and right as soon as the vocabulary has it.
+    when the trials are written, and right as soon as the vocabulary has it. The speed of an encoder lies on steps.
     """
     meant = {*truth, *answer["equivalent"]} if truth else set()
     beside = set(answer["also_true"])
     beside |= {LATE_RECORDING} if beside & LATE else set()
+    beside |= {ROUNDED} if answer["noise"]["kind"] == "encoder" else set()
     beside |= known_as(str(answer["background"]["kind"])) if answer["background"] else set()
     return meant, beside - meant
 
