@@ -95,17 +95,17 @@ def test_a_start_that_a_glance_has_led_far_astray_goes_on_from_where_it_began(
     assert _not_lost([(after, before)], lagging) == [before if astray else after]
 
 
-ON_LOOK, ON_ALL = "look", "all"
+ON_PART, ON_ALL = "part", "all"
 
 
 @pytest.mark.parametrize(
     ("raced", "later", "known", "legs"),
     [
-        ((100.0, 30.0), {}, np.inf, [(ON_LOOK, FURTHER), (ON_ALL, TO_THE_END)]),
+        ((100.0, 30.0), {}, np.inf, [(ON_PART, FURTHER), (ON_ALL, TO_THE_END)]),
         ((100.0, 90.0), {}, np.inf, [(ON_ALL, BRIEFLY)]),
-        ((1000.0, 400.0), {}, np.inf, [(ON_LOOK, FURTHER), (ON_ALL, TO_THE_END)]),
-        ((1000.0, 400.0), dict.fromkeys((ON_LOOK, ON_ALL), (400.0, 390.0)), np.inf,
-         [(ON_LOOK, FURTHER), (ON_ALL, BRIEFLY)]),
+        ((1000.0, 400.0), {}, np.inf, [(ON_PART, FURTHER), (ON_ALL, TO_THE_END)]),
+        ((1000.0, 400.0), dict.fromkeys((ON_PART, ON_ALL), (400.0, 390.0)), np.inf,
+         [(ON_PART, FURTHER), (ON_ALL, BRIEFLY)]),
         ((100.0, 90.0), {ON_ALL: (60.0, 30.0)}, np.inf, [(ON_ALL, BRIEFLY), (ON_ALL, TO_THE_END)]),
         ((50.0, 30.0), {}, 2.0, [(ON_ALL, BRIEFLY)]),
     ],
@@ -118,7 +118,7 @@ def test_a_race_goes_on_with_what_may_still_win(
 ) -> None:  # fmt: skip
     """`raced`, `later`: first and last cost of another's legs, where the best has come to 10, as raced if not given."""
     nominal = fit_nominal(lagging)
-    look = part(lagging, nominal, 100)
+    beginning = part(lagging, nominal, 100)
     best, other = (Start(name, 0.0, 0, nominal.hypothesis) for name in ("best", "other"))
 
     def ended(minimum: Minimum) -> Fit:
@@ -136,17 +136,17 @@ def test_a_race_goes_on_with_what_may_still_win(
 
     def attempt(start: Start, iterations: int, on: Problem, *, share: float) -> Attempt:
         assert share > 0.0
-        assert on is look or on is lagging
+        assert on is beginning or on is lagging
         if start is best:
             return Attempt(start, done(10.0))
-        gone.append((ON_LOOK if on is look else ON_ALL, iterations))
+        gone.append((ON_PART if on is beginning else ON_ALL, iterations))
         if iterations == TO_THE_END:
             return Attempt(start, done(raced[1]))
         return Attempt(start, under_way(later.get(gone[-1][0], raced)))
 
     monkeypatch.setattr(screening, "_attempt", attempt)
     attempts = [Attempt(best, done(10.0)), Attempt(other, under_way(raced))]
-    _to_the_end(lagging, attempts, look, best_here=known, best=known)
+    _to_the_end(lagging, attempts, beginning, best_here=known, best=known)
     assert gone == legs
 
 

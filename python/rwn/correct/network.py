@@ -17,7 +17,7 @@ from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.network import has_room, knowing, with_network
 from rwn.fit.network_formula import NAME, PART, Place, as_effect, nominal_share, places
-from rwn.fit.part import look
+from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
@@ -60,7 +60,7 @@ def network_correction(ranking: Ranking, model: Model, *, at: Place | None = Non
         return None
     problem = ranking.problem
     tried = [at] if at else places(problem, model)
-    part = look(problem, ranking.nominal)
+    part = screening_part(problem, ranking.nominal)
     networks = side_by_side(lambda place: _fit(part, ranking, model, place, FEW, 5), tried)
     for on, count, kept in ((part, FEW, 2), (problem, MANY, 1)):
         best_first = sorted(networks, key=lambda network: network.fit.cost)

@@ -15,7 +15,7 @@ from rwn.fit.budget import one_stage
 from rwn.fit.fit import Fit, fit
 from rwn.fit.network import has_room, with_network
 from rwn.fit.network_formula import PART, Place, places
-from rwn.fit.part import look
+from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
@@ -46,7 +46,7 @@ def curve_beside(problem: Problem, this: Fit, model: Model) -> Curve | None:
     """The best curve over one state beside a fit; None where the drive has no place for one."""
     if not has_room(model, 1, beside=len(this.added)):
         return None
-    part = look(problem, this)
+    part = screening_part(problem, this)
     left = statistics(part, this, drift=False)
 
     def curve(place: Place) -> Curve:
@@ -65,7 +65,7 @@ def curve_instead(problem: Problem, this: Fit, name: str, model: Model) -> float
     """
     if not has_room(model, 1, beside=len(this.added) - 1):
         return 1.0
-    part = look(problem, this)
+    part = screening_part(problem, this)
     law = statistics(part, this, drift=False).variance
     others = tuple(n for n in this.added if n != name)
     found = side_by_side(lambda place: _with_curve(part, model, place, this, others).variance, places(problem, model))

@@ -17,7 +17,7 @@ from rwn.faults.fault import MOTION, SHIFT, Fault, Removes, without
 from rwn.faults.scale import gears
 from rwn.fit.fit import Fit, fit_nominal, refit
 from rwn.fit.noise import with_noise_of
-from rwn.fit.part import look
+from rwn.fit.part import screening_part
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import variance
@@ -123,7 +123,7 @@ def sharpened(
         return replace(prepare(without(recordings, fault), model), noise=noise)
 
     def briefly(fault: Fault) -> float:
-        on = look(undone(fault), base)
+        on = screening_part(undone(fault), base)
         return variance(on, refit(base, on, iterations=FURTHER))
 
     left = _left(beneath.problem, base, noise)

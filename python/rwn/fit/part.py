@@ -11,14 +11,14 @@ from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.simulate.run import Run
 
-LOOK = 6000  # samples of a part on which effects are told apart
-HELD = 0.25  # least share of a run's squared error that has to lie in a part
+SCREENING_SAMPLES = 6000  # samples of a part on which effects are told apart
+LEAST_SHARE = 0.25  # least share of a run's squared error that has to lie in a part
 
 
-def look(problem: Problem, base: Fit) -> Problem:
+def screening_part(problem: Problem, base: Fit) -> Problem:
     """The part of the problem on which effects are told apart: all of it where it is short."""
     length = sum(r.time.size for r in problem.runs)
-    return problem if length <= LOOK else part(problem, base, LOOK)
+    return problem if length <= SCREENING_SAMPLES else part(problem, base, SCREENING_SAMPLES)
 
 
 def part(problem: Problem, base: Fit, samples: int) -> Problem:
@@ -30,5 +30,5 @@ def _beginnings(problem: Problem, base: Fit, samples: int) -> Iterator[Run]:
     residuals = problem.residuals(base.vector, base.active)
     for run, residual in zip(problem.runs, residuals, strict=True):
         energy = np.cumsum(sum((r / problem.noise[s].deviation) ** 2 for s, r in residual.items()))
-        first = int(np.searchsorted(energy, HELD * energy[-1]))
+        first = int(np.searchsorted(energy, LEAST_SHARE * energy[-1]))
         yield run.until(max(first, samples // len(problem.runs)))

@@ -15,7 +15,7 @@ from rwn.fit.coloured_noise import final_fits
 from rwn.fit.fit import Fit, fit_nominal, foremost, refit, refit_all
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
-from rwn.fit.part import look
+from rwn.fit.part import screening_part
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, join, statistics, statistics_of
@@ -202,7 +202,7 @@ def _far_off(problem: Problem, best: Fit) -> bool:
 
 def _by_windows(problem: Problem, nominal: Fit, wanted: Sequence[str]) -> list[Fit]:
     """Every effect fitted in short windows, each from the recorded motion, and from there in free run."""
-    windows = replace(problem, runs=tuple(map(windowed, look(problem, nominal).runs)))
+    windows = replace(problem, runs=tuple(map(windowed, screening_part(problem, nominal).runs)))
     windows = with_noise_of(windows, refit(nominal, windows))
     fits = screen(windows, refit(nominal, windows), wanted, patience=PATIENCE)
     return refit_all(fits, problem)

@@ -15,7 +15,7 @@ from rwn.fit.budget import shares_by_rank, shares_of_steps
 from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, cost_of_a_step, fit, refit
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.levenberg_marquardt import FitStatus
-from rwn.fit.part import look, part
+from rwn.fit.part import part, screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.secant import down_secants
 from rwn.name.starts import (
@@ -33,9 +33,9 @@ from rwn.name.starts import (
 from rwn.parallel import side_by_side
 
 RESOLUTION = 0.1  # changes of the cost below this decide nothing between explanations
-ITERATIONS = 4  # iterations of every start in the first round, which is made on LOOK samples
+ITERATIONS = 4  # iterations of every start in the first round, which is made on the screening part
 FURTHER = 6  # further iterations of the promising starts in the first round
-BRIEF_LOOK = 2500  # samples of the first round of starts beside other effects; an effect alone has LOOK
+FIRST_ROUND_SAMPLES = 2500  # of the first round of starts beside other effects; alone it is the screening part
 NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a rough error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
 LOST = 10.0  # a round on a part is undone where the error on the rest grows by more than this factor
@@ -51,7 +51,7 @@ def screen(
     """
     fitting = [n for n in names if n not in base.hypothesis.effects and _has_room(base.hypothesis, n)]
     begun = side_by_side(lambda name: starts(problem, base, name, orders=keep + 1), fitting)
-    on = look(problem, base)
+    on = screening_part(problem, base)
     first = _first_round(problem, base, [start for of_one in begun for start in of_one], keep, patience)
     attempts = _round(first, iterations=ITERATIONS * patience, on=on, problem=problem)
     here = base.cost if on is problem else refit(base, on).cost
@@ -72,12 +72,12 @@ def _first_round(problem: Problem, base: Fit, these: Sequence[Start], keep: int,
     crowded = [s for s in these if counts[kind_of(s)] > keep]
     if not crowded:
         return list(these)
-    crowded = _before_fitting(crowded, part(problem, base, BRIEF_LOOK))
-    on = part(problem, base, BRIEF_LOOK) if base.added or patience > 1 else look(problem, base)
+    crowded = _before_fitting(crowded, part(problem, base, FIRST_ROUND_SAMPLES))
+    on = part(problem, base, FIRST_ROUND_SAMPLES) if base.added or patience > 1 else screening_part(problem, base)
     attempts = _round(crowded, iterations=patience, on=on, problem=problem)
     began = {id(attempt): start for start, attempt in zip(crowded, attempts, strict=True)}
     kept = [(a.start, began[id(a)]) for a in best_of_each(attempts, keep, orders=keep + 1)]
-    return [*(s for s in these if counts[kind_of(s)] <= keep), *_not_lost(kept, look(problem, base))]
+    return [*(s for s in these if counts[kind_of(s)] <= keep), *_not_lost(kept, screening_part(problem, base))]
 
 
 def _not_lost(pairs: Sequence[tuple[Start, Start]], on: Problem) -> list[Start]:
@@ -125,8 +125,8 @@ def _to_the_end(
 ) -> list[Attempt]:
     """Every start fitted to all recordings, until it converges or, where it is far behind and gains little, briefly.
 
-    `attempts`: how far they came on the look `on`, where they go on for a while. `best_here`, `best`: the least costs
-    that are known on the look and on all recordings.
+    `attempts`: how far they came on the screening part `on`, where they go on for a while. `best_here`, `best`: the
+    least costs that are known on it and on all recordings.
     """
     by_rank = partial(_by_rank, problem)
     bar = far_behind(attempts, best_here)
