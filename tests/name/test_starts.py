@@ -71,7 +71,7 @@ def test_of_a_periodic_effect_the_best_start_of_the_best_orders_goes_on() -> Non
     assert kept == [("ripple", 14.0, 3.0), ("ripple", 7.0, 4.0), ("drag", 0.0, 7.0), ("drag", 0.0, 8.0)]
 
 
-def test_where_derivatives_mislead_the_foremost_of_each_kind_get_an_iteration() -> None:
+def test_where_derivatives_mislead_the_best_few_of_each_kind_get_an_iteration() -> None:
     model = rwn.read_model(DEMO / "model.toml")
     problem = prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model)
 

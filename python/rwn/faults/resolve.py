@@ -122,7 +122,7 @@ def _settled(
     """The suspected fault if it explains more, alone or beside one effect, than as many effects do by themselves.
 
     Or if all there is is explained beneath it, by however many. Where two effects explain all without it, only theirs
-    and the foremost are tried beside it. Returned with it is what was found on the way of the recordings without it,
+    and the best few are tried beside it. Returned with it is what was found on the way of the recordings without it,
     or as they are; None where that is not known.
     """
     alone = ranking(right, 1)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from rwn.fit.budget import one_stage
-from rwn.fit.fit import Fit, foremost, refit, refit_all
+from rwn.fit.fit import Fit, best_few, refit, refit_all
 from rwn.fit.problem import Problem
 from rwn.simulate.run import Run
 
@@ -39,7 +39,7 @@ def along_the_simulated_angle(
         other, again = free, freed
     if other is problem:
         return problem, nominal, fits
-    first, *rest = refit_all([nominal, *(f for f in foremost(fits) if f is not best)], other)
+    first, *rest = refit_all([nominal, *(f for f in best_few(fits) if f is not best)], other)
     return other, first, sorted([again, *rest], key=lambda f: f.cost)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.budget import shares_by_rank
-from rwn.fit.fit import Fit, foremost, refit
+from rwn.fit.fit import Fit, best_few, refit
 from rwn.fit.problem import Problem
 from rwn.parallel import side_by_side
 from rwn.recording.quantisation import mean_rounding_error, quantum
@@ -38,7 +38,7 @@ def unrounded_fits(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Pro
         noise_before_rounding(r, left["speed"], step)
         for r, left, step in zip(shown.runs, residuals, steps, strict=True)
     ]
-    these = [nominal, *foremost(fits)]
+    these = [nominal, *best_few(fits)]
     shares = shares_by_rank(shown.work, [f.cost if f.added else 0.0 for f in these])
 
     def on_average(pair: tuple[Fit, float]) -> tuple[Fit, Problem]:

@@ -177,7 +177,7 @@ def refit_all(these: Sequence[Fit], problem: Problem) -> list[Fit]:
     return side_by_side(again, zip(these, shares, strict=True))
 
 
-def foremost(fits: Sequence[Fit]) -> list[Fit]:
+def best_few(fits: Sequence[Fit]) -> list[Fit]:
     """The fits that are worth repeating under other conditions, best first."""
     return sorted(fits, key=lambda f: f.cost)[:KEPT]
 

@@ -12,7 +12,7 @@ from rwn.fit.angle import along_the_simulated_angle
 from rwn.fit.budget import affords_more, one_stage
 from rwn.fit.coarse_speed import as_shown, steps_shown, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
-from rwn.fit.fit import Fit, fit_nominal, foremost, refit, refit_all
+from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.part import screening_part
@@ -77,7 +77,7 @@ def rank(
         alone_again = rank(measured, progress=progress, at_once=1)
         if names is None and at_once == 1:
             return alone_again
-        several = [f for f in foremost(fits) if len(f.added) > 1]  # what a second search may not afford to find
+        several = [f for f in best_few(fits) if len(f.added) > 1]  # what a second search may not afford to find
         return rank(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
     fits = with_simpler(problem, nominal, fits) if names is None else fits
     at_a_limit = [f for f in fits if f.limits_met]
@@ -266,7 +266,7 @@ def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Proble
         return problem, nominal, fits
     # each by the cost that it was screened with: the others may gain as much once priors weigh less
     begun = replace(best, minimum=replace(best.minimum, values=free.minimum.values))
-    first, *rest = refit_all([begun if f is best else f for f in (nominal, *foremost(fits))], other)
+    first, *rest = refit_all([begun if f is best else f for f in (nominal, *best_few(fits))], other)
     return other, first, sorted(rest, key=lambda f: f.cost)
 
 

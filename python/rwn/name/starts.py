@@ -104,7 +104,7 @@ def kind_of(start: Start) -> Kind:
 
 
 def best_unfitted(ranked: Sequence[Start]) -> list[Start]:
-    """Of starts whose derivatives mislead, by what they leave, least first, the foremost of each kind."""
+    """Of starts whose derivatives mislead, by what they leave, least first, the best few of each kind."""
     met: Counter[Kind] = Counter()
     kept = []
     for start in ranked:
