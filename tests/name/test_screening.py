@@ -16,7 +16,7 @@ from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name import screening
 from rwn.name.forward import _begun, rank
-from rwn.name.screening import FURTHER, LOST, _not_lost, _to_the_end, screen
+from rwn.name.screening import FURTHER, MUCH_WORSE, _to_the_end, _unless_much_worse, screen
 from rwn.name.starts import Attempt, Start, starts
 
 TRUE = {
@@ -81,9 +81,9 @@ def test_a_delay_of_any_part_of_a_sample_is_found_where_the_winding_is_fast(late
     assert found.value("input-delay.delay") == pytest.approx(1e-3 * late, abs=2e-5)
 
 
-@pytest.mark.parametrize(("factor", "astray"), [(1.0, False), (1.02, False), (1.2, True)])
-def test_a_start_that_a_glance_has_led_far_astray_goes_on_from_where_it_began(
-    lagging: Problem, factor: float, astray: bool
+@pytest.mark.parametrize(("factor", "much_worse"), [(1.0, False), (1.02, False), (1.2, True)])
+def test_a_start_that_a_round_on_a_part_made_much_worse_goes_on_from_where_it_began(
+    lagging: Problem, factor: float, much_worse: bool
 ) -> None:
     before = starts(lagging, fit_nominal(lagging), "quadratic-drag", orders=3)[0]
     values = before.hypothesis.start.copy()
@@ -91,8 +91,8 @@ def test_a_start_that_a_glance_has_led_far_astray_goes_on_from_where_it_began(
     after = before._replace(hypothesis=before.hypothesis.starting_at(values))
     errors = [lagging.error(s.hypothesis.vector, s.hypothesis.active) for s in (after, before)]
     assert errors[0] >= errors[1]
-    assert (errors[0] > LOST * errors[1]) == astray
-    assert _not_lost([(after, before)], lagging) == [before if astray else after]
+    assert (errors[0] > MUCH_WORSE * errors[1]) == much_worse
+    assert _unless_much_worse([(after, before)], lagging) == [before if much_worse else after]
 
 
 ON_PART, ON_ALL = "part", "all"

@@ -32,8 +32,8 @@ Progress = Callable[[str, float], None]
 
 MOST_EFFECTS = 3  # most effects in one explanation
 WORTH = 0.2  # smallest share of the remaining misfit that a further effect has to remove
-FAR_OFF = 100.0  # largest mean squared error, in units of the noise, of a free run that follows the motion
-LOST = 0.2  # largest rms error of a signal, as a share of its spread, of a free run that follows the motion
+FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free run follows the motion
+LARGEST_NRMSE = 0.2  # rms error of a signal, as a share of its spread, up to which a free run follows the motion
 PATIENCE = 4  # factor on the iterations in short windows: the first steps of a fit are short where the misfit is large
 WHOLE = 0.99  # share of the recording's time from which a window counts as all of it
 OFFSET = "constant-load"
@@ -197,7 +197,7 @@ def _far_off(problem: Problem, best: Fit) -> bool:
     if statistics_of(errors).variance <= FAR_OFF:
         return False
     signals = join(problem, [{s: r.signal(s) for s in r.recorded} for r in problem.runs])
-    return any(np.sqrt(np.nanmean(errors[s] ** 2)) > LOST * np.nanstd(signals[s]) for s in errors)
+    return any(np.sqrt(np.nanmean(errors[s] ** 2)) > LARGEST_NRMSE * np.nanstd(signals[s]) for s in errors)
 
 
 def _by_windows(problem: Problem, nominal: Fit, wanted: Sequence[str]) -> list[Fit]:

@@ -38,7 +38,7 @@ FURTHER = 6  # further iterations of the promising starts in the first round
 FIRST_ROUND_SAMPLES = 2500  # of the first round of starts beside other effects; alone it is the screening part
 NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a rough error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
-LOST = 10.0  # a round on a part is undone where the error on the rest grows by more than this factor
+MUCH_WORSE = 10.0  # a round on a part is undone where the error on the rest grows by more than this factor
 
 
 def screen(
@@ -69,26 +69,26 @@ def _first_round(problem: Problem, base: Fit, these: Sequence[Start], keep: int,
     A part of the recordings has to do; alone a longer one, since a soft bristle is lost on a short one.
     """
     counts = Counter(map(kind_of, these))
-    crowded = [s for s in these if counts[kind_of(s)] > keep]
-    if not crowded:
+    competing = [s for s in these if counts[kind_of(s)] > keep]
+    if not competing:
         return list(these)
-    crowded = _before_fitting(crowded, part(problem, base, FIRST_ROUND_SAMPLES))
+    competing = _before_fitting(competing, part(problem, base, FIRST_ROUND_SAMPLES))
     on = part(problem, base, FIRST_ROUND_SAMPLES) if base.added or patience > 1 else screening_part(problem, base)
-    attempts = _round(crowded, iterations=patience, on=on, problem=problem)
-    began = {id(attempt): start for start, attempt in zip(crowded, attempts, strict=True)}
+    attempts = _round(competing, iterations=patience, on=on, problem=problem)
+    began = {id(attempt): start for start, attempt in zip(competing, attempts, strict=True)}
     kept = [(a.start, began[id(a)]) for a in best_of_each(attempts, keep, orders=keep + 1)]
-    return [*(s for s in these if counts[kind_of(s)] <= keep), *_not_lost(kept, screening_part(problem, base))]
+    return [*(s for s in these if counts[kind_of(s)] <= keep), *_unless_much_worse(kept, screening_part(problem, base))]
 
 
-def _not_lost(pairs: Sequence[tuple[Start, Start]], on: Problem) -> list[Start]:
-    """Of each pair, after and before a round, the latter where a fit to a part has lost the rest.
+def _unless_much_worse(pairs: Sequence[tuple[Start, Start]], on: Problem) -> list[Start]:
+    """Of each pair, after and before a round on a part, the latter where the round made the error on `on` much larger.
 
-    One that is merely worse there has often learned something.
+    A start whose error grew a little has often come nearer all the same.
     """
 
     def chosen(pair: tuple[Start, Start]) -> Start:
         after, before = (on.error(s.hypothesis.vector, s.hypothesis.active) for s in pair)
-        return pair[1] if after > LOST * before else pair[0]
+        return pair[1] if after > MUCH_WORSE * before else pair[0]
 
     return side_by_side(chosen, pairs)
 

@@ -11,7 +11,7 @@ from rwn.mismatch_map.regions import Region
 from rwn.model.vocabulary import table
 
 STRONGEST = "strongest"  # begins what is said of the place alone
-CROWDED = 0.1  # share of the mismatch beyond that of the samples, from which a region is worth naming
+EXCESS = 0.1  # share of the mismatch beyond that of the samples, from which a region is worth naming
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
     "V",
@@ -171,9 +171,9 @@ def region_in_words(region: Region) -> str:
 def located(where: Sequence[Region], laws: Sequence[Law], *, linear: bool) -> str:
     """What the mismatch depends on and where it is strongest, as one clause; empty where neither is clear."""
     parts = [law_in_words(laws[0], linear=linear)] if laws and laws[0].share > CLEAR else []
-    crowded = [r for r in where if r.share - r.samples_share > CROWDED]
-    if crowded:
-        r = crowded[0]
+    standing_out = [r for r in where if r.share - r.samples_share > EXCESS]
+    if standing_out:
+        r = standing_out[0]
         much = f"{percent(r.samples_share)} of the samples hold {percent(r.share)} of the mismatch"
         parts.append(f"{STRONGEST} {region_in_words(r)}, where {much}")
     return "; ".join(parts)
