@@ -193,11 +193,11 @@ def test_gear_ratio(model: rwn.Model, ratio: float) -> None:
 def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Model) -> None:
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     wrong = altered(friction, MOTION, 1.0 / 3.5)
-    rough = wrong_scale([wrong], model)
+    first = wrong_scale([wrong], model)
     faults, ranking = resolved([wrong], model, say=silent)
-    assert rough is not None
+    assert first is not None
     assert [f.name for f in faults] == ["wrong-gear-ratio"]
-    assert abs(3.5 * faults[0].factor - 1.0) <= abs(3.5 * rough.factor - 1.0)
+    assert abs(3.5 * faults[0].factor - 1.0) <= abs(3.5 * first.factor - 1.0)
     assert faults[0].factor == pytest.approx(1.0 / 3.5, rel=0.05)
     interval = faults[0].found().parameters["factor"].interval
     assert interval is not None

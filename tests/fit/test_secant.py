@@ -1,4 +1,4 @@
-"""Fits where a contact makes the error rough."""
+"""Fits where a contact makes the error non-smooth."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rwn.fit.intervals import IDEALISED, estimates
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics
-from rwn.fit.secant import down_secants, rough
+from rwn.fit.secant import down_secants, nonsmooth_unknowns
 from rwn.model.model import Model
 
 MOTOR = {"resistance": 1.1, "inductance": 4e-4, "torque_constant": 0.037, "back_emf_constant": 0.037,
@@ -58,7 +58,7 @@ def test_derivatives_find_a_gap_from_three_times_its_size(problem: Problem) -> N
 
 def test_a_smooth_error_is_left_to_derivatives(problem: Problem) -> None:
     this = _hypothesis(problem, "coulomb-friction", {"coulomb_torque": 1e-3})
-    assert rough(this) == []
+    assert nonsmooth_unknowns(this) == []
     stopped = fit(problem, this)
     assert down_secants(problem, stopped, turns=3).minimum is stopped.minimum
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
-from rwn.fit.secant import rough
+from rwn.fit.secant import nonsmooth_unknowns
 
 Array = NDArray[np.float64]
 
@@ -74,7 +74,7 @@ def _systematic(this: Fit, bias: float) -> Array:
     """
     known = this.hypothesis.table
     angles = {f"{name}.{p.name}" for name in this.added for p in known[name].parameters if p.cyclic}
-    contacts = rough(this.hypothesis)
+    contacts = nonsmooth_unknowns(this.hypothesis)
     pairs = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
     return np.array(
         [

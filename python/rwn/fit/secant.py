@@ -1,4 +1,4 @@
-"""Fits where the error is rough: a contact met a little earlier changes all that follows, and derivatives mislead.
+"""Fits where the error is not smooth: a contact met a little earlier changes all that follows, and derivatives mislead.
 
 Seen from farther off the error is smooth: a bowl with ripples. Gauss-Newton steps with secants over steps longer than
 the ripples go down it, coarse to fine (graduated optimisation: Blake, Zisserman 1987), before derivatives take over.
@@ -31,7 +31,7 @@ RIVAL = 2.0  # cost in units of the best, up to which a fit may still turn out t
 NEAR_ZERO = 0.02  # of its range or its prior: what a parameter near zero is stepped by, as if it were that large
 
 
-def rough(this: Hypothesis, *names: str) -> list[int]:
+def nonsmooth_unknowns(this: Hypothesis, *names: str) -> list[int]:
     """The unknowns of effects that idealise a contact, all or among `names`; empty where the error is smooth."""
     owners = {name for name in names or this.effects if any(p.idealised for p in this.table[name].parameters)}
     return [k for k, u in enumerate(this.unknowns) if u.name.partition(".")[0] in owners and u.lower > 0.0]
@@ -43,7 +43,7 @@ def down_secants(problem: Problem, start: Fit, *, turns: int, share: float = np.
     `share`: what it may cost, the beginning of every part aside.
     """
     this, best, own = start.hypothesis, start, problem.metered()
-    for _ in range(turns if rough(this) else 0):
+    for _ in range(turns if nonsmooth_unknowns(this) else 0):
         values = best.minimum.values
         for relative in SECANTS:
             found = _by_secants(own, this.starting_at(values), relative, share)
@@ -62,7 +62,7 @@ def down_secants(problem: Problem, start: Fit, *, turns: int, share: float = np.
 def all_down_secants(problem: Problem, nominal: Fit, fits: Sequence[Fit]) -> list[Fit]:
     """The fits, those that may yet be the best gone on from by `down_secants`."""
     bar = RIVAL * min(f.cost for f in (nominal, *fits))
-    worth = [f for f in fits if f.cost < bar and rough(f.hypothesis)]
+    worth = [f for f in fits if f.cost < bar and nonsmooth_unknowns(f.hypothesis)]
     shares = shares_by_rank(problem.work, [f.cost for f in worth])
     ends = side_by_side(
         lambda pair: down_secants(problem, pair[0], turns=TURNS, share=pair[1]), zip(worth, shares, strict=True)

@@ -36,7 +36,7 @@ RESOLUTION = 0.1  # changes of the cost below this decide nothing between explan
 ITERATIONS = 4  # iterations of every start in the first round, which is made on the screening part
 FURTHER = 6  # further iterations of the promising starts in the first round
 FIRST_ROUND_SAMPLES = 2500  # of the first round of starts beside other effects; alone it is the screening part
-NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a rough error has gained nothing
+NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a non-smooth error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
 MUCH_WORSE = 10.0  # a round on a part is undone where the error on the rest grows by more than this factor
 
@@ -57,7 +57,7 @@ def screen(
     here = base.cost if on is problem else refit(base, on).cost
     attempts = distinct_ends(promising(best_of_each(attempts, keep, orders=keep), here), on.samples)
     best_here = best * here / base.cost if np.isfinite(best) else best
-    near = _over_rough(attempts, on, here, best_here)
+    near = _down_secants(attempts, on, here, best_here)
     ends = _to_the_end(problem, near, on, best_here=best_here, best=best)
     found = [end.fit for end in sorted(ends, key=lambda end: end.cost)]
     return list({f.added: f for f in reversed(found)}.values())[::-1]
@@ -96,7 +96,7 @@ def _unless_much_worse(pairs: Sequence[tuple[Start, Start]], on: Problem) -> lis
 def _before_fitting(these: Sequence[Start], on: Problem) -> list[Start]:
     """Where derivatives mislead from afar, the few best of an effect's starts before anything is fitted.
 
-    That is for periodic effects, each order by itself, for delays, and where a contact makes the error rough.
+    That is for periodic effects, each order by itself, for delays, and where a contact makes the error non-smooth.
     """
     misled = [s for s in these if derivatives_mislead(s)]
     ends = side_by_side(lambda s: on.error(s.hypothesis.vector, s.hypothesis.active), misled)
@@ -163,8 +163,8 @@ def _by_rank(
     return side_by_side(lambda pair: go_on(*pair), zip(attempts, shares, strict=True))
 
 
-def _over_rough(attempts: Sequence[Attempt], on: Problem, base_cost: float, best: float) -> list[Attempt]:
-    """Starts whose error is rough, that have gained something and are not far behind, brought near their minimum."""
+def _down_secants(attempts: Sequence[Attempt], on: Problem, base_cost: float, best: float) -> list[Attempt]:
+    """Starts with a non-smooth error, that have gained something and are not far behind, brought near their minimum."""
     bar = min(NO_GAIN * base_cost, max(far_behind(attempts, best), STEEP * base_cost))
 
     def near(attempt: Attempt, share: float) -> Attempt:

@@ -12,7 +12,7 @@ from rwn.fit.fit import FAR_BEHIND, Fit
 from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING
 from rwn.fit.problem import Problem
-from rwn.fit.secant import rough
+from rwn.fit.secant import nonsmooth_unknowns
 from rwn.name.initial_guesses.guesses import initial_guesses
 
 KEPT_UNFITTED = 4  # starts kept of an effect whose derivatives mislead far from the minimum
@@ -95,7 +95,7 @@ def _lighter(base: Fit) -> list[dict[str, float]]:
 def derivatives_mislead(start: Start) -> bool:
     """Whether the derivatives at a start may point away from the minimum."""
     many_minima = start.hypothesis.table[start.name].guess == "best_of_scan"
-    return bool(start.order or many_minima or rough(start.hypothesis, start.name))
+    return bool(start.order or many_minima or nonsmooth_unknowns(start.hypothesis, start.name))
 
 
 def kind_of(start: Start) -> Kind:

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 NOMINAL = Path(__file__).parents[2] / "demo/emps.toml"
 FILES = ("DATA_EMPS", "DATA_EMPS_PULSES")  # fitted, judged by
 FREE_RUN = "free-running position, PULSES [mm]"
-TURNS = 2  # of secants over a rough error
+TURNS = 2  # of secants where the error is not smooth
 OFFICIAL = 20  # first samples, from which the state is taken and which are not judged
 PERIODS = np.linspace(20.0, 1000.0, 1961)  # per metre: 50 mm to 1 mm
 
@@ -133,7 +133,7 @@ def _begun(problem: Problem, found: Diagnosis, names: tuple[str, ...]) -> list[H
 
 
 def _over_all(problem: Problem, run: Run, starts: Sequence[Hypothesis]) -> Fit:
-    """Fitted to a whole run, from the start that leads furthest: contacts make its error rough.
+    """Fitted to a whole run, from the start that leads furthest: contacts make its error non-smooth.
 
     Priors, that of the run's start with them, weigh against errors that last.
     """
