@@ -227,9 +227,7 @@ def demo(
     folder = Path(__file__).parent / "demo"
     train = sorted(folder.glob("train*.csv"))
     if not train:
-        raise InputError(
-            "the demo recording is not installed", where=folder, expected="train_1.csv", fix="reinstall rwn"
-        )
+        raise InputError("the demo recording is not installed", where=folder, expected="train.csv", fix="reinstall rwn")
     diagnose(train, folder / "model.toml", out, sorted(folder.glob("heldout*.csv")), overwrite=overwrite)
 
 

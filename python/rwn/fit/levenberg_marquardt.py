@@ -97,6 +97,13 @@ class _Search:
         self.weight = prior_scale * np.array([_prior_weight(u) for u in unknowns])
         self.tie = prior_scale * _ties(unknowns)
 
+    def begun(self, values: Array) -> Array:
+        """Search coordinates of values, within the bounds."""
+        within = zip(self.unknowns, values, strict=True)
+        z = np.array([u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in within])
+        clipped: Array = np.clip(z, self.lower, self.upper)
+        return clipped
+
     def values(self, z: Array) -> Array:
         return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, z, 0.0)), z)
 
@@ -172,10 +179,7 @@ def minimise(
     `enough`: asked after every iteration, ends the fit as the iteration limit does.
     """
     search = _Search(evaluate, probe, unknowns, prior_scale)
-    z = np.array(
-        [u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in zip(unknowns, start, strict=True)]
-    )
-    z = np.clip(z, search.lower, search.upper)
+    z = search.begun(start)
     cost, normal = search.at(z)
     if not np.isfinite(cost):
         return _minimum(search, z, normal, cost, cost, FitStatus.DIVERGED, 0, damping)
@@ -188,9 +192,7 @@ def minimise(
             break
         step = _step(search, z, gradient, curvature, damping)
         promised = _promise(step, gradient, curvature)
-        if (
-            promised <= 0.0 and step.any()
-        ):  # the ends of ranges stood in the way: shorten towards the gradient
+        if promised <= 0.0 and step.any():  # the ends of ranges stood in the way: shorten towards the gradient
             damping, growth, misses = damping * 10.0, 2.0, misses + 1
             if misses <= 8:
                 continue
