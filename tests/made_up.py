@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from made_up_curves import law, over_speed, over_time, spectrum
 from rwn.decide.account import Acting, Remainder
 from rwn.decide.evidence import Evidence
 from rwn.fit.intervals import Estimate
@@ -16,94 +17,48 @@ from rwn.recording.inspection import Finding
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.diagnosis_data import Alternative, Beneath, Location, Source
 from rwn.report.nominal_fit import FittedParameter, NominalFit
-from rwn.report.plot import Mark, Plot, Role, Slot, Trace
 from rwn.report.sensor_filter import FittedFilter
 
-
-def _over_time(rng: np.random.Generator) -> tuple[Plot, ...]:
-    """A recording that was kept back: response, error and input."""
-    t = np.arange(0.0, 20.0, 0.01)
-    true = 180 * np.sin(1.9 * t) * np.exp(-t / 40)
-    measured = true + rng.normal(0, 0.8, t.size)
-    nominal = true + 14 * np.sign(np.cos(1.9 * t))
-    refitted = true + 6 * np.sign(np.cos(1.9 * t))
-    corrected = true + 0.4 * np.sin(7 * t)
-
-    def panel(slot: Slot, label: str, unit: str, lines: dict[str, tuple[Role, np.ndarray]]) -> Plot:
-        traces = tuple(Trace(name=name, role=role, x=t, y=y) for name, (role, y) in lines.items())
-        return Plot(
-            slot=slot, title=f"{label}, heldout_1.csv", x_label="time", x_unit="s", y_label=label, y_unit=unit,
-            traces=traces, recording="heldout_1.csv", use="heldout", zoom=(4.0, 5.5),
-        )  # fmt: skip
-
-    return (
-        panel("response", "speed", "rad/s", {
-            "measured": ("measured", measured), "nominal as given": ("nominal", nominal),
-            "nominal refitted": ("refitted", refitted), "corrected": ("corrected", corrected),
-        }),
-        panel("residual-time", "speed error", "rad/s", {
-            "nominal refitted": ("before", measured - refitted), "corrected": ("after", measured - corrected),
-        }),
-        panel("input", "voltage", "V", {"input": ("reference", 24 * np.sign(np.sin(1.9 * t)))}),
-    )  # fmt: skip
-
-
-def _map(rng: np.random.Generator) -> Plot:
-    t = np.arange(0.0, 20.0, 0.02)
-    speed = 180 * np.sin(1.9 * t)
-    before = 0.021 * np.tanh(speed / 3) + rng.normal(0, 0.003, t.size)
-    return Plot(
-        slot="residual-speed",
-        title="Unknown torque over speed",
-        x_label="speed",
-        x_unit="rad/s",
-        y_label="unknown torque",
-        y_unit="N m",
-        traces=(
-            Trace(name="train_1.csv", role="before", x=speed, y=before, points=True, at=t, recording="heldout_1.csv"),
-        ),
-        marks=(Mark(low=-12.0, high=12.0, label="reversals"),),
-        shown=(-0.04, 0.04),
-    )
-
-
-def _law() -> Plot:
-    w = np.linspace(-180, 180, 721)
-    law = 0.021 * np.sign(w)
-    traces = (
-        Trace(name="learned from the residual", role="reference", x=w, y=0.021 * np.tanh(w / 4)),
-        Trace(name="Coulomb friction", role="corrected", x=w, y=law, low=law - 0.001, high=law + 0.001),
-    )
-    return Plot(
-        slot="law",
-        title="Torque against speed",
-        x_label="speed",
-        x_unit="rad/s",
-        y_label="torque",
-        y_unit="N m",
-        traces=traces,
-    )
-
-
-def _spectrum(rng: np.random.Generator) -> Plot:
-    order = np.linspace(0, 40, 400)
-    floor = 1e-4 * (1 + 0.3 * rng.random(400))
-    peak = floor + 3e-3 * np.exp(-(((order - 14) / 0.12) ** 2))
-    traces = (
-        Trace(name="before", role="before", x=order, y=peak),
-        Trace(name="after", role="after", x=order, y=floor),
-        Trace(name="chance, 95 %", role="noise-floor", x=order, y=np.full(400, 1.6e-4)),
-    )
-    return Plot(
-        slot="spectrum",
-        title="Unexplained torque over the angle",
-        x_label="Periods per revolution",
-        x_unit="",
-        y_label="Amplitude",
-        y_unit="N m",
-        traces=traces,
-        marks=(Mark(low=13.5, high=14.5, label="14"),),
-    )
+REGIONS = (
+    Region(
+        coordinate="speed",
+        low=-12.0,
+        high=12.0,
+        unit="rad/s",
+        share=0.71,
+        samples_share=0.09,
+        name="reversals",
+    ),
+    Region(coordinate="speed", low=12.0, high=180.0, unit="rad/s", share=0.16, samples_share=0.45, name="forward"),
+    Region(
+        coordinate="speed",
+        low=-180.0,
+        high=-12.0,
+        unit="rad/s",
+        share=0.13,
+        samples_share=0.46,
+        name="backward",
+    ),
+)
+SPIKES = Finding(
+    kind="spikes",
+    recording="train_1.csv",
+    signals=("speed",),
+    count=3,
+    words="3 single samples of the speed are far off those beside them",
+    done="left out",
+)
+SOURCES = (
+    Source(path="model.toml", use="model", sha256="8f14e45fceea167a5a36dedd4bea2543"),
+    Source(
+        path="train_1.csv",
+        use="fit",
+        samples=5138,
+        duration=5.137,
+        sha256="c9f0f895fb98ab9159f51fd0297e236d",
+    ),
+    Source(path="heldout_1.csv", use="heldout", samples=3227, duration=3.226),
+)
 
 
 def _row(recording: str, region: str, errors: tuple[float, float, float | None], gain: float | None) -> HeldoutRow:
@@ -158,27 +113,6 @@ def found() -> Diagnosis:
         formula="T = -T_c sign(w), holds up to T_c at standstill",
         meaning="dry friction of constant level",
     )
-    regions = (
-        Region(
-            coordinate="speed",
-            low=-12.0,
-            high=12.0,
-            unit="rad/s",
-            share=0.71,
-            samples_share=0.09,
-            name="reversals",
-        ),
-        Region(coordinate="speed", low=12.0, high=180.0, unit="rad/s", share=0.16, samples_share=0.45, name="forward"),
-        Region(
-            coordinate="speed",
-            low=-180.0,
-            high=-12.0,
-            unit="rad/s",
-            share=0.13,
-            samples_share=0.46,
-            name="backward",
-        ),
-    )
     return Diagnosis(
         verdict="missing-physics",
         equation="mechanical",
@@ -194,7 +128,7 @@ def found() -> Diagnosis:
         ),
         location=Location(
             equation="mechanical",
-            regions=regions,
+            regions=REGIONS,
             description="A torque that depends on the direction of motion, 21 mN m, and hardly on speed.",
         ),
         nominal_fit=_fit(),
@@ -203,34 +137,15 @@ def found() -> Diagnosis:
             _row("heldout_1.csv", "reversals", (31.0, 14.9, 0.91), 0.939),
             _row("heldout_2.csv", "all", (9.8, 4.42, 0.81), 0.817),
         ),
-        curves=(*_over_time(rng), _map(rng), _law()),
+        curves=(*over_time(rng), over_speed(rng), law()),
         account=(acting("coulomb-friction", 0.97, 0.985),),
         remainder=Remainder(share=0.015, error=1.02),
-        findings=(
-            Finding(
-                kind="spikes",
-                recording="train_1.csv",
-                signals=("speed",),
-                count=3,
-                words="3 single samples of the speed are far off those beside them",
-                done="left out",
-            ),
-        ),
+        findings=(SPIKES,),
         sensor_filters=(
             FittedFilter(signal="speed", time_constant=Estimate(value=2.7e-3, unit="s", interval=(2.6e-3, 2.8e-3))),
         ),
         next_experiment="None needed for this name. A slow ramp through zero would bound any Stribeck part.",
-        sources=(
-            Source(path="model.toml", use="model", sha256="8f14e45fceea167a5a36dedd4bea2543"),
-            Source(
-                path="train_1.csv",
-                use="fit",
-                samples=5138,
-                duration=5.137,
-                sha256="c9f0f895fb98ab9159f51fd0297e236d",
-            ),
-            Source(path="heldout_1.csv", use="heldout", samples=3227, duration=3.226),
-        ),
+        sources=SOURCES,
         command="rwn diagnose train_1.csv --model model.toml --heldout heldout_1.csv --out out",
         version="0.1.0",
         elapsed=7.42,
@@ -268,7 +183,7 @@ def unexplained() -> Diagnosis:
         set=(),
         alternatives=(),
         location=location,
-        curves=(*one.curves[:4], _spectrum(np.random.default_rng(2))),
+        curves=(*one.curves[:4], spectrum(np.random.default_rng(2))),
         account=(acting("unbalance", 0.31, 0.22), acting("coulomb-friction", 0.02, 0.04)),
         remainder=Remainder(share=1.0, error=8.0, signals=("speed",)),
         warnings=("train_1.csv, line 812: 2 gap(s) of up to 4.0 sample times: input taken as held",),
