@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import rwn
+from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
 
 Array = NDArray[np.float64]
@@ -58,3 +59,26 @@ def recorded(seed: int, torque: Torque, samples: int = 2000) -> rwn.Recording:
         "speed": rows[:, 1] + rng.normal(0, 0.2, samples),
     }
     return rwn.Recording(name=f"run_{seed}.csv", time=t, signals=signals)
+
+
+def eddies(speed: float, _: float = 0.0) -> float:
+    """Torque of the brake of `BRAKE` with a peak of 30 mN m at 40 rad/s."""
+    return -2 * 0.03 * (speed / 40) / (1 + (speed / 40) ** 2)
+
+
+BRAKE = OwnEffect(
+    name="eddy-brake",
+    term="torque",
+    equation="-2 * peak * (speed / corner) / (1 + (speed / corner)^2)",
+    meaning="eddy currents in a disc: torque falls again at high speed",
+    parameters=(
+        OwnParameter(name="peak", unit="N m", lower=0, upper=0.5, start=0.01, strength=True, meaning="most torque"),
+        OwnParameter(name="corner", unit="rad/s", lower=1, upper=500, start=100, meaning="speed of most torque"),
+    ),
+)
+BRAKED_NOMINAL = Model(
+    kind="dc",
+    parameters={**MOTOR, "inertia": 3.2e-4, "resistance": 0.78},
+    uncertainty={"resistance": 0.05, "inertia": 0.1, "viscous_friction": 0.3, "torque_constant": 0.03},
+    own_effects=(BRAKE,),
+)

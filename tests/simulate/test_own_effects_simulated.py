@@ -1,8 +1,7 @@
-"""Effects of a user's own: run by the core, fitted and named like those that come with rwn."""
+"""Effects of a user's own, run by the core like those that come with rwn."""
 
 from __future__ import annotations
 
-import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 from typer.testing import CliRunner
 
 import rwn
-from made_up_motor import MOTOR, own, recorded
+from made_up_motor import BRAKE, BRAKED_NOMINAL, MOTOR, eddies, own, recorded
 from rwn import _core
 from rwn.cli import app
 from rwn.errors import InputError
@@ -29,19 +28,6 @@ from rwn.model.vocabulary import motor_index, parameter_vector
 from rwn.recording.recording import write_csv
 
 Array = NDArray[np.float64]
-BRAKE = OwnEffect(
-    name="eddy-brake",
-    term="torque",
-    equation="-2 * peak * (speed / corner) / (1 + (speed / corner)^2)",
-    meaning="eddy currents in a disc: torque falls again at high speed",
-    parameters=(
-        OwnParameter(name="peak", unit="N m", lower=0, upper=0.5, start=0.01, strength=True, meaning="most torque"),
-        OwnParameter(name="corner", unit="rad/s", lower=1, upper=500, start=100, meaning="speed of most torque"),
-    ),
-)
-
-
-# --- simulated ------------------------------------------------------------------------------------------------------
 
 
 def simulated(model: Model, by: dict[str, float], *, step: float = 1e-3) -> dict[str, Array]:
@@ -182,95 +168,21 @@ def test_a_definition_is_checked_for_the_drive_that_it_is_put_into() -> None:
 )
 def test_effects_that_cannot_be_together_are_refused(effects: tuple[OwnEffect, ...], match: str) -> None:
     with pytest.raises(InputError, match=match):
-        replace(NOMINAL, own_effects=effects)
+        replace(BRAKED_NOMINAL, own_effects=effects)
 
 
 def test_a_constant_with_a_unit_is_not_fitted() -> None:
     known = replace(BRAKE, parameters=(BRAKE.parameters[0], replace(BRAKE.parameters[1], lower=40, upper=40, start=40)))
-    model = replace(NOMINAL, own_effects=(known,))
+    model = replace(BRAKED_NOMINAL, own_effects=(known,))
     problem = prepare([recorded(0, eddies, samples=200)], model)
     this = hypothesis(problem.prior, ("eddy-brake",), problem.scales)
     assert [u.name for u in this.unknowns if "." in u.name] == ["eddy-brake.peak"]
     assert this.vector[model.effect_table["eddy-brake"].at("corner")] == 40.0
 
 
-# --- diagnosed ------------------------------------------------------------------------------------------------------
-
-
-def eddies(speed: float, _: float = 0.0) -> float:
-    return -2 * 0.03 * (speed / 40) / (1 + (speed / 40) ** 2)
-
-
-NOMINAL = Model(
-    kind="dc",
-    parameters={**MOTOR, "inertia": 3.2e-4, "resistance": 0.78},
-    uncertainty={"resistance": 0.05, "inertia": 0.1, "viscous_friction": 0.3, "torque_constant": 0.03},
-    own_effects=(BRAKE,),
-)
-
-
-@pytest.fixture(scope="module")
-def braked() -> rwn.Diagnosis:
-    runs = [recorded(seed, eddies) for seed in range(3)]
-    return rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
-
-
-@pytest.mark.slow
-def test_a_concealed_eddy_brake_is_named(braked: rwn.Diagnosis) -> None:
-    assert braked.verdict == "missing-physics"
-    assert [e.name for e in braked.effects] == ["eddy-brake"]
-    (effect,) = braked.effects
-    assert effect.equation == braked.equation == "mechanical"
-    assert effect.probability > 0.9
-    assert effect.formula == f"torque = {BRAKE.equation}"
-    for name, truth in (("peak", 0.03), ("corner", 40.0)):
-        interval = effect.parameters[name].interval
-        assert interval is not None
-        assert interval[0] < truth < interval[1]
-        assert interval[1] - interval[0] < 0.15 * truth
-    row = next(r for r in braked.heldout if r.region == "all" and r.signal == "speed")
-    assert row.corrected is not None
-    assert row.corrected < 1.1 * (row.noise_floor or 0.0)
-
-
-@pytest.mark.slow
-def test_its_corrected_model_is_one_file_that_simulates(braked: rwn.Diagnosis, tmp_path: Path) -> None:
-    write_model(braked.corrected, tmp_path / "corrected.toml")
-    assert rwn.read_model(tmp_path / "corrected.toml") == braked.corrected
-    fresh = recorded(7, eddies)
-    write_csv(tmp_path / "run.csv", fresh.time, fresh.signals)
-    line = ["simulate", str(tmp_path / "corrected.toml"), "--input", str(tmp_path / "run.csv"), "--out"]
-    done = CliRunner().invoke(app, [*line, str(tmp_path / "sim.csv")])
-    assert done.exit_code == 0, done.output
-    error = rwn.simulate(braked.corrected, fresh).signals["speed"] - fresh.signals["speed"]
-    assert np.std(error) < 0.25
-
-
-@pytest.mark.slow
-def test_it_is_not_named_where_it_is_not() -> None:
-    runs = [recorded(seed, lambda *_: 0.0) for seed in range(2)]
-    found = rwn.diagnose(runs, NOMINAL, jobs=1)
-    assert found.verdict == "adequate"
-
-
-def test_identify_fits_the_motor_around_it() -> None:
-    model = replace(NOMINAL, effects={"eddy-brake": {"peak": 0.03, "corner": 40.0}})
-    fit = rwn.identify([recorded(3, eddies)], model)
-    assert fit.parameters["inertia"].value == pytest.approx(MOTOR["inertia"], rel=0.01)
-    assert fit.residual_over_noise < 1.1
-
-
-def test_effects_lists_those_of_a_model(tmp_path: Path) -> None:
-    write_model(NOMINAL, tmp_path / "model.toml")
-    shown = CliRunner().invoke(app, ["effects", "eddy-brake", "--model", str(tmp_path / "model.toml")])
-    assert shown.exit_code == 0, shown.output
-    assert "peak [N m]: most torque; 0 to 0.5" in shown.output
-    assert "eddy-brake" in CliRunner().invoke(app, ["effects", "--model", str(tmp_path / "model.toml")]).output
-
-
 def test_a_formula_without_a_value_ends_the_run_with_advice(tmp_path: Path) -> None:
     root = own("torque", "-k * sqrt(speed / w)", k="N m", w="rad/s")
-    model = replace(NOMINAL, own_effects=(root,), effects={"mine": {"k": 0.01, "w": 1.0}})
+    model = replace(BRAKED_NOMINAL, own_effects=(root,), effects={"mine": {"k": 0.01, "w": 1.0}})
     run = recorded(1, eddies)
     done = rwn.simulate(model, run)
     assert done.status == "formula-failed"
@@ -286,24 +198,6 @@ def test_a_formula_without_a_value_ends_the_run_with_advice(tmp_path: Path) -> N
     end = fit(problem, hypothesis(problem.prior, ("mine",), problem.scales))
     assert end.minimum.status is FitStatus.DIVERGED
     assert end.cost == np.inf
-
-
-@pytest.mark.slow
-def test_the_worked_example_of_the_documentation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    page = (Path(__file__).parents[2] / "docs/own_effects.md").read_text(encoding="utf-8")
-    definition, script = (re.search(rf"```{kind}\n(.*?)```", page, re.DOTALL) for kind in ("toml", "python"))
-    assert definition
-    assert script
-    demo = (Path(rwn.__file__).parent / "demo/model.toml").read_text(encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    Path("motor.toml").write_text(f"{demo}\n{definition[1]}", encoding="utf-8")
-    exec(compile(script[1], "make_runs.py", "exec"), {})
-    line = "diagnose run1.csv --model motor.toml --heldout run2.csv --out result --jobs 1"
-    said = CliRunner().invoke(app, line.split()).output
-    wanted = re.search(r"^The model lacks eddy brake.*$", page, re.MULTILINE)
-    assert wanted
-    assert wanted[0] in said
-    assert "Eddy brake: peak = 5.8" in said
 
 
 def test_a_gain_that_falls_is_constant_from_where_it_would_turn_back() -> None:
