@@ -9,6 +9,8 @@ from typing import Any
 
 import pytest
 
+from bad_input import Refuse, refusing
+
 SHARED = Path(os.environ.get("RWN_SHARED", Path(__file__).resolve().parents[2] / "shared"))
 
 
@@ -31,3 +33,9 @@ def shared() -> Path:
     if not (SHARED / "data").is_dir():
         pytest.skip(f"real recordings are not here ({SHARED}); set RWN_SHARED to the folder that holds them")
     return SHARED
+
+
+@pytest.fixture
+def refuse(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Refuse:
+    """Runs `rwn diagnose` on a recording and a model that it must refuse; returns the line that it prints."""
+    return refusing(tmp_path, monkeypatch, capsys)
