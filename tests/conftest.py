@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from bad_input import Refuse, refusing
+from command_line import Run, running
 
 SHARED = Path(os.environ.get("RWN_SHARED", Path(__file__).resolve().parents[2] / "shared"))
 
@@ -39,3 +40,9 @@ def shared() -> Path:
 def refuse(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Refuse:
     """Runs `rwn diagnose` on a recording and a model that it must refuse; returns the line that it prints."""
     return refusing(tmp_path, monkeypatch, capsys)
+
+
+@pytest.fixture
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    """Runs the command line in a folder with a.csv, b.csv and model.toml: (exit code, stdout, stderr)."""
+    return running(tmp_path, monkeypatch, capsys)

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import subprocess
 import sys
 import time
@@ -15,23 +14,13 @@ import pytest
 
 import made_up
 import rwn
-from rwn import cli
+from command_line import Run
 from rwn.fit.intervals import Estimate
 from rwn.model.files import read_model
 from rwn.model.model import Model
 from rwn.recording.recording import Recording, read_recording, write_csv
 from rwn.report import identification
 from rwn.report.diagnosis import Diagnosis
-
-MODEL = """[motor]
-kind = "dc"
-resistance = 0.8
-inductance = 1.5e-3
-torque_constant = 0.1
-back_emf_constant = 0.1
-inertia = 3e-4
-viscous_friction = 7e-5
-"""
 
 
 @dataclass(frozen=True)
@@ -50,28 +39,6 @@ class FakeIdentification:
     advice: str = ""
     not_identifiable: tuple[str, ...] = ()
     residual_over_noise: float = 1.0
-
-
-Run = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture
-def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    """Runs the command line in a folder with a.csv, b.csv and model.toml: (exit code, stdout, stderr)."""
-    t = np.arange(300) / 1000
-    for k, name in enumerate(("a.csv", "b.csv")):
-        write_csv(tmp_path / name, t, {"voltage": np.sin(30 * t + k), "speed": np.cos(30 * t + k)})
-    (tmp_path / "model.toml").write_text(MODEL)
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["rwn", *arguments])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        said = capsys.readouterr()
-        return int(str(end.value.code)), said.out, said.err
-
-    return call
 
 
 def _fake_diagnose(calls: list[dict[str, Any]]) -> Callable[..., Diagnosis]:
@@ -216,57 +183,6 @@ def test_identify_says_what_ran_into_a_bound_and_what_is_not_seen() -> None:
     assert "warning: resistance ran into a bound" in said
     assert "say nothing of inertia" in said
     assert "resistance moved by 27 times what was declared" in said
-
-
-@pytest.mark.parametrize(
-    ("words", "names"),
-    [
-        (["friction"], {"coulomb-friction", "stribeck-friction", "asymmetric-friction"}),
-        (["dry", "friction"], {"coulomb-friction", "stribeck-friction"}),
-        (["frcition"], {"coulomb-friction", "viscous-friction"}),
-        (["sensor"], {"sensor-bias", "speed-sensor-lag"}),
-    ],
-)
-def test_effects_are_found_by_a_word_and_by_one_like_it(run: Run, words: list[str], names: set[str]) -> None:
-    code, out, _ = run("effects", *words)
-    assert code == 0
-    shown = {line.split()[0] for line in out.splitlines()}
-    assert names <= shown
-    assert "input-delay" not in shown
-
-
-@pytest.mark.parametrize("word", ["Stribeck", "stribek"])
-def test_a_word_that_means_one_effect_shows_it(run: Run, word: str) -> None:
-    code, out, _ = run("effects", word)
-    assert code == 0
-    assert out.startswith("stribeck-friction: ")
-    assert "static_torque T_s [N m]" in out
-
-
-def test_a_word_that_means_none_is_refused(run: Run) -> None:
-    code, _, err = run("effects", "gravitation")
-    assert code == 2
-    assert "unknown effect 'gravitation'" in err
-
-
-def test_the_shell_completes_commands_and_effects() -> None:
-    def completed(line: str) -> list[str]:
-        asked = {"_RWN_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}
-        code = "import sys; sys.argv = ['rwn']; from rwn.cli import main; main()"
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=os.environ | asked)
-        return done.stdout.split()
-
-    assert completed("rwn diag") == ["diagnose"]
-    assert completed("rwn effects stri") == ["stribeck-friction"]
-
-
-def test_effects_prints_the_table(run: Run) -> None:
-    code, out, _ = run("effects")
-    assert code == 0
-    assert "coulomb-friction" in out
-    code, out, _ = run("effects", "stribeck-friction")
-    assert "stribeck_speed" in out
-    assert "source:" in out
 
 
 def test_version(run: Run) -> None:
