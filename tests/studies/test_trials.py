@@ -7,8 +7,9 @@ import json
 import os
 import shutil
 import tomllib
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,150 +17,105 @@ from rich.console import Console
 from typer.testing import CliRunner
 
 import rwn.studies.trials.demo as demo
+from made_up_tools import RESULT, always_backlash, fails_once, tell_the_truth
 from rwn.studies.trials import score, tables
-from rwn.studies.trials.adapter import heldout_files, simulated_file, train_files
-from rwn.studies.trials.aim import UnsuitableError
-from rwn.studies.trials.bench import Experiment, Noise, Setup, encoder
+from rwn.studies.trials.adapter import heldout_files, train_files
 from rwn.studies.trials.cli import app
 from rwn.studies.trials.conceal import SINGLE
-from rwn.studies.trials.dossier import read_columns
-from rwn.studies.trials.effects import EFFECTS, NAMED, UNNAMED
-from rwn.studies.trials.excitations import CLOSED_LOOP, KINDS, OPEN_LOOP
-from rwn.studies.trials.grade import clean_speed, grade_folder, grade_folders, load_answers
+from rwn.studies.trials.dossier import read_columns, write_trial
+from rwn.studies.trials.grade import grade_folder, grade_folders, load_answers
 from rwn.studies.trials.make import make
-from rwn.studies.trials.motors import MOTORS, plant_of
-from rwn.studies.trials.plan import SHARES, Plan, plans, redealt
+from rwn.studies.trials.motors import plant_of
+from rwn.studies.trials.plan import plans
 from rwn.studies.trials.plant import simulate
 from rwn.studies.trials.run import run
-from rwn.studies.trials.scene import draw_scene
 from rwn.studies.trials.seal import ANSWERS, SealBrokenError, seal, unseal
-from rwn.studies.trials.trial import make_trial, must_move
+from rwn.studies.trials.trial import make_trial
 
-SEED, COUNT = 179, 6  # one trial of every mode
-RESULT = "diagnosis.json"
-
-
-def tell_the_truth(trial: Path, out: Path) -> None:
-    """A diagnosis that has read the answers: every target must be met."""
-    answer = load_answers(trial.parent)[1][trial.name]
-    effects = [
-        {
-            "name": effect["name"],
-            "equation": effect["equation"],
-            "probability": 1.0,
-            "parameters": {
-                name: p | {"interval": [p["value"] - 1e-9, p["value"] + 1e-9]}
-                for name, p in effect["parameters"].items()
-            },
-        }
-        for effect in answer["effects"]
-    ]
-    named = answer["verdict"] == "missing-physics"
-    said = {
-        "verdict": answer["verdict"],
-        "equation": effects[0]["equation"] if effects else "",
-        "effects": effects if named else [],
-        "set": [effects[0]["name"]] if named and effects else [],
-    }
-    for heldout in heldout_files(trial):
-        time = read_columns(heldout)["time"]
-        table = np.column_stack([time, clean_speed(answer, heldout)])
-        np.savetxt(
-            simulated_file(out, heldout), table, delimiter=",", header="time [s],speed [rad/s]", comments=""
-        )
-    (out / RESULT).write_text(json.dumps(said))
+SEED, COUNT = 661, 6  # one trial of every mode, of those that are soon made
 
 
-def always_backlash(_: Path, out: Path) -> None:
-    """A tool that is sure of itself and knows one name."""
-    said = {
-        "verdict": "missing-physics",
-        "equation": "mechanical",
-        "effects": [{"name": "backlash", "equation": "mechanical", "probability": 0.9, "parameters": {}}],
-        "set": ["backlash"],
-    }
-    (out / RESULT).write_text(json.dumps(said))
-
-
-def fails_once(trial: Path, out: Path) -> None:
-    mark = trial.parent / f"{trial.name}.tried"
-    if not mark.exists():
-        mark.touch()
-        raise RuntimeError("killed")
-    (out / RESULT).write_text('{"verdict": "adequate"}')
+def _once(factory: pytest.TempPathFactory, name: str, make_it: Callable[[Path], object]) -> Path:
+    """A folder that is made once for all workers of pytest-xdist."""
+    base = factory.getbasetemp()
+    common = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder, done = common / name, common / f"{name}.done"
+    with (common / f"{name}.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not done.exists():
+            make_it(folder)
+            done.touch()
+    return folder
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """One set for all workers of pytest-xdist: making it costs more than all tests that read it."""
-    base = tmp_path_factory.getbasetemp()
-    common = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
-    folder, digest = common / "trials", common / "trials.digest"
-    with (common / "trials.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not digest.exists():
-            digest.write_text(make(SEED, COUNT, folder, split="development", jobs=2))
-    return folder, digest.read_text()
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A set of trials."""
+    return _once(tmp_path_factory, "trials", lambda folder: make(SEED, COUNT, folder, split="development", jobs=2))
 
 
-def test_rivals_are_effects() -> None:
-    assert {rival for effect in EFFECTS.values() for rival in effect.rivals} <= set(EFFECTS)
+@pytest.fixture(scope="module")
+def told(made: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What a tool says of them that knows the answers."""
+
+    def tell(out: Path) -> None:
+        assert run(made, results=out, jobs=1, diagnose=tell_the_truth) == []
+
+    return _once(tmp_path_factory, "told", tell)
 
 
-def test_there_are_unnamed_kinds_enough() -> None:
-    assert len(UNNAMED) >= 6
-    assert not set(UNNAMED) & set(NAMED)
-
-
-def test_plans_cover_modes_and_effects_evenly() -> None:
-    planned = plans(5, 300)
-    for mode, share in SHARES.items():
-        assert abs(sum(p.mode == mode for p in planned) - 300 * share) <= 1
-    counts = [sum(p.effects == (name,) for p in planned if p.mode in SINGLE) for name in NAMED]
-    assert max(counts) - min(counts) <= 1
-    assert planned == plans(5, 300)
-    assert planned != plans(6, 300)
+@pytest.fixture(scope="module")
+def cases_told(shared: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What it says of the example cases."""
+    tell = partial(run, shared / "cases", jobs=1, diagnose=tell_the_truth)
+    return _once(tmp_path_factory, "cases_told", lambda out: tell(results=out))
 
 
 @pytest.mark.slow
-def test_a_trial_is_the_same_every_time() -> None:
-    plan = Plan(1, 0, "offset", ("coulomb-friction",), 10.0)
-    first, again = make_trial(plan), make_trial(plan)
-    assert first.answer == again.answer
-    np.testing.assert_array_equal(first.train[0].speed, again.train[0].speed)
-    assert first.answer["visibility"] == pytest.approx(10.0, rel=0.08)
-    assert first.nominal.values != first.answer["true_parameters"]
-
-
-def test_recording_is_the_plant_and_its_noise() -> None:
-    trial = make_trial(Plan(3, 1, "null", (), 1.0))
-    noise, recording = trial.answer["noise"], trial.train[0]
-    clean = simulate(trial.answer["plant"], recording.voltage, rate=trial.answer["sample_rate_Hz"])
-    rms = float(np.sqrt(np.mean((recording.speed - clean.sensed_speed) ** 2)))
-    assert rms == pytest.approx(noise["speed_rms"], rel=0.2)
+def test_a_trial_is_the_same_every_time(made: Path, tmp_path: Path) -> None:
+    """Made again, in another process: one of two effects, and one of a nominal model that is off."""
+    answers = load_answers(made)[1]
+    again = {plan.name: make_trial(plan) for plan in plans(SEED, COUNT) if plan.mode in ("double", "offset")}
+    assert len(again) == 2
+    for name, trial in again.items():
+        assert json.loads(json.dumps(trial.answer)) == answers[name]
+        assert trial.nominal.values != trial.answer["true_parameters"]
+        write_trial(tmp_path / name, trial)
+        files = sorted(path.name for path in (made / name).iterdir())
+        assert files == sorted(path.name for path in (tmp_path / name).iterdir())
+        for file in files:
+            assert (tmp_path / name / file).read_bytes() == (made / name / file).read_bytes()
 
 
 @pytest.mark.slow
-def test_masked_nominal_hides_the_effect() -> None:
+def test_single_effects_are_as_visible_as_planned(made: Path) -> None:
+    answers = load_answers(made)[1]
+    planned = [plan for plan in plans(SEED, COUNT) if plan.mode in ("masked", "novel", "offset")]
+    assert len(planned) == 3
+    for plan in planned:
+        assert answers[plan.name]["visibility"] == pytest.approx(plan.visibility, rel=0.08)
+
+
+@pytest.mark.slow
+def test_masked_nominal_hides_the_effect(made: Path) -> None:
     """The nominal model as given fits the training recordings about as well as its refit."""
-    trial = make_trial(Plan(3, 2, "masked", ("quadratic-drag",), 10.0))
-    errors = []
-    for nominal in (trial.nominal.values, trial.answer["true_parameters"]):
-        squares = [
-            np.mean(
-                (simulate(plant_of(nominal), r.voltage, rate=trial.answer["sample_rate_Hz"]).speed - r.speed)
-                ** 2
-            )
-            for r in trial.train
-        ]
-        errors.append(np.sqrt(np.mean(squares)))
-    assert errors[0] < 0.8 * errors[1]
+    answers = load_answers(made)[1]
+    (answer,) = (answer for answer in answers.values() if answer["mode"] == "masked")
+    folder = made / answer["case"]
+    given = {k: v for k, v in tomllib.loads((folder / "model.toml").read_text())["motor"].items() if k != "kind"}
+    recordings = [read_columns(path) for path in train_files(folder)]
+
+    def error(nominal: dict[str, float]) -> float:
+        plant, rate = plant_of(nominal), answer["sample_rate_Hz"]
+        squares = [np.mean((simulate(plant, r["voltage"], rate=rate).speed - r["speed"]) ** 2) for r in recordings]
+        return float(np.sqrt(np.mean(squares)))
+
+    assert error(given) < 0.8 * error(answer["true_parameters"])
 
 
 @pytest.mark.slow
-def test_folder_holds_recordings_and_no_answer(made: tuple[Path, str]) -> None:
-    folder, _ = made
-    trials = sorted(path for path in folder.iterdir() if path.is_dir())
+def test_folder_holds_recordings_and_no_answer(made: Path) -> None:
+    trials = sorted(path for path in made.iterdir() if path.is_dir())
     assert len(trials) == COUNT
     for trial in trials:
         assert train_files(trial)
@@ -185,9 +141,9 @@ def test_seal_breaks_when_the_answers_change(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_finished_set_is_not_made_again(made: tuple[Path, str]) -> None:
+def test_finished_set_is_not_made_again(made: Path) -> None:
     with pytest.raises(FileExistsError):
-        make(SEED, COUNT, made[0])
+        make(SEED, COUNT, made)
 
 
 def test_seed_must_agree_with_the_split(tmp_path: Path) -> None:
@@ -198,9 +154,8 @@ def test_seed_must_agree_with_the_split(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_truthful_tool_meets_every_target(made: tuple[Path, str], tmp_path: Path) -> None:
-    assert run(made[0], results=tmp_path, jobs=1, diagnose=tell_the_truth) == []
-    graded = grade_folder(made[0], results=tmp_path)
+def test_truthful_tool_meets_every_target(made: Path, told: Path) -> None:
+    graded = grade_folder(made, results=told)
     assert graded.split == "development"
     assert all(target.met in (True, None) for target in score.targets(graded.grades))
     named = [g for g in graded.grades if g.mode in SINGLE]
@@ -211,9 +166,9 @@ def test_truthful_tool_meets_every_target(made: tuple[Path, str], tmp_path: Path
 
 
 @pytest.mark.slow
-def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Path) -> None:
-    run(made[0], results=tmp_path, jobs=1, diagnose=always_backlash)
-    grades = grade_folder(made[0], results=tmp_path).grades
+def test_confident_wrong_tool_is_found_out(made: Path, tmp_path: Path) -> None:
+    run(made, results=tmp_path, jobs=1, diagnose=always_backlash)
+    grades = grade_folder(made, results=tmp_path).grades
     assert not any(g.exact for g in grades if "backlash" not in g.truth)
     assert all(g.false_alarm for g in grades if g.mode == "null")
     assert all(g.confidently_wrong for g in grades if g.mode == "novel")
@@ -221,7 +176,7 @@ def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Pat
     assert count == COUNT
     assert brier == pytest.approx(0.81) or any("backlash" in g.truth + g.equivalent for g in grades)
     console = Console(record=True, width=200, file=None, quiet=False)
-    tables.show(grade_folder(made[0], results=tmp_path), console)
+    tables.show(grade_folder(made, results=tmp_path), console)
     text = console.export_text()
     assert "misses" in text
     assert "not evidence" in text
@@ -230,13 +185,13 @@ def test_confident_wrong_tool_is_found_out(made: tuple[Path, str], tmp_path: Pat
 
 
 @pytest.mark.slow
-def test_several_sets_count_as_one(made: tuple[Path, str], shared: Path, tmp_path: Path) -> None:
-    shutil.copytree(made[0], tmp_path / "copy")
-    run(shared / "cases", results=tmp_path / "results" / "cases", jobs=1, diagnose=tell_the_truth)
+def test_several_sets_count_as_one(made: Path, shared: Path, cases_told: Path, tmp_path: Path) -> None:
+    shutil.copytree(made, tmp_path / "copy")
+    shutil.copytree(cases_told, tmp_path / "results" / "cases")
     with pytest.raises(ValueError, match="mix"):
-        grade_folders([made[0], shared / "cases"], results=tmp_path / "results")
+        grade_folders([made, shared / "cases"], results=tmp_path / "results")
     with pytest.raises(ValueError, match="same seed"):
-        grade_folders([made[0], tmp_path / "copy"])
+        grade_folders([made, tmp_path / "copy"])
     shutil.copytree(shared / "cases", tmp_path / "again")
     run(tmp_path / "again", results=tmp_path / "results" / "again", jobs=1, diagnose=always_backlash)
     both = grade_folders([shared / "cases", tmp_path / "again"], results=tmp_path / "results")
@@ -246,8 +201,8 @@ def test_several_sets_count_as_one(made: tuple[Path, str], shared: Path, tmp_pat
 
 
 @pytest.mark.slow
-def test_trial_without_a_diagnosis_counts_as_wrong(made: tuple[Path, str], tmp_path: Path) -> None:
-    grades = grade_folder(made[0], results=tmp_path).grades
+def test_trial_without_a_diagnosis_counts_as_wrong(made: Path, tmp_path: Path) -> None:
+    grades = grade_folder(made, results=tmp_path).grades
     assert len(grades) == COUNT
     assert not any(g.right or g.honest or g.equation for g in grades)
     assert all(g.false_alarm for g in grades if g.mode == "null")
@@ -273,9 +228,8 @@ def test_folder_without_trials_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_command_line_scores_and_explains_itself(made: tuple[Path, str], tmp_path: Path) -> None:
-    run(made[0], results=tmp_path, jobs=1, diagnose=tell_the_truth)
-    done = CliRunner().invoke(app, ["score", str(made[0]), "--results", str(tmp_path)])
+def test_command_line_scores_and_explains_itself(made: Path, told: Path, tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["score", str(made), "--results", str(told)])
     assert done.exit_code == 0
     assert "targets" in done.output
     wrong = CliRunner().invoke(
@@ -285,47 +239,11 @@ def test_command_line_scores_and_explains_itself(made: tuple[Path, str], tmp_pat
 
 
 @pytest.mark.slow
-def test_example_cases_can_be_scored(shared: Path, tmp_path: Path) -> None:
-    run(shared / "cases", results=tmp_path, jobs=1, diagnose=tell_the_truth)
-    grades = grade_folder(shared / "cases", results=tmp_path).grades
+def test_example_cases_can_be_scored(shared: Path, cases_told: Path) -> None:
+    grades = grade_folder(shared / "cases", results=cases_told).grades
     assert len(grades) == 14
     assert all(g.exact for g in grades if g.mode in (*SINGLE, "double"))
     assert not any(g.false_alarm or g.confidently_wrong for g in grades if g.mode in ("null", "novel"))
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_excitation_has_peak_one_and_moves(kind: str) -> None:
-    shape = (OPEN_LOOP | CLOSED_LOOP)[kind](np.random.default_rng(1), 3000, 40.0)
-    assert shape.shape == (3000,)
-    assert np.max(np.abs(shape)) == pytest.approx(1.0)
-    assert np.std(shape) > 0.1
-
-
-@pytest.mark.parametrize("motor", MOTORS, ids=lambda motor: motor.name)
-def test_speed_loop_settles_on_its_reference(motor: Any) -> None:
-    rate = 2000.0
-    setup = Setup(motor, rate, ("V", "w"))
-    experiment = Experiment("cl_steps", int(100 * motor.time_constant * rate), 0.5 * motor.voltage, (1, 2))
-    trace = setup.run(experiment, plant_of(motor.nominal(dry=True)))
-    wanted = setup.shape(experiment) * 0.4 * motor.voltage / motor.torque_constant
-    closed = motor.torque_constant * motor.time_constant / setup.loop[0]  # s
-    changes = np.flatnonzero(np.diff(wanted))
-    ends = changes[1:][np.diff(changes) > 4.5 * closed * rate]
-    assert ends.size > 2
-    off = np.abs(trace.speed[ends] - wanted[ends]) / np.max(np.abs(wanted))
-    assert np.median(off) < 0.01
-    assert np.max(off) < 0.1  # after a large step, on which the voltage is at its ceiling for long
-    assert np.max(np.abs(trace.voltage)) <= 1.15 * experiment.amplitude * (1 + 1e-6)
-
-
-def test_encoder_speed_has_the_declared_error() -> None:
-    rng = np.random.default_rng(2)
-    speed = 80.0 + 30.0 * np.cumsum(rng.standard_normal(20_000)) / 100.0
-    position = np.cumsum(speed) / 1000.0
-    _, seen = encoder(position, 2048, 1000.0)
-    exact = np.gradient(position) * 1000.0
-    rms = float(np.sqrt(np.mean((seen - exact)[1:-1] ** 2)))
-    assert rms == pytest.approx(Noise.of_encoder(2048, 1000.0, 0.0).speed, rel=0.05)
 
 
 def test_demonstration_recordings_can_be_made_again(tmp_path: Path) -> None:
@@ -340,30 +258,3 @@ def test_demonstration_recordings_can_be_made_again(tmp_path: Path) -> None:
         assert list(fresh) == list(old)
         for signal, values in fresh.items():
             np.testing.assert_allclose(values, old[signal], rtol=2e-5, atol=1e-6)
-
-
-def test_effects_that_no_bench_shows_are_dealt_again() -> None:
-    for plan in plans(5, 60):
-        other = redealt(plan, 12)
-        assert other == redealt(plan, 12)
-        assert (other.mode, other.visibility, other.name) == (plan.mode, plan.visibility, plan.name)
-        assert len(other.effects) == len(plan.effects)
-        assert (other.effects != plan.effects) == bool(plan.effects)
-
-
-def test_a_machine_that_cannot_be_is_drawn_again() -> None:
-    """Two effects may leave no inertia on the motor side (trial 45 of seed 10013)."""
-    scene, _ = draw_scene(np.random.default_rng(1), (0, 1, 1), [])
-    nothing_left = scene.plant([]) | {"load_inertia": 2.0 * scene.true["inertia"]}
-    with pytest.raises(UnsuitableError, match="no such machine"):
-        scene.run(scene.train, nothing_left)
-
-
-def test_held_out_runs_move() -> None:
-    """One of trial 22 of seed 10014 stood still in its dry friction."""
-    scene, _ = draw_scene(np.random.default_rng(1), (0, 1, 1), [])
-    moving = scene.run(scene.heldout, scene.plant([]))
-    must_move(moving)
-    stuck = scene.run(scene.heldout, scene.plant([]) | {"coulomb_plus": 1e3, "coulomb_minus": 1e3})
-    with pytest.raises(UnsuitableError, match="never moves"):
-        must_move([*moving, *stuck])
