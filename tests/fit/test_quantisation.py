@@ -12,20 +12,29 @@ import rwn
 from rwn.recording.quantisation import mean_rounding_error
 
 DEMO = Path(rwn.__file__).parent / "demo"
+STEP = 17.77  # rad/s
+
+
+def diagnosed(step: float) -> rwn.Diagnosis:
+    """The demonstration with its speed rounded to steps of so many rad/s."""
+    model = rwn.read_model(DEMO / "model.toml")
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    speed = step * np.round(recording.signals["speed"] / step)
+    return rwn.diagnose([replace(recording, signals={**recording.signals, "speed": speed})], model)
+
+
+@pytest.fixture(scope="module")
+def coarse() -> rwn.Diagnosis:
+    return diagnosed(STEP)
 
 
 @pytest.mark.slow
-def test_a_coarse_speed_signal_is_named() -> None:
-    model = rwn.read_model(DEMO / "model.toml")
-    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    step = 17.77
-    speed = step * np.round(recording.signals["speed"] / step)
-    found = rwn.diagnose([replace(recording, signals={**recording.signals, "speed": speed})], model)
-    assert found.verdict == "missing-physics"
-    assert {e.name for e in found.effects} == {"coulomb-friction", "sensor-quantization"}
-    rounding = next(e for e in found.effects if e.name == "sensor-quantization")
+def test_a_coarse_speed_signal_is_named(coarse: rwn.Diagnosis) -> None:
+    assert coarse.verdict == "missing-physics"
+    assert {e.name for e in coarse.effects} == {"coulomb-friction", "sensor-quantization"}
+    rounding = next(e for e in coarse.effects if e.name == "sensor-quantization")
     assert rounding.equation == "sensor"
-    assert rounding.parameters["resolution"].value == pytest.approx(step, rel=1e-6)
+    assert rounding.parameters["resolution"].value == pytest.approx(STEP, rel=1e-6)
 
 
 @pytest.mark.parametrize("noise", [0.05, 0.2, 0.6])
@@ -38,13 +47,7 @@ def test_the_mean_rounding_error_is_that_of_rounded_draws(noise: float) -> None:
 
 
 @pytest.mark.slow
-def test_how_coarse_a_speed_is_does_not_bend_the_motor() -> None:
+def test_how_coarse_a_speed_is_does_not_bend_the_motor(coarse: rwn.Diagnosis) -> None:
     """A slow speed between two steps is shown wrong in the same way for long: plain least squares follows it."""
-    model = rwn.read_model(DEMO / "model.toml")
-    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    torques = []
-    for step in (17.77, 30.0):
-        speed = step * np.round(recording.signals["speed"] / step)
-        found = rwn.diagnose([replace(recording, signals={**recording.signals, "speed": speed})], model)
-        torques.append(found.effects[0].parameters["coulomb_torque"].value)
-    assert torques[0] == pytest.approx(torques[1], rel=1e-3)  # 7e-3 without
+    first, second = (found.effects[0].parameters["coulomb_torque"].value for found in (coarse, diagnosed(30.0)))
+    assert first == pytest.approx(second, rel=1e-3)  # 7e-3 without

@@ -49,6 +49,7 @@ def test_every_experiment_runs_at_a_tiny_count(experiment: Experiment, results: 
     assert len(experiment.choices) > 80, "the file must state at its top what the thesis leaves open"
 
 
+@pytest.mark.slow
 def test_every_number_of_the_thesis_has_one_row(results: Path) -> None:
     """Runs on what the test above has left in the folder, and makes what is missing."""
     found = run(EXPERIMENTS, results, count="tiny")
