@@ -20,11 +20,18 @@ def read(folder: Path, model: rwn.Model, *names: str) -> list[rwn.Recording]:
     return [rwn.read_recording(folder / name, layout=model.recording) for name in names]
 
 
+def first_half(recording: rwn.Recording) -> rwn.Recording:
+    half = len(recording) // 2
+    return replace(recording, time=recording.time[:half], signals={s: v[:half] for s, v in recording.signals.items()})
+
+
 def example(shared: Path, number: int) -> tuple[Diagnosis, dict[str, object]]:
+    """What is found on half of every recording of an example case, which takes little more than half the time."""
     folder = shared / f"cases/case_{number:02d}"
     model = rwn.read_model(folder / "model.toml")
     train = sorted(p.name for p in folder.glob("train_?.csv"))
-    found = rwn.diagnose(read(folder, model, *train), model, heldout=read(folder, model, "heldout_1.csv"))
+    fitted = [first_half(recording) for recording in read(folder, model, *train)]
+    found = rwn.diagnose(fitted, model, heldout=read(folder, model, "heldout_1.csv"))
     return found, json.loads((folder / "answer.json").read_text())
 
 
