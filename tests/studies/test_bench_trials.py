@@ -253,7 +253,8 @@ def test_targets_and_tables(folder: Path) -> None:
     rows = score.broken_down([right, replace(alarm, kinds=("hum", "spikes"))], score.BREAKDOWNS["imperfection"])
     assert set(rows) == {"late-channel", "hum", "spikes"}
     console = Console(record=True, width=200)
-    tables.show(BenchGraded(seeds=(5,), split="development", grades=[right, alarm, quiet]), console)
+    for part in tables.shown(BenchGraded(seeds=(5,), split="development", grades=[right, alarm, quiet])):
+        console.print(part)
     text = console.export_text()
     for words in ("targets", "by imperfection", "by background", "by judge", "reliability", "misses", "not evidence"):
         assert words in text

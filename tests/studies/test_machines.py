@@ -20,11 +20,11 @@ from rwn.report.diagnosis import Diagnosis
 from rwn.studies.machines import ced, emps, fra233, frc, hall, laas, odrive, undc, xl330
 from rwn.studies.machines.hand_fit import HANDS, fitted, rms, shown
 from rwn.studies.machines.machine import Error, Outcome, cut, nominal_model
-from rwn.studies.machines.page import check_sections, write_section
 from rwn.studies.machines.registry import MACHINES
 from rwn.studies.machines.runner import run_machines
 from rwn.studies.machines.sliding_motor import Drive, slide
 from rwn.studies.machines.table import markdown
+from rwn.studies.sections import check_sections, write_section
 
 
 def silent(text: str) -> None:
@@ -174,8 +174,8 @@ def test_a_section_of_the_page_is_written_anew_and_the_rest_kept(tmp_path: Path)
     page = tmp_path / "page.md"
     page.write_text("above\n<!-- rwn evidence emps -->\nold\n<!-- end -->\nby hand\n", encoding="utf-8")
     with pytest.raises(InputError, match="there is no section for 'ced'"):
-        check_sections(page, ["emps", "ced"])
-    write_section(page, "emps", "| new |", 12.0)
+        check_sections(page, "evidence", ["emps", "ced"])
+    write_section(page, "evidence", "emps", "| new |")
     text = page.read_text(encoding="utf-8")
     assert text.startswith("above\n<!-- rwn evidence emps -->\n| new |\n")
     assert text.endswith("<!-- end -->\nby hand\n")

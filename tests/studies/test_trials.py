@@ -176,7 +176,8 @@ def test_confident_wrong_tool_is_found_out(made: Path, tmp_path: Path) -> None:
     assert count == COUNT
     assert brier == pytest.approx(0.81) or any("backlash" in g.truth + g.equivalent for g in grades)
     console = Console(record=True, width=200, file=None, quiet=False)
-    tables.show(grade_folder(made, results=tmp_path), console)
+    for part in tables.shown(grade_folder(made, results=tmp_path)):
+        console.print(part)
     text = console.export_text()
     assert "misses" in text
     assert "not evidence" in text
@@ -232,6 +233,18 @@ def test_command_line_scores_and_explains_itself(made: Path, told: Path, tmp_pat
     done = CliRunner().invoke(app, ["score", str(made), "--results", str(told)])
     assert done.exit_code == 0
     assert "targets" in done.output
+    page = tmp_path / "page.md"
+    page.write_text("above\n<!-- rwn trials score trials -->\nold\n<!-- end -->\nbelow\n")
+    line = ["score", str(made), "--results", str(told), "--page", str(page)]
+    assert CliRunner().invoke(app, line).exit_code == 0
+    text = page.read_text()
+    assert text.startswith("above\n<!-- rwn trials score trials -->\n6 trials, seed 661, development split")
+    assert "targets:\n\n| figure | asked | found | met |\n|---|---|---|---|\n| " in text
+    assert (made / "answers.sha256").read_text().split()[0] in text
+    assert "old" not in text
+    assert text.endswith("<!-- end -->\nbelow\n")
+    other = CliRunner().invoke(app, ["score", str(told), "--page", str(page)])
+    assert "there is no section for 'told'" in str(other.exception)
     wrong = CliRunner().invoke(
         app, ["make", "--seed", "3", "--count", "1", "--out", str(tmp_path / "x"), "--split", "test"]
     )

@@ -11,9 +11,12 @@ from rwn.errors import InputError, unknown
 from rwn.report import write_report
 from rwn.studies.machines.hand_fit import HANDS, Errors
 from rwn.studies.machines.machine import Outcome
-from rwn.studies.machines.page import check_sections, write_section
 from rwn.studies.machines.registry import MACHINES
 from rwn.studies.machines.table import markdown
+from rwn.studies.made import made
+from rwn.studies.sections import check_sections, write_section
+
+COMMAND = "evidence"
 
 
 def run_machines(
@@ -36,13 +39,14 @@ def run_machines(
             fix="give it with --data; the recordings are not part of rwn",
         )
     if page:
-        check_sections(page, names)
+        check_sections(page, COMMAND, names)
     tables = []
     for name in names:
         table, took = _run(name, data, folder, by_hand=by_hand)
         tables.append(table)
         if page:
-            write_section(page, name, table, took)
+            by = f"Made on {made().date} by {made().commit}, diagnosed in {took:.0f} s."
+            write_section(page, COMMAND, name, f"{table}\n{by}")
     text = "\n".join(tables)
     (folder / "table.md").write_text(text, encoding="utf-8")
     return text

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -46,13 +46,15 @@ def write_speed(path: Path, time: Array, speed: Array) -> None:
 def diagnose_trial(folder: Path, out: Path) -> None:
     """Diagnoses the training recordings, then simulates the corrected model on the held-out voltages.
 
-    Writes diagnosis.json, corrected.toml, heldout_*_simulated.csv (time, speed) and timing.json to `out`, and
-    heldout_*_refitted.csv of the nominal structure refitted where a corrected model is offered.
+    Writes diagnosis.json, corrected.toml, heldout_*_simulated.csv (time, speed) and timing.json (how long it took; the
+    date, the commit, the machine) to `out`, and heldout_*_refitted.csv of the nominal structure refitted where a
+    corrected model is offered.
     """
     from rwn.diagnose import diagnose  # heavy, and the score needs only the file names above
     from rwn.model.files import read_model, write_model
     from rwn.recording.recording import read_recording
     from rwn.simulate.simulation import simulate
+    from rwn.studies.made import made
 
     out.mkdir(parents=True, exist_ok=True)
     model = read_model(folder / "model.toml")
@@ -69,5 +71,5 @@ def diagnose_trial(folder: Path, out: Path) -> None:
         if found.corrected is not None and fitted:
             refitted = simulate(replace(model, parameters={**model.parameters, **fitted}, uncertainty={}), recording)
             write_speed(refitted_file(out, path), recording.time, refitted.signals["speed"])
-    (out / "timing.json").write_text(json.dumps({"seconds": round(elapsed, 3)}))
+    (out / "timing.json").write_text(json.dumps({"seconds": round(elapsed, 3), **asdict(made())}))
     (out / "diagnosis.json").write_bytes(found.to_json())  # last: its presence says that all is done

@@ -81,6 +81,7 @@ def score(
         typer.Option(help="Where the diagnoses are; of several FOLDERS, in a folder for each (default: TRIAL/out)."),
     ] = None,
     plot: Annotated[Path | None, typer.Option(help="HTML file for the reliability plot.")] = None,
+    page: Annotated[Path | None, typer.Option(help="Markdown page whose section of them is written anew.")] = None,
 ) -> None:
     """Open the sealed answers (or the answer.json files) and print how good the diagnoses are."""
     from rich.console import Console
@@ -89,20 +90,27 @@ def score(
     from rwn.studies.trials.bench_trials import score as bench_score
     from rwn.studies.trials.bench_trials import tables as bench_tables
     from rwn.studies.trials.grade import grade_folders
+    from rwn.studies.trials.page import check_page, write_page
     from rwn.studies.trials.score import reliability
-    from rwn.studies.trials.tables import reliability_plot, show
+    from rwn.studies.trials.tables import reliability_plot, shown
 
-    console = Console(width=None if sys.stdout.isatty() else 150)  # a file has room
+    if page is not None:
+        check_page(page, folders)
     if any(bench_grade.is_bench(folder) for folder in folders):
         on_benches = bench_grade.grade_folders(folders, results=results)
-        bench_tables.show(on_benches, console)
+        told = bench_tables.shown(on_benches)
         bins = bench_score.reliability(on_benches.grades)
     else:
         graded = grade_folders(folders, results=results)
-        show(graded, console)
+        told = shown(graded)
         bins = reliability(graded.grades)
+    console = Console(width=None if sys.stdout.isatty() else 150)  # a file has room
+    for part in told:
+        console.print(part)
     if plot is not None:
         reliability_plot(bins, plot)
+    if page is not None:
+        write_page(page, folders, told, results=results)
 
 
 @app.command()

@@ -1,11 +1,10 @@
-"""Prints a score, and draws its reliability plot."""
+"""A score as tables, and its reliability plot."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from rich.console import Console
 from rich.table import Table
 
 from rwn.studies.trials import score
@@ -20,21 +19,21 @@ BREAKDOWNS = {
 }
 
 
-def show(graded: Graded, console: Console) -> None:
+def shown(graded: Graded) -> list[str | Table]:
     """Everything that the score says, the promised figures first."""
     grades = graded.grades
     missing = sum(g.verdict == NO_RESULT for g in grades)
-    console.print(heading(f"{len(grades)} trials", missing, graded.seeds, graded.split))
-    console.print(target_table(score.targets(grades)))
-    for name, by in BREAKDOWNS.items():
-        console.print(rows(f"single effects by {name}", name, score.broken_down(grades, by)))
     spoilt = score.mistakes(grades)
-    if spoilt:
-        console.print(rows("recording mistakes", "mistake", spoilt))
-    console.print(reliability_table(score.brier(grades), score.reliability(grades), "named"))
-    console.print(rows("parameters of rightly named effects", "parameter", score.parameter_errors(grades)))
-    console.print(_confusion(grades))
-    console.print(_misses(grades))
+    return [
+        heading(f"{len(grades)} trials", missing, graded.seeds, graded.split),
+        target_table(score.targets(grades)),
+        *(rows(f"single effects by {name}", name, score.broken_down(grades, by)) for name, by in BREAKDOWNS.items()),
+        *([rows("recording mistakes", "mistake", spoilt)] if spoilt else []),
+        reliability_table(score.brier(grades), score.reliability(grades), "named"),
+        rows("parameters of rightly named effects", "parameter", score.parameter_errors(grades)),
+        _confusion(grades),
+        _misses(grades),
+    ]
 
 
 def heading(trials: str, missing: int, numbers: Sequence[int], split: str | None) -> str:

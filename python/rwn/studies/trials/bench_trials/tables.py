@@ -1,10 +1,9 @@
-"""Prints the score of bench trials."""
+"""The score of bench trials as tables."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rich.console import Console
 from rich.table import Table
 
 from rwn.studies.trials.bench_trials import score
@@ -13,16 +12,17 @@ from rwn.studies.trials.grade import NO_RESULT
 from rwn.studies.trials.tables import heading, reliability_table, rows, target_table
 
 
-def show(graded: BenchGraded, console: Console) -> None:
+def shown(graded: BenchGraded) -> list[str | Table]:
     """Everything that the score says, the figures with targets first."""
     grades = graded.grades
     missing = sum(g.verdict == NO_RESULT for g in grades)
-    console.print(heading(f"{len(grades)} bench trials", missing, graded.seeds, graded.split))
-    console.print(target_table(score.targets(grades)))
-    for name, keys in score.BREAKDOWNS.items():
-        console.print(rows(f"by {name}", name, score.broken_down(grades, keys)))
-    console.print(reliability_table(score.brier(grades), score.reliability(grades), "statements"))
-    console.print(_misses(grades))
+    return [
+        heading(f"{len(grades)} bench trials", missing, graded.seeds, graded.split),
+        target_table(score.targets(grades)),
+        *(rows(f"by {name}", name, score.broken_down(grades, keys)) for name, keys in score.BREAKDOWNS.items()),
+        reliability_table(score.brier(grades), score.reliability(grades), "statements"),
+        _misses(grades),
+    ]
 
 
 def _misses(grades: Sequence[BenchGrade]) -> Table:
