@@ -182,56 +182,6 @@ def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rw
     assert suspected([friction], model) is None, "missing physics is none"
 
 
-@pytest.mark.parametrize("ratio", [0.4, 1.0 / 3.5, -0.3, 4.0])
-def test_gear_ratio(model: rwn.Model, ratio: float) -> None:
-    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    found = wrong_scale([altered(friction, MOTION, ratio)], model)
-    assert found is not None
-    assert (found.name, found.also) == ("wrong-gear-ratio", ())
-    assert found.factor == pytest.approx(ratio, rel=0.15)  # friction slows the motor too
-
-
-@pytest.mark.slow
-def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Model) -> None:
-    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    wrong = altered(friction, MOTION, 1.0 / 3.5)
-    first = wrong_scale([wrong], model)
-    faults, ranking = resolved([wrong], model, say=silent)
-    assert first is not None
-    assert [f.name for f in faults] == ["wrong-gear-ratio"]
-    assert abs(3.5 * faults[0].factor - 1.0) <= abs(3.5 * first.factor - 1.0)
-    assert faults[0].factor == pytest.approx(1.0 / 3.5, rel=0.05)
-    interval = faults[0].found().parameters["factor"].interval
-    assert interval is not None
-    assert interval[0] < 1.0 / 3.5 < interval[1]
-    assert ranking.fits[0].added == ("coulomb-friction",)
-
-
-@pytest.mark.parametrize(("share", "ratio"), [(0.6, 1.0), (0.8, 1.0), (0.3, 0.4), (0.3, 4.0)])
-def test_what_friction_takes_from_small_steps_is_no_gear(model: rwn.Model, share: float, ratio: float) -> None:
-    """Between 2.8 and 3.2 V a level of friction makes much of the speed's size, and nothing of what it changes by."""
-    time = np.arange(0.0, 2.0, 1e-3)
-    voltage = np.where((time // 0.1) % 2 > 0, 3.2, 2.8)
-    stall = model.parameters["torque_constant"] * 2.8 / model.parameters["resistance"]
-    rubbing = replace(model, effects={"coulomb-friction": {"coulomb_torque": share * stall}})
-    unseen = rwn.Recording(name="steps", time=time, signals={"voltage": voltage, "speed": np.zeros(time.size)})
-    speed = ratio * rwn.simulate(rubbing, unseen).signals["speed"]
-    found = wrong_scale([replace(unseen, signals={"voltage": voltage, "speed": speed})], model)
-    assert (found.name if found else None) == (None if ratio == 1.0 else "wrong-gear-ratio")
-    if found:
-        assert found.factor == pytest.approx(ratio, rel=0.25)
-
-
-def test_a_level_that_no_scale_makes_is_no_gear(model: rwn.Model) -> None:
-    """A bridge that passes small commands four times as steeply, beyond a dead zone: no gear gives both."""
-    time = np.arange(0.0, 10.0, 0.02)
-    voltage = np.where(time < 5.0, 0.363, 0.4375)
-    unseen = rwn.Recording(name="step", time=time, signals={"voltage": voltage, "speed": np.zeros(time.size)})
-    passed = replace(unseen, signals={"voltage": 4.0 * (voltage - 0.25), "speed": np.zeros(time.size)})
-    speed = rwn.simulate(model, passed).signals["speed"]
-    assert wrong_scale([replace(unseen, signals={"voltage": voltage, "speed": speed})], model) is None
-
-
 def test_a_gear_of_the_size_of_a_unit_is_not_told_from_it(model: rwn.Model, right: rwn.Recording) -> None:
     found = wrong_scale([altered(right, MOTION, 1.0 / 6.2)], model)
     assert found is not None
