@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <stdexcept>
+#include <string_view>
 
 #include "rwn/simulate/active_effects.hpp"
 #include "rwn/simulate/transfer_function.hpp"
@@ -60,6 +62,7 @@ py::dict describe_effect() {
   d["turns"] = E::traits.turns;
   d["second_mass"] = has(E::traits.hooks, Hook::joint);
   d["guess"] = std::string(to_string(E::traits.guess));
+  d["special_case"] = std::string(E::traits.special_case);
   return d;
 }
 
@@ -67,6 +70,36 @@ py::list effect_table() {
   py::list table;
   std::apply([&](auto... e) { (table.append(describe_effect<decltype(e)>()), ...); }, Effects{});
   return table;
+}
+
+/// Number of parameters of the effect of this name.
+std::size_t parameters_of(std::string_view name) {
+  std::size_t count = 0;
+  std::apply([&](auto... e) { ((count += decltype(e)::info.name == name ? decltype(e)::parameters.size() : 0), ...); },
+             Effects{});
+  return count;
+}
+
+/// Whether `general` are parameters of the effect E of this name, which has a special case: then with its parameters.
+template <class E>
+bool specialise(std::string_view name, const std::vector<double>& general, std::vector<double>& special) {
+  if constexpr (requires { &E::specialise; }) {
+    if (name != E::info.name || general.size() != E::parameters.size()) return false;
+    special.resize(parameters_of(E::traits.special_case));
+    E::specialise(general.data(), special.data());
+    return true;
+  }
+  return false;
+}
+
+std::vector<double> special_case_parameters(const std::string& name, const std::vector<double>& general) {
+  std::vector<double> special;
+  const bool found = std::apply([&](auto... e) { return (specialise<decltype(e)>(name, general, special) || ...); },
+                                Effects{});
+  if (!found) {
+    throw std::invalid_argument("no special case of " + name + " by " + std::to_string(general.size()) + " parameters");
+  }
+  return special;
 }
 
 bool has_current(int drive) {
@@ -107,6 +140,8 @@ py::tuple run(const Task& task, const Array& parameters, const std::vector<int>&
 void bind_simulate(py::module_& m) {
   m.def("motor_parameter_table", [] { return describe_all(motor_parameters); }, "The motor's own parameters.");
   m.def("effect_table", &effect_table, "Every effect with its parameters, as the C++ table states them.");
+  m.def("special_case_parameters", &special_case_parameters, "effect"_a, "parameters"_a,
+        "Parameters of an effect's special case, in the order of the table, from those of the effect.");
   m.attr("scale_quantities") = std::vector<std::string>(Scale::quantities.begin(), Scale::quantities.end());
   m.def("parameter_count", &parameter_count);
   m.def("first_coefficient", &first_coefficient);

@@ -298,6 +298,10 @@ def simulate_plant(network: StructuredNetwork, input: typing.Annotated[numpy.typ
     """
 def simulation_advice(arg0: str) -> str:
     ...
+def special_case_parameters(effect: str, parameters: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> list[float]:
+    """
+    Parameters of an effect's special case, in the order of the table, from those of the effect.
+    """
 def structured_levenberg_marquardt(network: StructuredNetwork, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"], *, network_speed: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], feed: str, current: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], current_weight: typing.SupportsFloat | typing.SupportsIndex, learn: collections.abc.Sequence[bool], iterations: typing.SupportsInt | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex, tolerance: typing.SupportsFloat | typing.SupportsIndex, gauge: bool, weights_first: bool, ridge: typing.SupportsFloat | typing.SupportsIndex) -> StructuredFit:
     ...
 def structured_trainer_defaults() -> dict:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import pytest
@@ -16,3 +17,23 @@ def test_every_parameter_is_found_in_the_equation(effect: Effect) -> None:
             assert re.search(rf"(?<!\w){re.escape(p.symbol)}(?!\w)", effect.equation), (p.name, p.symbol)
         else:
             assert p.idealised  # what stands for rigid or abrupt: the equation does without it
+
+
+@pytest.mark.parametrize("effect", table().values(), ids=lambda e: e.name)
+def test_a_special_case_starts_from_the_general_law(effect: Effect) -> None:
+    values = {p.name: p.start for p in effect.parameters}
+    if not effect.special_case:
+        with pytest.raises(ValueError, match=f"no special case of {effect.name}"):
+            effect.as_special_case(values)
+        return
+    special = table()[effect.special_case]
+    found = effect.as_special_case(values)
+    assert list(found) == [p.name for p in special.parameters]
+    assert all(math.isfinite(value) for value in found.values())
+
+
+def test_a_drag_of_the_second_power_is_quadratic() -> None:
+    law = table()["power-law-drag"]
+    assert law.special_case == "quadratic-drag"
+    found = law.as_special_case({"drag_torque": 0.02, "exponent": 2.0, "reference_speed": 50.0})
+    assert found == {"drag_coefficient": pytest.approx(0.02 / 50.0**2, rel=1e-15)}

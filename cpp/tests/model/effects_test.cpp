@@ -42,5 +42,20 @@ TEST(Effects, EveryFrictionLevelIsIntegratedAsDryFriction) {
   }(std::make_index_sequence<effect_count>{});
 }
 
+TEST(Effects, PowerLawDragOfPowerTwoIsItsSpecialCase) {
+  const double general[] = {0.02, 2.0, 50.0};
+  double special[1];
+  PowerLawDrag::specialise(general, special);
+  EXPECT_EQ(PowerLawDrag::traits.special_case, QuadraticDrag::info.name);
+  for (const double speed : {-120.0, 50.0, 300.0}) {
+    Motion<double> x;
+    x.speed = speed;
+    Terms<double> law, quadratic;
+    PowerLawDrag::apply(general, small_motor(), x, law);
+    QuadraticDrag::apply(special, small_motor(), x, quadratic);
+    EXPECT_NEAR(law.torque / quadratic.torque, 1.0, 1e-4);  // viscous below a hundredth of the reference speed
+  }
+}
+
 }  // namespace
 }  // namespace rwn

@@ -76,6 +76,7 @@ class Effect:
     turns: bool = False  # whether it depends on the angle
     second_mass: bool = False  # whether it brings one; there is room for one
     guess: str = "scan"  # where first guesses come from, besides what its parameters scan (effect.hpp)
+    special_case: str = ""  # the simpler effect that it is at one value of a parameter
     own: bool = False  # defined by the user
 
     @property
@@ -87,6 +88,11 @@ class Effect:
     def instants(self) -> tuple[Parameter, ...]:
         """Begin and end of the time that it acts for, where it acts for a while."""
         return tuple(p for p in self.parameters if p.scale.powers == {"duration": 1}) if self.guess == "window" else ()
+
+    def as_special_case(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Parameters (SI) of its special case, from its own; raises ValueError where it has none."""
+        found = _core.special_case_parameters(self.name, [values[p.name] for p in self.parameters])
+        return dict(zip((p.name for p in table()[self.special_case].parameters), found, strict=True))
 
     def at(self, parameter: str) -> int:
         """Position of one of its parameters in the parameter vector."""

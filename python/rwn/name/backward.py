@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -15,13 +15,6 @@ from rwn.model.vocabulary import table
 from rwn.parallel import side_by_side
 
 PLAIN = "coulomb-friction"  # the law of dry friction that the other ones elaborate
-# laws with a name of their own at one value of a parameter, and their parameters there
-SPECIAL_CASE: dict[str, tuple[str, Callable[[Mapping[str, float]], dict[str, float]]]] = {
-    "power-law-drag": (
-        "quadratic-drag",
-        lambda law: {"drag_coefficient": law["drag_torque"] / law["reference_speed"] ** 2},
-    ),
-}
 
 
 def with_simpler(problem: Problem, nominal: Fit, fits: list[Fit]) -> list[Fit]:
@@ -50,8 +43,8 @@ def _simpler(problem: Problem, best: Fit) -> list[Fit]:
         starts = best.starts(n for n in names if n in best.added)
         starts |= {PLAIN: _plain_values(best)} if PLAIN in names and PLAIN not in starts else {}
         for general in best.added:
-            if general in SPECIAL_CASE and _special(general) in names:
-                starts[_special(general)] = SPECIAL_CASE[general][1](best.values_of(general))
+            if _special(general) != general and _special(general) in names:
+                starts[_special(general)] = table()[general].as_special_case(best.values_of(general))
         this = hypothesis(problem.prior, names, problem.scales, starts, best.motor)
         return down_secants(problem, fit(problem, this, share=share), turns=1, share=share)
 
@@ -60,7 +53,9 @@ def _simpler(problem: Problem, best: Fit) -> list[Fit]:
 
 
 def _special(name: str) -> str:
-    return SPECIAL_CASE[name][0] if name in SPECIAL_CASE else name
+    """The special case of an effect; the effect itself where it has none, as a user's own."""
+    known = table().get(name)
+    return (known.special_case if known else "") or name
 
 
 def _replaces(name: str) -> set[str]:

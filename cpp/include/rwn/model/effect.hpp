@@ -16,6 +16,10 @@
 //   finish(p, motor, h, before, after, memory)     its memory after a step
 //   sense(p, reading, memory)         maps the true signals to what is recorded
 //
+// and, on doubles alone, where the traits name a special case:
+//
+//   specialise(p, special)            parameters to start the special case from
+//
 // A function that is listed and not there, or there and not listed, or of another signature, does not compile.
 #pragma once
 
@@ -77,6 +81,7 @@ struct EffectTraits {
   bool turns = false;            // depends on the angle
   int memories = 0;              // numbers that it remembers from step to step
   Guess guess = Guess::scan;
+  std::string_view special_case{};  // the simpler effect that it is at one value of a parameter, tried in its place
 };
 
 /// Signatures of the hooks for scalar S.
@@ -92,6 +97,8 @@ struct HookTypes {
   using Finish = void (*)(const S*, const Motor<S>&, const S&, const Motion<S>&, const Motion<S>&, S*);
   using Sense = void (*)(const S*, Reading<S>&, const S*);
 };
+
+using Specialise = void (*)(const double*, double*);
 
 template <class Wanted, class Given>
 consteval bool is_signature() {
@@ -136,6 +143,12 @@ consteval bool is_effect() {
   RWN_HOOK(finish, T::Finish)
   RWN_HOOK(sense, T::Sense)
 #undef RWN_HOOK
+  if constexpr (requires { &E::specialise; }) {
+    static_assert(!E::traits.special_case.empty(), "`specialise` is there and no special case is named in traits");
+    is_signature<Specialise, decltype(&E::specialise)>();
+  } else {
+    static_assert(E::traits.special_case.empty(), "a special case is named in traits and `specialise` is not there");
+  }
   static_assert(E::traits.memories == 0 || has(hooks, Hook::finish) || has(hooks, Hook::begin),
                 "an effect that remembers something says how its memory changes");
   return true;

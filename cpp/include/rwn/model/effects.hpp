@@ -1,6 +1,7 @@
 // The table of effects. A new effect is a file in effects/, its include and its entry in the tuple; nothing else.
 #pragma once
 
+#include <string_view>
 #include <tuple>
 
 #include "rwn/model/effects/actuator_deadzone.hpp"
@@ -48,9 +49,15 @@ using Effects =
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 
 namespace detail {
+template <class E, class... All>
+consteval bool has_known_special_case() {
+  constexpr std::string_view name = E::traits.special_case;
+  return name.empty() || (name != E::info.name && ((name == All::info.name) || ...));
+}
 template <class... E>
 consteval bool all_effects(const std::tuple<E...>*) {
   static_assert((0 + ... + E::traits.memories) <= max_memories, "there is no room for the memories of all effects");
+  static_assert((has_known_special_case<E, E...>() && ...), "a special case is another effect of the table");
   return (Effect<E> && ...);
 }
 }  // namespace detail

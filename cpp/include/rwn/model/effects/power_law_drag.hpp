@@ -37,7 +37,7 @@ struct PowerLawDrag {
                                                    .start = 1.0,
                                                    .scale = scale::speed,
                                                    .fixed = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .special_case = "quadratic-drag"};
   static constexpr double viscous_below = 0.01;  // of the reference speed, so that its slope is finite
 
   template <class S>
@@ -46,6 +46,7 @@ struct PowerLawDrag {
     const S ratio = x.speed / p[2];
     t.torque -= p[0] * ratio * pow(ratio * ratio + viscous_below * viscous_below, 0.5 * (p[1] - 1.0));
   }
+  static void specialise(const double* p, double* quadratic) { quadratic[0] = p[0] / (p[2] * p[2]); }
   /// By its steepest slope over the speeds of the next h: at the lowest of them below the first power, else the highest.
   template <class S>
   static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
