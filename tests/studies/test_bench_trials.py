@@ -152,7 +152,7 @@ def the_answer(**changes: Any) -> dict[str, Any]:
     base = {
         "effects": [effect], "equivalent": ["cubic-drag"], "also_true": ["input-delay"], "background": None,
         "imperfections": [{"kind": "late-channel"}], "judge": "plant", "visibility_each": {"quadratic-drag": 12.0},
-        "noise": {"recorded_speed_rms": 1.0}, "heldout_clean_speed": [[0.0, 0.0, 0.0]],
+        "noise": {"kind": "white", "recorded_speed_rms": 1.0}, "heldout_clean_speed": [[0.0, 0.0, 0.0]],
     }  # fmt: skip
     return base | changes
 
@@ -187,6 +187,13 @@ def test_a_right_name_counts_and_its_interval(folder: Path) -> None:
     assert found.wrong_above(0.5) == ()
     assert [p.covered for p in found.parameters] == [True]
     assert score.brier([found]) == (pytest.approx(0.01), 1)
+
+
+def test_the_speed_of_an_encoder_lies_on_steps(folder: Path) -> None:
+    counted = the_answer(noise={"kind": "encoder", "recorded_speed_rms": 1.0})
+    said = stated(("quadratic-drag", 0.9), ("sensor-quantization", 0.99))
+    assert graded(folder, counted, said).wrong_above(0.5) == ()
+    assert graded(folder, the_answer(), said).wrong_above(0.5) == ("sensor-quantization",)
 
 
 def test_a_name_of_an_imperfection_is_no_wrong_name_and_no_answer(folder: Path) -> None:
