@@ -55,16 +55,22 @@ def check_nominal(values: Mapping[str, float], known: Iterable[NominalParameter]
 
 
 def check_uncertainty(values: Mapping[str, float], parameters: Mapping[str, float], *, where: str) -> None:
-    """Each is a relative deviation of a value that is not 0. Raises InputError."""
+    """Each is a relative deviation of a value that is not 0, at most 1, or infinite. Raises InputError.
+
+    Above 1 it would say that the value may as well be of the other sign: it is a percentage without its sign, or
+    nothing is known, and a number would feign that something is.
+    """
+    check_numbers({name: value for name, value in values.items() if value != math.inf}, where=where)
     for name, value in values.items():
-        if value < 0 or value > 1e3:
+        if value < 0 or 1 < value < math.inf:
+            in_percent = f'write {value / 100:g} or "{value:g} %", or inf' if value <= 100 else "write inf"
             raise InputError(
-                f"{name} is {value:g}",
+                f"{name} is {value:g}" + (f", that is {100 * value:g} %" if value > 0 else ""),
                 where=where,
-                expected="a relative standard deviation, 0.1 = 10 %",
-                fix="write it without a sign" if value < 0 else "write the share of the nominal value",
+                expected="a relative standard deviation of at most 1, 0.1 = 10 %, or inf",
+                fix="write it without a sign" if value < 0 else f"{in_percent} where nothing is known",
             )
-        if value > 0 and parameters.get(name, 0.0) == 0:
+        if 0 < value < math.inf and parameters.get(name, 0.0) == 0:
             raise InputError(
                 f"{name} is relative to a nominal value of 0",
                 where=where,

@@ -60,8 +60,8 @@ NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorte
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Model:
-    """Kind of drive, nominal `parameters` (SI) and relative standard deviations `uncertainty` (not listed:
-    exact), `effects` name -> parameter values (SI), known `load`s, `recording` layout.
+    """Kind of drive, nominal `parameters` (SI) and relative standard deviations `uncertainty` (at most 1; infinite:
+    nothing is known; not listed: exact), `effects` name -> parameter values (SI), known `load`s, `recording` layout.
 
     Kind `lti`: parameters b0, b1, .. and a0, .. are the coefficients of s^0, s^1, .. of a transfer function
     of `order`, monic in its denominator; where they are not given they are estimated.
@@ -113,7 +113,6 @@ class Model:
 
         check_numbers(self.parameters, where=motor, largest=LARGEST_COEFFICIENT if self.drive.coefficients else LARGEST)
         check_nominal(self.parameters, self.nominal, linear=self.linear, where=motor)
-        check_numbers(self.uncertainty, where=doubt)
         check_uncertainty(self.uncertainty, self.parameters, where=doubt)
         for name, values in self.effects.items():
             check_numbers(values, where=places[name])

@@ -102,7 +102,13 @@ def _uncertainty(
     for name in given:
         if name not in names:
             raise unknown("parameter", name, names, where=where)
-    return {name: _number(value, "dimensionless", f"{where} {name}") for name, value in given.items()}
+    return {name: _deviation(value, f"{where} {name}") for name, value in given.items()}
+
+
+def _deviation(value: Number, where: str) -> float:
+    """A relative one; infinite only where it is written so."""
+    number = _number(value, "dimensionless", where)
+    return number if value == math.inf else min(number, sys.float_info.max)
 
 
 def _effects(
