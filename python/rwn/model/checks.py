@@ -75,7 +75,7 @@ def check_uncertainty(values: Mapping[str, float], parameters: Mapping[str, floa
                 f"{name} is relative to a nominal value of 0",
                 where=where,
                 expected="a nominal value that is not 0",
-                fix="give a guess in [motor]",
+                fix="give a guess of the value, or write inf",
             )
 
 
@@ -92,7 +92,7 @@ def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> 
                     f"there is no {p.name}", where=where, expected=f"a number in {p.unit}", fix=f"add {p.name} = ..."
                 )
             continue
-        lower, upper = _bounds(p)
+        lower, upper = bounds_beforehand(p)
         value = values[p.name]
         slack = ROUNDED * max(abs(bound) for bound in (lower, upper, value) if math.isfinite(bound))
         if not (p.cyclic or effect.own) and not lower - slack <= value <= upper + slack:
@@ -105,7 +105,8 @@ def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> 
             )
 
 
-def _bounds(p: Parameter) -> tuple[float, float]:
+def bounds_beforehand(p: Parameter) -> tuple[float, float]:
+    """Bounds (SI) of a parameter as far as they are known without a recording: the sign alone of what is relative."""
     if not p.scale.powers:
         return p.scale.factor * p.lower, p.scale.factor * p.upper
     return (0.0 if p.lower >= 0.0 else -math.inf), math.inf

@@ -15,7 +15,8 @@ from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.verdict import Verdict
 from rwn.faults.fault import SURE, Fault
-from rwn.fit.intervals import Doubt
+from rwn.fit.fitted_model import with_doubt
+from rwn.fit.intervals import Doubt, estimates
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.mismatch_map.dependence import laws
 from rwn.mismatch_map.regions import regions
@@ -88,7 +89,7 @@ def assemble(
         version=__version__,
         elapsed=elapsed,
         stand_in=correction.stands_in,
-        corrected=correction.model,
+        corrected=with_doubt(correction.model, estimates(correction.final, ranking.counted, doubt=doubt)),
     )
 
 
@@ -156,7 +157,8 @@ def _warnings(
             "towards one that it is not, and it is not named"
         )
     for u, value in zip(chosen.final.hypothesis.unknowns, chosen.final.minimum.values, strict=True):
-        if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and "." not in u.name:
+        declared = "." not in u.name or u.name in ranking.problem.prior.of_effects
+        if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and declared:
             off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
             if off > BELIEVABLE:
                 by = f"by {off:.1f} times what was declared" if value > 0.0 else "down to zero"

@@ -68,17 +68,35 @@ def lines(fit: Identification, signals: Sequence[Fitted], nominal: Model) -> Ite
 def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
     at_bound = [name for name, value in fit.parameters.items() if _at_a_bound(value)]
     if at_bound:
-        yield f"{listing([plain_name(n) for n in at_bound])} ran into a bound: the value is that of the bound"
+        yield f"{listing([_named(n) for n in at_bound])} ran into a bound: the value is that of the bound"
     if fit.not_identifiable:
-        names = listing([plain_name(n) for n in fit.not_identifiable])
+        names = listing([_named(n) for n in fit.not_identifiable])
         yield f"these recordings say nothing of {names} that was not declared"
+    yield from _held(fit, nominal)
     for name, value in fit.parameters.items():
         if name in nominal.uncertainty and nominal.parameters.get(name):
             moved = FittedParameter(
                 nominal=nominal.parameters[name], uncertainty=nominal.uncertainty[name], refitted=value
             ).moved
             if moved > BELIEVABLE:
-                yield f"{plain_name(name)} moved by {number(moved, 2)} times what was declared: check the data sheet"
+                yield f"{_named(name)} moved by {number(moved, 2)} times what was declared: check the data sheet"
+
+
+def _held(fit: Identification, nominal: Model) -> Iterator[str]:
+    """Parameters of effects that are taken as exact: the intervals of all others are too narrow by what is not."""
+    held = [name for name in nominal.effect_values if nominal.uncertainty.get(name, 0.0) == 0.0]
+    if held and fit.parameters:
+        names = listing([_named(name) for name in held])
+        yield (
+            f"{names} {'is' if len(held) == 1 else 'are'} taken as exact, and the intervals are as narrow as if that "
+            f"were so: say how far it is believed under [uncertainty], for instance {held[0]} = 0.1"
+        )
+
+
+def _named(unknown: str) -> str:
+    """inertia -> inertia, coulomb-friction.coulomb_torque -> Coulomb torque of Coulomb friction."""
+    effect, _, parameter = unknown.rpartition(".")
+    return plain_name(parameter) + (f" of {plain_name(effect)}" if effect else "")
 
 
 def _at_a_bound(value: Estimate) -> bool:
