@@ -252,4 +252,5 @@ def _column(name: str, given: ColumnEntry, where: str) -> Column:
             expected="a number that is not 0, from 1e-15 to 1e15 in size",
             fix="write 1, a gear ratio, -1 for a wrong sign, or text with a unit",
         )
-    return Column(source=given.source, unit=given.unit, scale=float(scale), scale_unit=unit)
+    source = name if given.source is None else given.source
+    return Column(source=source, unit=given.unit, scale=float(scale), scale_unit=unit)

@@ -17,7 +17,7 @@ Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 
 
 class ColumnEntry(msgspec.Struct, forbid_unknown_fields=True):
-    source: str
+    source: str | None = None  # the column of the signal's name
     unit: str | None = None
     scale: Number = 1.0
 

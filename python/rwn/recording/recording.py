@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rwn.errors import InputError
 from rwn.recording.check import check_lengths, check_samples
-from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit, unused
+from rwn.recording.columns import Layout, column_map, in_si, is_linear, no_unit, si_unit, unused
 from rwn.recording.formats import Table, read_table
 from rwn.recording.formats.frame import table_of_object
 from rwn.recording.formats.part import name_of
@@ -138,6 +138,8 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
 
 
 def _counted_time(table: Table, layout: Layout) -> Array:
+    if layout.sample_time is None and TIME.name in table.units and TIME.name not in layout.columns:
+        raise no_unit(TIME.name, TIME.name, where=table.where)
     if layout.sample_time is None:
         raise InputError(
             "there is no column 'time'",
