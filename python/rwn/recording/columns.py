@@ -180,6 +180,11 @@ def in_si(table: Table, name: str, column: Column, *, linear: bool) -> Array:
     return values
 
 
+def units_of(table: Table, mapping: Mapping[str, Column]) -> dict[str, str]:
+    """The unit that the file has each signal in; none where the map makes another quantity of it (N of V)."""
+    return {name: _unit(table, name, column) for name, column in mapping.items() if not column.scale_unit}
+
+
 def _unit(table: Table, name: str, column: Column) -> str:
     if column.source not in table.units:
         near = closest(column.source, table.units)
