@@ -59,8 +59,10 @@ def assemble(
     names = (stated[0].name, *stated[0].rivals) if stated else tuple(e.name for e in physics[:1])
     effects = (*(fault.found(_probability(fault)) for fault in faults), *physics)
     beneath = Beneath(verdict=verdict, set=names) if faults else None
+    wanted = [_next_experiment(ranking, verdict, names)]
     if faults:
         verdict, names = "recording-mistake", (faults[0].name, *faults[0].also)
+        wanted.insert(0, _next_experiment(ranking, verdict, names))
     equation = effects[0].equation if effects else ""
     where = regions(unknown, linear=model.linear)
     torque_unknown = verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
@@ -81,7 +83,7 @@ def assemble(
         curves=drawn,
         sensor_filters=filters,
         warnings=(*_warnings(ranking, chosen, rows, filters), *correction.warnings),
-        next_experiment=_next_experiment(ranking, verdict, names),
+        next_experiment="; ".join(filter(None, wanted)),
         adequate_probability=ranking.nothing_missing.probability,
         account=decision.account.effects,
         remainder=decision.remainder,
