@@ -136,7 +136,7 @@ def identify(
 ) -> None:
     """Fit the parameters of a model, effects included, within their declared uncertainty.
 
-    Ends with exit code 3, and writes nothing, where the fit does not converge or describes no recorded signal.
+    Ends with exit code 3, and writes nothing, where the fit does not converge, ends at a limit or describes no signal.
     """
     from contextlib import nullcontext
 
