@@ -88,7 +88,7 @@ MODELS: dict[str, tuple[dict[str, Any], str]] = {
     "an inertia of 400 digits": ({"parameters": {**MOTOR, "inertia": 10**400}}, "inertia: the value is 1000"),
     "an uncertainty of -1": ({"uncertainty": {"inertia": -1.0}}, "inertia is -1"),
     "an uncertainty of NaN": ({"uncertainty": {"inertia": np.nan}}, "the value is nan"),
-    "an uncertainty of infinity": ({"uncertainty": {"inertia": np.inf}}, "the value is inf"),
+    "an uncertainty of 5, which is a percentage": ({"uncertainty": {"inertia": 5.0}}, "inertia is 5, that is 500 %"),
     "an uncertainty of 1e300": ({"uncertainty": {"inertia": 1e300}}, "the value is 1e+300"),
     "an uncertainty of what is 0": (
         {"parameters": {**MOTOR, "viscous_friction": 0.0}, "uncertainty": {"viscous_friction": 0.1}},

@@ -97,7 +97,7 @@ def simulate(
     partial: Annotated[bool, typer.Option("--partial", help="Write a run that did not reach its end too.")] = False,
     profile: Profile = None,
 ) -> None:
-    """Run a model freely from the input signal of a recording; exit code 3 where the run does not reach its end."""
+    """Run a model freely from the input signal of a recording, in its units; exit code 3 where it ends before that."""
     from rwn.model.recordings import read_recordings
     from rwn.recording.recording import write_csv
     from rwn.report.files import output_file
@@ -107,7 +107,7 @@ def simulate(
         (source,) = read_recordings([recording], drive, compared=False)
         run = _rwn().simulate(drive, source)
         if run.status == "ok" or partial:
-            write_csv(aside, run.time, run.signals, linear=drive.linear)
+            write_csv(aside, run.time, run.signals, linear=drive.linear, units=source.units)
     if run.status != "ok":
         done = f"The signals in {out} are held from there on." if partial else "Nothing was written."
         typer.echo(f"rwn: {run.status}: {run.advice} {done}", err=True)
@@ -136,7 +136,7 @@ def identify(
 ) -> None:
     """Fit the parameters of a model, effects included, within their declared uncertainty.
 
-    Ends with exit code 3, and writes nothing, where the fit does not converge or describes no recorded signal.
+    Ends with exit code 3, and writes nothing, where the fit does not converge, ends at a limit or describes no signal.
     """
     from contextlib import nullcontext
 

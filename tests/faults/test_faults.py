@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import rwn
+from rwn.decide.next_experiment import separated_by
 from rwn.faults.delay import Suspicion, believed, first_effects, rivals, suspected
 from rwn.faults.fault import SHIFT, Fault
 from rwn.faults.fault import without as undone
@@ -17,6 +18,7 @@ from rwn.faults.scale import wrong_scale
 from rwn.fit.preparation import prepare
 from rwn.name.forward import rank
 from rwn.report.diagnosis_data import Beneath
+from rwn.report.next_steps import next_steps
 from rwn.report.sentences import verdict_sentence
 
 DEMO = Path(rwn.__file__).parent / "demo"
@@ -246,3 +248,20 @@ def test_a_delay_that_leaves_noise_alone_beats_an_effect_that_leaves_more(physic
     doubt = Suspicion(fault=fault, noise={}, before=8.0, after=0.012)
     assert not believed(doubt, left=doubt.after, physics=physics)
     assert believed(doubt, left=doubt.after, physics=physics, little=doubt.little) == told
+
+
+@pytest.mark.slow
+def test_beneath_a_mistake_the_experiment_is_named_as_well(model: rwn.Model) -> None:
+    """What is left of a noisy second says not which of two frictions acts."""
+    time = 1e-3 * np.arange(1000)
+    voltage = 4.0 * np.sin(13.0 * time)
+    given = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    truth = replace(model, uncertainty={}, effects={"coulomb-friction": {"coulomb_torque": 4e-3}})
+    noise = 8.0 * np.random.default_rng(1).standard_normal(time.size)
+    speed = -(rwn.simulate(truth, given).signals["speed"] + noise)
+    found = rwn.diagnose([replace(given, signals={"voltage": voltage, "speed": speed})], model)
+    assert found.verdict == "recording-mistake"
+    assert found.beneath is not None
+    assert len(found.beneath.set) > 1
+    assert found.next_experiment == separated_by(found.beneath.set) != ""
+    assert any(found.next_experiment in step for step in next_steps(found))

@@ -65,7 +65,7 @@ MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
     ),
     "map without source": (
         MODEL + '[recording]\ncolumns.speed = { unit = "rpm" }\n',
-        ("source", "[recording"),
+        ("column 'speed'", "the column is in [rad/s], the map says 'rpm'"),
     ),
     "map with a wrong key": (
         MODEL + '[recording]\ncolumns.speed = { source = "w", units = "rpm" }\n',

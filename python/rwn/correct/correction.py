@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from rwn.correct.network import NetworkCorrection, proved_network
 from rwn.decide.decision import Decision
+from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
 from rwn.name.weights import RankedFit
@@ -30,6 +31,7 @@ class Correction:
 
     decision: Decision  # of the explanation or the network that the model holds
     model: Model  # what corrected.toml holds
+    final: Fit  # whose values it has
     network: NetworkCorrection | None = None
     stands_in: str = ""  # what stands in the model for what has no name
     warnings: tuple[str, ...] = ()
@@ -49,7 +51,7 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
     kept, left_out = _proved_part(decision, heldout, seed=seed)
     if left_out:
         warnings = (*warnings, NOT_HELPING.format(" + ".join(left_out)))
-    return Correction(decision=decision, model=fitted_model(kept.final, model), warnings=warnings)
+    return Correction(decision=decision, model=fitted_model(kept.final, model), final=kept.final, warnings=warnings)
 
 
 def _proved_part(
@@ -79,7 +81,8 @@ def _without_a_name(
         network, rows = proof
         by_network = replace(decision, ranking=network.ranking, chosen=network.chosen, rows=rows)
         made = Correction(
-            decision=by_network, model=fitted_model(network.chosen.final, network.model), network=network,
+            decision=by_network, model=fitted_model(network.chosen.final, network.model), final=network.chosen.final,
+            network=network,
             stands_in=f"a wavelet network, {network.place.words}",
         )  # fmt: skip
         found.append((heldout_error(rows), made))
@@ -90,6 +93,7 @@ def _without_a_name(
             names = " + ".join(leading.added)
             made = Correction(
                 decision=replace(decision, chosen=leading, rows=rows), model=fitted_model(leading.final, model),
+                final=leading.final,
                 stands_in=f"{names}, which helps on what was not fitted and need not be what acts",
             )  # fmt: skip
             found.append((heldout_error(rows), made))

@@ -95,14 +95,19 @@ class Fit:
     @property
     def farthest_move(self) -> float:
         """Largest move of a nominal parameter from its given value, in declared standard deviations."""
-        moves = [0.0]
+        return max(self.moves.values(), default=0.0)
+
+    @property
+    def moves(self) -> dict[str, float]:
+        """Move of each parameter of which something was declared, in declared standard deviations."""
+        moves = {}
         for u, value in zip(self.hypothesis.unknowns, self.minimum.values, strict=True):
             if u.prior is None or not np.isfinite(u.prior_std) or u.prior_std <= 0.0 or u.prior == 0.0:
                 continue
             ratio = value / u.prior
             logarithmic = u.logarithmic and ratio > 0.0
-            moves.append(abs(np.log(ratio) if logarithmic else ratio - 1.0) / u.prior_std)
-        return float(max(moves))
+            moves[u.name] = float(abs(np.log(ratio) if logarithmic else ratio - 1.0) / u.prior_std)
+        return moves
 
     @property
     def unknowns_seen(self) -> int:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from rwn.fit.fit import Fit
+from rwn.fit.intervals import Estimate
 from rwn.model.model import Model
-from rwn.model.vocabulary import motor_index
+from rwn.model.vocabulary import Parameter, motor_index
 
 
 def fitted_model(this: Fit, model: Model) -> Model:
@@ -26,6 +30,35 @@ def fitted_model(this: Fit, model: Model) -> Model:
         name: {p.name: float(vector[known[name].at(p.name)]) for p in known[name].parameters}
         for name in active
     }
+    now = parameters | {f"{name}.{p}": value for name, values in effects.items() for p, value in values.items()}
     # what came out as zero has no relative uncertainty
-    uncertainty = {name: value for name, value in model.uncertainty.items() if parameters.get(name, 0.0) != 0.0}
+    uncertainty = {n: std for n, std in model.uncertainty.items() if n in now and (now[n] != 0.0 or np.isinf(std))}
     return replace(model, parameters=parameters, effects=effects, uncertainty=uncertainty)
+
+
+def with_doubt(model: Model, found: Mapping[str, Estimate]) -> Model:
+    """`model` with what the intervals say of the parameters of effects of which nothing was declared.
+
+    Deviations are relative, of angles in radians; infinite where an interval leaves open as much as the value.
+    """
+    doubts = {
+        name: _deviation(p, value, found[name].interval)
+        for name, (p, value) in model.effect_values.items()
+        if name in found and name not in model.uncertainty
+    }
+    known = {name: float(f"{std:.3g}") for name, std in doubts.items() if std > 0.0}
+    return replace(model, uncertainty={**model.uncertainty, **known})
+
+
+def _deviation(p: Parameter, value: float, interval: tuple[float, float] | None) -> float:
+    """A standard deviation by the farther end of a 95 % interval: the nearer one may have been cut at a bound."""
+    low, high = interval or (value, value)
+    if p.cyclic:
+        std = max(high - value, value - low) / 1.96
+    elif value == 0.0:
+        return np.inf
+    elif p.lower > 0.0:
+        std = float(np.log(max(high / value, value / low))) / 1.96
+    else:
+        std = max(high - value, value - low) / (1.96 * abs(value))
+    return std if std <= 1.0 else np.inf

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.levenberg_marquardt import Unknown
 from rwn.fit.prior import Nuisance, Prior, RunUnknown
+from rwn.model.checks import bounds_beforehand
 from rwn.model.vocabulary import Effect, Parameter, motor_index, motor_parameters, parameter_vector, table
 
 Array = NDArray[np.float64]
@@ -83,6 +84,9 @@ def hypothesis(
             unknowns += [_of_measurement(effect, p, measured[name]) for p in effect.parameters if not p.fixed]
         elif known is None:
             unknowns += [_effect_unknown(effect, p, prior, scales) for p in effect.parameters if not p.fixed]
+        else:
+            declared = [(p, prior.of_effects.get(f"{name}.{p.name}", 0.0)) for p in effect.parameters]
+            unknowns += [_declared_unknown(effect, p, known[p.name], std) for p, std in declared if std > 0.0]
     vector = np.append(parameter_vector(motor_now, values, known_effects), np.zeros(len(prior.of_runs)))
     return Hypothesis(effects=active, added=added, vector=vector, unknowns=tuple(unknowns), table=known_effects)
 
@@ -152,6 +156,19 @@ def _effect_unknown(effect: Effect, p: Parameter, prior: Prior, scales: Mapping[
         prior=known if has_prior else None,
         prior_std=max(uncertain, 1e-3) if has_prior else np.inf,
     )
+
+
+def _declared_unknown(effect: Effect, p: Parameter, value: float, std: float) -> Unknown:
+    """Of an effect of the nominal model; `std`: relative, of an angle in radians."""
+    lower, upper = (-np.inf, np.inf) if p.cyclic else bounds_beforehand(p)
+    logarithmic = p.lower > 0.0 and not p.cyclic
+    if logarithmic and value > 0.0:
+        lower, upper = max(lower, 1e-3 * value), min(upper, 1e3 * value)
+    return Unknown(
+        name=f"{effect.name}.{p.name}", unit=p.unit, index=effect.at(p.name), lower=min(lower, value),
+        upper=max(upper, value), logarithmic=logarithmic, prior=value,
+        prior_std=std / abs(value) if p.cyclic and value else std,
+    )  # fmt: skip
 
 
 def _first(

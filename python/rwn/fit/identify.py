@@ -8,12 +8,15 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
 from rwn.fit.intersample import with_intersample
 from rwn.fit.intervals import Estimate, deviations, estimates
 from rwn.fit.noise import noise_of
 from rwn.fit.preparation import prepare
+from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.files import model_of
 from rwn.model.model import Model
@@ -94,10 +97,13 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
 
 
 def _unseen(this: Fit, left: Statistics) -> tuple[str, ...]:
-    spread = deviations(this, left)
+    """What is as unsure as it was declared to be, and where it was; of what nothing was declared, what may be 0."""
+    spread, moves = deviations(this, left), this.moves
     rows = []
     for u, value, std in zip(this.hypothesis.unknowns, this.minimum.values, spread, strict=True):
-        declared = u.prior_std * abs(u.prior) if u.prior else float("inf")
-        if not u.nuisance and (std > LEARNED * declared or std > abs(value) > 0.0):
+        size = abs(value) if u.logarithmic else abs(u.prior or 0.0)  # of what the declared deviation is a part
+        declared = u.prior_std * size if np.isfinite(u.prior_std) and size else 0.0
+        nothing = std > LEARNED * declared if declared else std > abs(value) > 0.0
+        if not u.nuisance and nothing and moves.get(u.name, 0.0) <= BELIEVABLE:
             rows.append(u.name)
     return tuple(rows)

@@ -73,7 +73,7 @@ def _systematic(this: Fit, bias: float) -> Array:
     `bias`: what is added to that part, in quadrature.
     """
     known = this.hypothesis.table
-    angles = {f"{name}.{p.name}" for name in this.added for p in known[name].parameters if p.cyclic}
+    angles = {f"{name}.{p.name}" for name in this.hypothesis.effects for p in known[name].parameters if p.cyclic}
     contacts = nonsmooth_unknowns(this.hypothesis)
     pairs = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
     return np.array(

@@ -37,6 +37,7 @@ class Prior:
     uncertainty: Mapping[str, float]
     effects: Mapping[str, Mapping[str, float]]  # already part of the nominal model
     free: Mapping[str, float]  # unknown without a prior (coefficients), with their first guess
+    of_effects: Mapping[str, float] = field(default_factory=dict)  # deviations of `effects`, by "effect.parameter"
     of_runs: tuple[RunUnknown, ...] = ()
     nuisance: tuple[Nuisance, ...] = ()
     starts: tuple[Mapping[str, float], ...] = ()  # other first guesses of what is free, worth a try
@@ -45,7 +46,8 @@ class Prior:
     @classmethod
     def of(cls, model: Model) -> Prior:
         """The values of a model with their declared uncertainty."""
+        of_effects = {name: std for name, std in model.uncertainty.items() if name in model.effect_values}
         return cls(
-            motor=model.motor, uncertainty=dict(model.uncertainty), effects=dict(model.effects), free={},
-            table=model.effect_table,
+            motor=model.motor, uncertainty={n: std for n, std in model.uncertainty.items() if n not in of_effects},
+            effects=dict(model.effects), of_effects=of_effects, free={}, table=model.effect_table,
         )  # fmt: skip

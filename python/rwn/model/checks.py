@@ -55,21 +55,27 @@ def check_nominal(values: Mapping[str, float], known: Iterable[NominalParameter]
 
 
 def check_uncertainty(values: Mapping[str, float], parameters: Mapping[str, float], *, where: str) -> None:
-    """Each is a relative deviation of a value that is not 0. Raises InputError."""
+    """Each is a relative deviation of a value that is not 0, at most 1, or infinite. Raises InputError.
+
+    Above 1 it would say that the value may as well be of the other sign: it is a percentage without its sign, or
+    nothing is known, and a number would feign that something is.
+    """
+    check_numbers({name: value for name, value in values.items() if value != math.inf}, where=where)
     for name, value in values.items():
-        if value < 0 or value > 1e3:
+        if value < 0 or 1 < value < math.inf:
+            in_percent = f'write {value / 100:g} or "{value:g} %", or inf' if value <= 100 else "write inf"
             raise InputError(
-                f"{name} is {value:g}",
+                f"{name} is {value:g}" + (f", that is {100 * value:g} %" if value > 0 else ""),
                 where=where,
-                expected="a relative standard deviation, 0.1 = 10 %",
-                fix="write it without a sign" if value < 0 else "write the share of the nominal value",
+                expected="a relative standard deviation of at most 1, 0.1 = 10 %, or inf",
+                fix="write it without a sign" if value < 0 else f"{in_percent} where nothing is known",
             )
-        if value > 0 and parameters.get(name, 0.0) == 0:
+        if 0 < value < math.inf and parameters.get(name, 0.0) == 0:
             raise InputError(
                 f"{name} is relative to a nominal value of 0",
                 where=where,
                 expected="a nominal value that is not 0",
-                fix="give a guess in [motor]",
+                fix="give a guess of the value, or write inf",
             )
 
 
@@ -86,7 +92,7 @@ def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> 
                     f"there is no {p.name}", where=where, expected=f"a number in {p.unit}", fix=f"add {p.name} = ..."
                 )
             continue
-        lower, upper = _bounds(p)
+        lower, upper = bounds_beforehand(p)
         value = values[p.name]
         slack = ROUNDED * max(abs(bound) for bound in (lower, upper, value) if math.isfinite(bound))
         if not (p.cyclic or effect.own) and not lower - slack <= value <= upper + slack:
@@ -99,7 +105,8 @@ def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> 
             )
 
 
-def _bounds(p: Parameter) -> tuple[float, float]:
+def bounds_beforehand(p: Parameter) -> tuple[float, float]:
+    """Bounds (SI) of a parameter as far as they are known without a recording: the sign alone of what is relative."""
     if not p.scale.powers:
         return p.scale.factor * p.lower, p.scale.factor * p.upper
     return (0.0 if p.lower >= 0.0 else -math.inf), math.inf

@@ -24,7 +24,7 @@ from rwn.model.checks import (
 )
 from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
 from rwn.model.own_effects import OwnEffect, check_constants, check_own_effects, with_own
-from rwn.model.vocabulary import Effect
+from rwn.model.vocabulary import Effect, Parameter
 from rwn.recording.columns import Layout
 
 
@@ -60,8 +60,10 @@ NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorte
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Model:
-    """Kind of drive, nominal `parameters` (SI) and relative standard deviations `uncertainty` (not listed:
-    exact), `effects` name -> parameter values (SI), known `load`s, `recording` layout.
+    """Kind of drive, nominal `parameters` (SI), `effects` name -> parameter values (SI), known `load`s, `recording`s.
+
+    `uncertainty`: relative standard deviations of parameters, of those of effects as "effect.parameter" (of angles: in
+    rad); at most 1, or infinite: nothing is known; not listed: exact.
 
     Kind `lti`: parameters b0, b1, .. and a0, .. are the coefficients of s^0, s^1, .. of a transfer function
     of `order`, monic in its denominator; where they are not given they are estimated.
@@ -105,19 +107,19 @@ class Model:
         table = self.effect_table if self.effects else {}
         places = {name: f"{where}, [effects.{name}]" for name in self.effects}
         _require(self.parameters, "parameter", [p.name for p in self.nominal], where=motor)
-        _require(self.uncertainty, "parameter", [p.name for p in self.nominal], where=doubt)
         _require(self.effects, "effect", table, where=f"{where}, [effects]")
         for name, values in self.effects.items():
             _require(values, "parameter", [p.name for p in table[name].parameters], where=places[name])
+        _require(self.uncertainty, "parameter", [*(p.name for p in self.nominal), *self.effect_values], where=doubt)
         _require(self.load, "load", LOADS, where=f"{where}, [load]")
 
         check_numbers(self.parameters, where=motor, largest=LARGEST_COEFFICIENT if self.drive.coefficients else LARGEST)
         check_nominal(self.parameters, self.nominal, linear=self.linear, where=motor)
-        check_numbers(self.uncertainty, where=doubt)
-        check_uncertainty(self.uncertainty, self.parameters, where=doubt)
         for name, values in self.effects.items():
             check_numbers(values, where=places[name])
             check_effect(table[name], values, where=places[name])
+        in_rad = {name: 1.0 if p.cyclic else value for name, (p, value) in self.effect_values.items()}
+        check_uncertainty(self.uncertainty, {**self.parameters, **in_rad}, where=doubt)
         for name, values in self.load.items():
             check_numbers(values, where=f"{where}, [load.{name}]")
             check_nominal(values, LOADS[name], linear=False, where=f"{where}, [load.{name}]")
@@ -139,6 +141,16 @@ class Model:
     def effect_table(self) -> Mapping[str, Effect]:
         """Every effect that this model knows by name: those that come with rwn, then its own."""
         return with_own(vocabulary.table(), self.own_effects)
+
+    @property
+    def effect_values(self) -> Mapping[str, tuple[Parameter, float]]:
+        """Each parameter of the model's effects that may be uncertain, with its value (SI), as "effect.parameter"."""
+        return {
+            f"{name}.{p.name}": (p, values[p.name])
+            for name, values in self.effects.items()
+            for p in self.effect_table[name].parameters
+            if p.name in values and not p.fixed
+        }
 
     @property
     def drive(self) -> Drive:

@@ -14,7 +14,7 @@ from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
 from rwn.model.model import LOADS, EffectTable, Model, effect_table
 from rwn.model.own_effects import OwnEffect, check_own_effects
 from rwn.model.toml_own_effects import from_entry
-from rwn.model.toml_schema import ColumnEntry, LoadTable, Number, RecordingTable, decode
+from rwn.model.toml_schema import ColumnEntry, File, LoadTable, Number, RecordingTable, decode
 from rwn.recording import units
 from rwn.recording.columns import Column, Layout
 from rwn.recording.intersample import known_law
@@ -35,7 +35,7 @@ def parse_model(text: str, *, where: str, effects: EffectTable | None = None) ->
     return Model(
         kind=drive.kind,
         parameters=parameters,
-        uncertainty=_uncertainty(file.uncertainty, drive.nominal(order), f"{where}, [uncertainty]"),
+        uncertainty=_uncertainty(file, f"{where}, [uncertainty]"),
         effects=_effects(file.effects, own, effects, where) if file.effects else {},
         own_effects=tuple(own.values()),
         load=_load(file.load, drive, where),
@@ -95,14 +95,28 @@ def _number(value: Any, unit: str, where: str) -> float:
     return math.inf if abs(number) > sys.float_info.max else float(number)  # a whole number may be too long for one
 
 
-def _uncertainty(
-    given: Mapping[str, Number], known: Iterable[NominalParameter], where: str
-) -> dict[str, float]:
-    names = [entry.name for entry in known]
-    for name in given:
-        if name not in names:
-            raise unknown("parameter", name, names, where=where)
-    return {name: _number(value, "dimensionless", f"{where} {name}") for name, value in given.items()}
+def _uncertainty(file: File, where: str) -> dict[str, float]:
+    """By name of the parameter, those of effects as "effect.parameter"."""
+    found = {}
+    for name, given in file.uncertainty.items():
+        if not isinstance(given, dict):
+            found[name] = _deviation(given, f"{where} {name}")
+        elif name in file.effects:
+            found |= {f"{name}.{p}": _deviation(value, f"{where} {name}.{p}") for p, value in given.items()}
+        else:
+            raise InputError(
+                f"{name} is a table, and there is no effect of that name",
+                where=where,
+                expected='a number such as 0.1, or "10 %"',
+                fix=f"write {name} = 0.1 for a parameter of the motor; an effect needs its [effects.{name}]",
+            )
+    return found
+
+
+def _deviation(value: Number, where: str) -> float:
+    """A relative one; infinite only where it is written so."""
+    number = _number(value, "dimensionless", where)
+    return number if value == math.inf else min(number, sys.float_info.max)
 
 
 def _effects(
@@ -238,4 +252,5 @@ def _column(name: str, given: ColumnEntry, where: str) -> Column:
             expected="a number that is not 0, from 1e-15 to 1e15 in size",
             fix="write 1, a gear ratio, -1 for a wrong sign, or text with a unit",
         )
-    return Column(source=given.source, unit=given.unit, scale=float(scale), scale_unit=unit)
+    source = name if given.source is None else given.source
+    return Column(source=source, unit=given.unit, scale=float(scale), scale_unit=unit)

@@ -17,7 +17,7 @@ Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 
 
 class ColumnEntry(msgspec.Struct, forbid_unknown_fields=True):
-    source: str
+    source: str | None = None  # the column of the signal's name
     unit: str | None = None
     scale: Number = 1.0
 
@@ -43,7 +43,7 @@ class LoadTable(msgspec.Struct, forbid_unknown_fields=True):
 
 class File(msgspec.Struct, forbid_unknown_fields=True):
     motor: dict[str, Any]
-    uncertainty: dict[str, Number] = {}
+    uncertainty: dict[str, Number | dict[str, Number]] = {}  # of the motor, and of its effects by name
     effects: dict[str, dict[str, Number]] = {}
     own_effects: dict[str, EffectEntry] = {}
     load: LoadTable = msgspec.field(default_factory=LoadTable)
@@ -98,7 +98,8 @@ def _worded(message: str, where: str) -> InputError:
         return unknown("key", found[1], _table_at(keys).__struct_encode_fields__, where=place)
     wrong = re.search(r"[Ee]xpected `(.+?)`, got `(.+?)`", what)
     if wrong:
-        names = {"float | str": "a number, or text with a unit", "str": "text in quotes", "object": "a table"}
+        either = "a number, or text with a unit"
+        names = {"float | str": either, "float | str | object": either, "str": "text in quotes", "object": "a table"}
         got = {
             "int": "a number",
             "bool": "true or false",

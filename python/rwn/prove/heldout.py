@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
+from msgspec import Meta
 from numpy.typing import NDArray
 
 from rwn.fit.hypothesis import Hypothesis
@@ -20,6 +22,12 @@ Array = NDArray[np.float64]
 RAN_AWAY = 1e100  # error of a simulation that diverged
 FEWEST = 20  # samples that a row judges
 DRAWS = 400  # of the bootstrap
+NOISE_FLOOR = (
+    "standard deviation of the signal's measurement noise, in unit: what second differences of the corrected (else the "
+    "refitted) model's error over the whole recording leave, at most that error's rms, and so equal to it where "
+    "nothing but noise is left; at least the step that the values are rounded to, and of encoder counts that step; "
+    "null for a driving force, which is not measured"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,13 +38,13 @@ class HeldoutRow:
     region: str  # "all", or the name of a region
     signal: str
     unit: str
-    samples: int
-    nominal: float
-    refitted: float
-    corrected: float | None
-    noise_floor: float | None
-    gain: float | None = None
-    gain_interval: tuple[float, float] | None = None  # 95 %, block bootstrap
+    samples: Annotated[int, Meta(description="that were judged: measured, of this region, not fitted")]
+    nominal: Annotated[float, Meta(description="rms free-run error of the model as given, in unit")]
+    refitted: Annotated[float, Meta(description="the same of the nominal model with its parameters refitted")]
+    corrected: Annotated[float | None, Meta(description="the same of the corrected model; null: nothing was added")]
+    noise_floor: Annotated[float | None, Meta(description=NOISE_FLOOR)]
+    gain: Annotated[float | None, Meta(description="1 - corrected / refitted")] = None
+    gain_interval: Annotated[tuple[float, float] | None, Meta(description="95 %, block bootstrap")] = None
 
 
 def heldout_rows(

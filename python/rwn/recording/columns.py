@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -93,7 +94,7 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
                 f"column '{name}' is no known signal",
                 where=table.where,
                 expected=", ".join(COLUMNS),
-                fix=f"did you mean '{signal}'? rename it, or add to [recording]: rename = {{ '{name}' = '{signal}' }}",
+                fix=_remedy(table, name, signal),
             )
     if not mapping:
         parts = [name.rpartition(".")[0] for name in table.units if name.rpartition(".")[2] in COLUMNS]
@@ -111,6 +112,21 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
             fix=f'write for instance: columns.speed = {{ source = "{next(iter(table.units), "w")}", unit = "rad/s" }}',
         )
     return mapping
+
+
+def _remedy(table: Table, name: str, signal: str) -> str:
+    """For a column whose name is nearly that of a signal; a unit may stand in the name, or nowhere."""
+    words = re.split(r"[\s_.-]+", name)
+    tail = words[-1] if len(words) > 1 or name.lower() != signal else ""
+    si, kinds = si_unit(COLUMNS[signal], False), {COLUMNS[signal].unit, COLUMNS[signal].linear_unit} - {""}
+    alike = units.is_unit(tail) and any(units.has_dimension(tail, kind, where=table.where) for kind in kinds)
+    if not table.units[name] and alike:
+        column = f"{{ source = '{name}', unit = '{tail}' }}"
+        return f"write '{signal} [{tail}]', or add to [recording]: columns.{signal} = {column}"
+    if not table.units[name]:
+        column = f"{{ source = '{name}', unit = '{si}' }}"
+        return f"did you mean '{signal} [{si}]'? add its unit, or to [recording]: columns.{signal} = {column}"
+    return f"did you mean '{signal}'? rename it, or add to [recording]: rename = {{ '{name}' = '{signal}' }}"
 
 
 def _by_profile(table: Table, layout: Layout) -> dict[str, Column]:
@@ -164,6 +180,11 @@ def in_si(table: Table, name: str, column: Column, *, linear: bool) -> Array:
     return values
 
 
+def units_of(table: Table, mapping: Mapping[str, Column]) -> dict[str, str]:
+    """The unit that the file has each signal in; none where the map makes another quantity of it (N of V)."""
+    return {name: _unit(table, name, column) for name, column in mapping.items() if not column.scale_unit}
+
+
 def _unit(table: Table, name: str, column: Column) -> str:
     if column.source not in table.units:
         near = closest(column.source, table.units)
@@ -184,14 +205,21 @@ def _unit(table: Table, name: str, column: Column) -> str:
             fix="leave the unit out of [recording.columns], or correct the header",
         )
     if not unit:
-        shown = f"{column.source} [{si_unit(COLUMNS[name], False)}]"
-        raise InputError(
-            f"column '{column.source}' has no unit",
-            where=table.where,
-            expected="name [unit]",
-            fix=f"write '{shown}', or give its unit under [recording.columns]",
-        )
+        raise no_unit(name, column.source, where=table.where)
     return units.product(unit, column.scale_unit)
+
+
+def no_unit(signal: str, source: str, *, where: str) -> InputError:
+    """The refusal of a column that does not say what its numbers are in: which unit that is, nobody can guess."""
+    known = COLUMNS[signal]
+    column = f"source = '{source}', " if source != signal else ""
+    return InputError(
+        f"column '{source}' has no unit",
+        where=where,
+        expected="name [unit]",
+        fix=f"write '{source} [{si_unit(known, False)}]', '{source} [{known.example}]' or what its numbers are in, or "
+        f"add to [recording] in the model file: columns.{signal} = {{ {column}unit = '{known.example}' }}",
+    )
 
 
 def si_unit(signal: Signal, linear: bool) -> str:

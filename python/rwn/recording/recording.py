@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 
 from rwn.errors import InputError
 from rwn.recording.check import check_lengths, check_samples
-from rwn.recording.columns import Layout, column_map, in_si, is_linear, si_unit, unused
+from rwn.recording.columns import Layout, column_map, in_si, is_linear, no_unit, si_unit, units_of, unused
 from rwn.recording.formats import Table, read_table
 from rwn.recording.formats.frame import table_of_object
 from rwn.recording.formats.part import name_of
 from rwn.recording.intersample import Acting
 from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
+from rwn.recording.units import factor
 from rwn.values import Values
 
 Array = NDArray[np.float64]
@@ -33,7 +34,8 @@ class Recording(Values):
     """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in SI units (see docs/recordings.md).
 
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
-    stands there is a guess that nothing is compared with. `acting`: the input as it acted, where more is known of it
+    stands there is a guess that nothing is compared with. `units`: that its source has time and signals in, where it
+    says so; what is written beside it is written in these. `acting`: the input as it acted, where more is known of it
     than its samples. Arrays are made float64, contiguous and read-only.
 
     Raises InputError when lengths differ, an array is not a real vector or a signal's name is unknown.
@@ -47,6 +49,7 @@ class Recording(Values):
     warnings: tuple[str, ...] = ()
     missing: Mapping[str, Flags] = field(default_factory=dict)
     acting: Acting | None = None
+    units: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         time = _vector(self.name, "time", self.time)
@@ -134,10 +137,13 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
         source=table.where,
         linear=linear,
         warnings=(*warnings, *unused(table, mapping)),
+        units=units_of(table, mapping),
     )
 
 
 def _counted_time(table: Table, layout: Layout) -> Array:
+    if layout.sample_time is None and TIME.name in table.units and TIME.name not in layout.columns:
+        raise no_unit(TIME.name, TIME.name, where=table.where)
     if layout.sample_time is None:
         raise InputError(
             "there is no column 'time'",
@@ -149,9 +155,19 @@ def _counted_time(table: Table, layout: Layout) -> Array:
     return np.arange(samples, dtype=np.float64) * layout.sample_time
 
 
-def write_csv(path: str | Path, time: Array, signals: Mapping[str, Array], *, linear: bool = False) -> None:
-    """Write signals in SI as a CSV that `read_recording` reads back."""
-    units = {name: si_unit(COLUMNS[name], linear) for name in (TIME.name, *signals)}
-    header = ",".join(f"{name} [{unit}]" for name, unit in units.items())
-    values = np.column_stack([time, *signals.values()])
+def write_csv(
+    path: str | Path, time: Array, signals: Mapping[str, Array], *, linear: bool = False,
+    units: Mapping[str, str] | None = None,
+) -> None:  # fmt: skip
+    """Write signals (SI) as a CSV that `read_recording` reads back; in SI, but for those that `units` names.
+
+    Raises InputError for a unit that is none of its signal.
+    """
+    columns = {TIME.name: time, **signals}
+    si = {name: si_unit(COLUMNS[name], linear) for name in columns}
+    written = {name: (units or {}).get(name, unit) for name, unit in si.items()}
+    header = ",".join(f"{name} [{unit}]" for name, unit in written.items())
+    values = np.column_stack(
+        [x if written[n] == si[n] else x / factor(written[n], si[n], where=path) for n, x in columns.items()]
+    )
     np.savetxt(path, values, fmt="%.9g", delimiter=",", header=header, comments="")

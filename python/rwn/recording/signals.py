@@ -15,13 +15,14 @@ class Signal:
     meaning: str
     unit: str = ""
     linear_unit: str = ""
+    example: str = ""  # another unit that benches write; suggested, never assumed
     also: tuple[str, ...] = ()  # other names people write; suggested, never taken silently
 
 
 DRIVING_FORCE = "driving force"  # that moves an axis, where what is compared is the balance of forces
 
 TIME = Signal(
-    name="time", meaning="time of the row", unit="s", linear_unit="s", also=("t", "timestamp", "seconds")
+    name="time", meaning="time of the row", unit="s", linear_unit="s", example="ms", also=("t", "timestamp", "seconds")
 )
 
 _ALL = (
@@ -30,19 +31,29 @@ _ALL = (
         meaning="voltage that the drive was commanded to apply, held until the next row",
         unit="V",
         linear_unit="V",
+        example="mV",
         also=("u", "v", "volt", "volts", "input", "armature_voltage", "command"),
     ),
-    Signal(name="current", meaning="armature current", unit="A", linear_unit="A", also=("i", "amp", "amps")),
+    Signal(
+        name="current",
+        meaning="armature current",
+        unit="A",
+        linear_unit="A",
+        example="mA",
+        also=("i", "amp", "amps"),
+    ),
     Signal(
         name="torque",
         meaning="commanded torque, held until the next row (kind axis)",
         unit="N m",
+        example="mN m",
         also=("tau", "moment"),
     ),
     Signal(
         name="force",
         meaning="commanded force, held until the next row (kind axis, linear)",
         linear_unit="N",
+        example="kN",
         also=("thrust",),
     ),
     Signal(
@@ -50,6 +61,7 @@ _ALL = (
         meaning="speed of the shaft, or of a linear axis",
         unit="rad/s",
         linear_unit="m/s",
+        example="rpm",
         also=("velocity", "omega", "w", "velo", "vel", "rpm"),
     ),
     Signal(
@@ -57,6 +69,7 @@ _ALL = (
         meaning="angle of the shaft, or travel of a linear axis",
         unit="rad",
         linear_unit="m",
+        example="deg",
         also=("angle", "theta", "pos", "q"),
     ),
 )

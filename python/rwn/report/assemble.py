@@ -15,7 +15,8 @@ from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.verdict import Verdict
 from rwn.faults.fault import SURE, Fault
-from rwn.fit.intervals import Doubt
+from rwn.fit.fitted_model import with_doubt
+from rwn.fit.intervals import Doubt, estimates
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.mismatch_map.dependence import laws
 from rwn.mismatch_map.regions import regions
@@ -58,8 +59,10 @@ def assemble(
     names = (stated[0].name, *stated[0].rivals) if stated else tuple(e.name for e in physics[:1])
     effects = (*(fault.found(_probability(fault)) for fault in faults), *physics)
     beneath = Beneath(verdict=verdict, set=names) if faults else None
+    wanted = [_next_experiment(ranking, verdict, names)]
     if faults:
         verdict, names = "recording-mistake", (faults[0].name, *faults[0].also)
+        wanted.insert(0, _next_experiment(ranking, verdict, names))
     equation = effects[0].equation if effects else ""
     where = regions(unknown, linear=model.linear)
     torque_unknown = verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
@@ -80,7 +83,7 @@ def assemble(
         curves=drawn,
         sensor_filters=filters,
         warnings=(*_warnings(ranking, chosen, rows, filters), *correction.warnings),
-        next_experiment=_next_experiment(ranking, verdict, names),
+        next_experiment="; ".join(filter(None, wanted)),
         adequate_probability=ranking.nothing_missing.probability,
         account=decision.account.effects,
         remainder=decision.remainder,
@@ -88,7 +91,7 @@ def assemble(
         version=__version__,
         elapsed=elapsed,
         stand_in=correction.stands_in,
-        corrected=correction.model,
+        corrected=with_doubt(correction.model, estimates(correction.final, ranking.counted, doubt=doubt)),
     )
 
 
@@ -156,7 +159,8 @@ def _warnings(
             "towards one that it is not, and it is not named"
         )
     for u, value in zip(chosen.final.hypothesis.unknowns, chosen.final.minimum.values, strict=True):
-        if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and "." not in u.name:
+        declared = "." not in u.name or u.name in ranking.problem.prior.of_effects
+        if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and declared:
             off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
             if off > BELIEVABLE:
                 by = f"by {off:.1f} times what was declared" if value > 0.0 else "down to zero"

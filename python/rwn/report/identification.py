@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -16,6 +17,7 @@ from rwn.report.nominal_fit import FittedParameter
 from rwn.report.text import estimate, listing, number, percent, plain_name
 from rwn.simulate.simulation import simulate
 
+CUT = 1e-6  # relative; intervals are wider than AGREEMENT of a value on either side
 DESCRIBES = 0.5  # share of a signal's variance that a model must explain, to be said to describe it
 
 
@@ -52,6 +54,12 @@ def failure(fit: Identification, signals: Sequence[Fitted]) -> str:
             f"the fitted model explains {_share(max(explained))} of the variance of any recorded signal: check signs, "
             "units and columns (rwn check), or diagnose what is missing (rwn diagnose)"
         )
+    limits = [_named(n) for n, e in fit.parameters.items() if "." not in n and e.value != 0.0 and _at_a_bound(e)]
+    if limits:
+        said.append(
+            f"{listing(limits)} ran to the end of the search, a thousand times the given value or a thousandth: check "
+            "signs, units and columns (rwn check)"
+        )
     return "; ".join(said)
 
 
@@ -66,23 +74,44 @@ def lines(fit: Identification, signals: Sequence[Fitted], nominal: Model) -> Ite
 
 
 def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
+    """What moved to a bound or far off was seen, however unsure its value is."""
     at_bound = [name for name, value in fit.parameters.items() if _at_a_bound(value)]
+    unseen = [name for name in fit.not_identifiable if name not in at_bound]
     if at_bound:
-        yield f"{listing([plain_name(n) for n in at_bound])} ran into a bound: the value is that of the bound"
-    if fit.not_identifiable:
-        names = listing([plain_name(n) for n in fit.not_identifiable])
+        yield f"{listing([_named(n) for n in at_bound])} ran into a bound: the value is that of the bound"
+    if unseen:
+        names = listing([_named(n) for n in unseen])
         yield f"these recordings say nothing of {names} that was not declared"
+    yield from _held(fit, nominal)
     for name, value in fit.parameters.items():
         if name in nominal.uncertainty and nominal.parameters.get(name):
             moved = FittedParameter(
                 nominal=nominal.parameters[name], uncertainty=nominal.uncertainty[name], refitted=value
             ).moved
             if moved > BELIEVABLE:
-                yield f"{plain_name(name)} moved by {number(moved, 2)} times what was declared: check the data sheet"
+                yield f"{_named(name)} moved by {number(moved, 2)} times what was declared: check data sheet and units"
+
+
+def _held(fit: Identification, nominal: Model) -> Iterator[str]:
+    """Parameters of effects that are taken as exact: the intervals of all others are too narrow by what is not."""
+    held = [name for name in nominal.effect_values if nominal.uncertainty.get(name, 0.0) == 0.0]
+    if held and fit.parameters:
+        names = listing([_named(name) for name in held])
+        yield (
+            f"{names} {'is' if len(held) == 1 else 'are'} taken as exact, and the intervals are as narrow as if that "
+            f"were so: say how far it is believed under [uncertainty], for instance {held[0]} = 0.1"
+        )
+
+
+def _named(unknown: str) -> str:
+    """inertia -> inertia, coulomb-friction.coulomb_torque -> Coulomb torque of Coulomb friction."""
+    effect, _, parameter = unknown.rpartition(".")
+    return plain_name(parameter) + (f" of {plain_name(effect)}" if effect else "")
 
 
 def _at_a_bound(value: Estimate) -> bool:
-    return value.interval is not None and value.value in value.interval
+    """Whether its interval ends at it, as it does where it is cut at a bound alone."""
+    return value.interval is not None and any(math.isclose(value.value, end, rel_tol=CUT) for end in value.interval)
 
 
 def _share(explained: float) -> str:

@@ -74,5 +74,9 @@ def _insufficient(found: DiagnosisData) -> Iterator[str]:
 
 def _mistake(found: DiagnosisData) -> Iterator[str]:
     yield "Correct the recording, or the columns and units in the model file, and diagnose again."
+    if found.next_experiment:
+        sets = (found.set, found.beneath.set if found.beneath else ())
+        rivals = any(len(names) > 1 for names in sets)
+        yield f"To tell the rivals apart: {found.next_experiment}" if rivals else found.next_experiment
     if found.beneath is not None and found.beneath.verdict != "adequate":
         yield "What is said beneath the mistake was found with the mistake undone, and holds if it was undone rightly."

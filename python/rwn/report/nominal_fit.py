@@ -14,17 +14,18 @@ from rwn.name.weights import RankedFit
 
 @dataclass(frozen=True, kw_only=True)
 class FittedParameter:
-    """A nominal parameter: as given, its declared relative standard deviation (0: exact), and as refitted."""
+    """A nominal parameter: as given, its declared relative standard deviation (0: exact; None: not known at all), and
+    as refitted."""
 
     nominal: float
-    uncertainty: float
+    uncertainty: float | None
     refitted: Estimate  # the nominal structure alone
     corrected: Estimate | None = None  # together with the found effects
 
     @property
     def moved(self) -> float:
         """By how many declared standard deviations the refit moved it, relative or in its logarithm; 0 where exact."""
-        if self.uncertainty == 0.0 or self.nominal <= 0.0:
+        if not self.uncertainty or self.nominal <= 0.0:
             return 0.0
         ratio = self.refitted.value / self.nominal
         return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
@@ -49,9 +50,13 @@ def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, doubt: Dou
         unit = model.unit(name)
         rows[name] = FittedParameter(
             nominal=value,
-            uncertainty=model.uncertainty.get(name, 0.0),
+            uncertainty=_finite(model.uncertainty.get(name, 0.0)),
             refitted=replace(alone[name], unit=unit) if name in alone else Estimate(value=value, unit=unit),
             corrected=replace(together[name], unit=unit) if name in together else None,
         )
     status = ranking.nominal.minimum.status
     return NominalFit(parameters=rows, status=status.name.lower().replace("_", "-"), advice=status.value)
+
+
+def _finite(uncertainty: float) -> float | None:
+    return uncertainty if math.isfinite(uncertainty) else None  # JSON has no infinity

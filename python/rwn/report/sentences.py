@@ -56,7 +56,7 @@ def _with_parameters(effect: FoundEffect) -> str:
 
 
 def _adequate(found: DiagnosisData) -> tuple[str, ...]:
-    fitted = {name: p for name, p in found.nominal_fit.parameters.items() if p.uncertainty > 0}
+    fitted = {name: p for name, p in found.nominal_fit.parameters.items() if p.uncertainty != 0}
     far = {name: p.moved for name, p in fitted.items() if p.moved > BELIEVABLE}
     where = "" if far else " within their declared uncertainty"
     tail = f" once its parameters are refitted{where}" if fitted else ""

@@ -153,7 +153,8 @@ def parameter_table(found: DiagnosisData) -> str:
     rows = []
     for name, p in found.nominal_fit.parameters.items():
         corrected = "–" if p.corrected is None else f"<b>{escape(words.estimate(p.corrected))}</b>"
-        doubt = f"± {words.percent(p.uncertainty)}" if p.uncertainty else "exact"
+        declared = f"± {words.percent(p.uncertainty)}" if p.uncertainty else "exact"
+        doubt = "unknown" if p.uncertainty is None else declared
         nominal = words.quantity(p.nominal, p.refitted.unit, 4)
         label = escape(words.capital(words.plain_name(name)))
         rows.append([label, escape(nominal), doubt, escape(words.estimate(p.refitted)), corrected])

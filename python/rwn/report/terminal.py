@@ -83,7 +83,7 @@ def _parameters(found: DiagnosisData) -> Iterator[str]:
 
 def _off_the_data_sheet(found: DiagnosisData) -> Iterator[str]:
     """The parameters whose given values lie outside what the recordings say, the farthest first."""
-    fitted = [(name, p) for name, p in found.nominal_fit.parameters.items() if p.uncertainty > 0.0]
+    fitted = [(name, p) for name, p in found.nominal_fit.parameters.items() if p.uncertainty]
     for name, p in sorted(fitted, key=lambda pair: -pair[1].moved):
         low, high = p.refitted.interval or (p.nominal, p.nominal)
         if not low <= p.nominal <= high:

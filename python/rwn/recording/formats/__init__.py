@@ -35,6 +35,12 @@ FORMATS: dict[str, Reader] = {
     **dict.fromkeys((".mf4", ".mdf"), read_mdf),
 }
 
+# What is converted with the tools that wrote it, and how (mcap.dev/guides/getting-started/ros-2).
+CONVERTED: dict[str, str] = {
+    ".db3": "convert the bag to .mcap: mcap convert {path} {stem}.mcap, or ros2 bag convert -i {path} -o convert.yaml "
+    "with storage_id: mcap for its output bag"
+}
+
 __all__ = ["FORMATS", "MAX_SAMPLES", "Table", "read_table"]
 
 
@@ -46,8 +52,8 @@ def read_table(path: Path, wanted: Collection[str]) -> Table:
         raise InputError(
             f"unknown kind of file '{path.suffix}'",
             where=path,
-            expected=" or ".join(FORMATS),
-            fix="export the recording as CSV",
+            expected=", ".join(FORMATS),
+            fix=CONVERTED.get(path.suffix.lower(), "export the recording as CSV").format(path=path, stem=path.stem),
         )
     with input_file(path, "a recording file"):
         return part_of(reader, path, part, wanted) if part else reader(path, wanted)

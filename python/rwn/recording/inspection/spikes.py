@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 LEVEL = 0.01  # chance that one is found in Gaussian noise, in all samples together
 RARE = 0.02  # most of the samples that are called spikes: a signal that jumps more often does so by itself
-BESIDE = 0.25  # most that the neighbours may differ from each other, in units of the jump
+BESIDE = 0.25  # most that a signal may move beside a spike, in units of the jump
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
 SETTLING = 3  # samples after a step of the input in which a current may peak by itself
 
@@ -43,8 +43,10 @@ def _spikes(recording: Recording, signal: str) -> Flags:
 
 
 def _alone(x: Array, after_steps: Flags, together: int) -> Flags:
-    """So many samples off both neighbours by more than noise, which differ little from each other; dropouts to 0.
+    """So many samples off both neighbours by more than noise, in a signal that rests beside them; dropouts to 0.
 
+    It rests where the neighbours differ little from each other, and on one side at least from the next: a current that
+    peaks, or a rectified speed that turns, moves on both. Both sides need not, since the next may be another spike.
     Several together have to be beyond all others: a motor may well swing within a few samples.
     """
     from scipy.stats import norm
@@ -57,7 +59,8 @@ def _alone(x: Array, after_steps: Flags, together: int) -> Flags:
     here = np.stack([x[1 + k : x.size - together + k] for k in range(together)])
     jump = np.min(np.abs(here - 0.5 * (before + after)), axis=0)
     off = np.all((here - before) * (here - after) > 0.0, axis=0) & (jump > limit)
-    smooth = np.abs(after - before) < BESIDE * jump
+    leads, follows = np.abs(np.diff(before, prepend=np.inf)), np.abs(np.diff(after, append=np.inf))
+    smooth = np.maximum(np.abs(after - before), np.minimum(leads, follows)) < BESIDE * jump
     beyond = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[~_in_all(off, together)]), initial=0.0))
     dropped = np.all(here == 0.0, axis=0)
     may = beyond | (~after_steps[1:-together] & (together == 1))

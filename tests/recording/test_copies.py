@@ -1,0 +1,100 @@
+"""A recording that is another with fewer digits is a double; two runs of one profile are two recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.recording.copies import is_piece
+from rwn.recording.recording import read_recording, write_csv
+
+TIME = np.arange(2000) * 1e-3
+VOLTAGE = 12.0 * np.sign(np.sin(9.0 * TIME))
+SPEED = 150.0 * np.sin(9.0 * TIME + 0.3)
+CURRENT = 0.8 * np.cos(9.0 * TIME) + 0.01
+
+
+def _run(seed: int, noise: float = 1.0) -> dict[str, np.ndarray]:
+    rng = np.random.default_rng(seed)
+    noisy = {"current": (CURRENT, 0.02), "speed": (SPEED, 0.3)}
+    return {"voltage": VOLTAGE} | {
+        name: x + noise * level * rng.standard_normal(TIME.size) for name, (x, level) in noisy.items()
+    }
+
+
+def _recording(signals: dict[str, np.ndarray], **kept: object) -> rwn.Recording:
+    return rwn.Recording(name="run", time=TIME[: len(signals["speed"])], signals=signals, **kept)  # type: ignore[arg-type]
+
+
+def _significant(x: np.ndarray, digits: int) -> np.ndarray:
+    return np.array([float(f"{v:.{digits}g}") for v in x])
+
+
+ROUNDINGS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "to three decimals": lambda x: np.round(x, 3),
+    "to one decimal, coarser than its noise": lambda x: np.round(x, 1),
+    "to four digits": lambda x: _significant(x, 4),
+    "down": lambda x: np.floor(x * 100.0) / 100.0,
+    "towards zero": lambda x: np.trunc(x * 100.0) / 100.0,
+    "to single precision": lambda x: x.astype(np.float32).astype(np.float64),
+}
+
+
+@pytest.mark.parametrize("how", ROUNDINGS)
+def test_a_rounded_copy_is_a_double(how: str) -> None:
+    run = _run(1)
+    rounded = {name: ROUNDINGS[how](x) for name, x in run.items()}
+    assert is_piece(_recording(rounded), _recording(run))
+    assert is_piece(_recording(run), _recording(rounded))
+
+
+def test_so_is_a_rounded_piece_without_a_column() -> None:
+    run = _run(1)
+    piece = {name: np.round(run[name][300:900], 2) for name in ("voltage", "speed")}
+    assert is_piece(_recording(piece), _recording(run))
+
+
+def test_so_is_a_copy_in_another_unit_with_fewer_digits(tmp_path: Path) -> None:
+    run = _run(1)
+    write_csv(tmp_path / "a.csv", TIME, run)
+    in_rpm = np.column_stack([1e3 * TIME, VOLTAGE, np.round(1e3 * run["current"]), run["speed"] * 30.0 / np.pi])
+    header = "time [ms],voltage [V],current [mA],speed [rpm]"
+    np.savetxt(tmp_path / "b.csv", in_rpm, fmt="%.5g", delimiter=",", header=header, comments="")
+    a, b = (read_recording(tmp_path / name) for name in ("a.csv", "b.csv"))
+    assert is_piece(a, b)
+    assert is_piece(b, a)
+
+
+@pytest.mark.parametrize("digits", [0, 1, 2, 3, 8])
+@pytest.mark.parametrize("noise", [1.0, 0.1, 0.01])
+def test_two_runs_of_one_profile_are_two_recordings(digits: int, noise: float) -> None:
+    first, second = _run(1, noise), _run(2, noise)
+    rounded = {name: np.round(x, digits) for name, x in second.items()}
+    assert not is_piece(_recording(first), _recording(rounded))
+    assert not is_piece(_recording({n: np.round(x, digits) for n, x in first.items()}), _recording(rounded))
+
+
+def test_so_are_two_runs_that_an_encoder_counts_coarsely() -> None:
+    step = 2.0 * np.pi / 4096
+    counts = [np.round((40.0 * TIME + 3e-4 * np.random.default_rng(k).standard_normal(2000)) / step) for k in (1, 2)]
+    first, second = (rwn.Recording(name="a", time=TIME, signals={"position": step * x}) for x in counts)
+    assert np.max(np.abs(counts[0] - counts[1])) == 1.0
+    assert not is_piece(first, second)
+
+
+def test_a_rounded_copy_is_refused_as_a_heldout_recording() -> None:
+    run = _run(1)
+    model = rwn.Model(
+        kind="dc", uncertainty={"inertia": 0.1},
+        parameters={
+            "resistance": 0.8, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 6e-5,
+            "viscous_friction": 1e-5,
+        },
+    )  # fmt: skip
+    rounded = {name: np.round(x, 2) for name, x in run.items()}
+    with pytest.raises(rwn.InputError, match="given twice"):
+        rwn.diagnose(_recording(run), model, heldout=_recording(rounded))

@@ -1,0 +1,83 @@
+"""A spike is off a signal that rests beside it; a peak of the motion, however sharp, is none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from rwn.model.files import read_model
+from rwn.recording.inspection.spikes import SPIKES
+from rwn.recording.recording import Recording, read_recording
+from rwn.recording.signals import MEASURED
+
+Array = NDArray[np.float64]
+TIME = np.arange(4000) * 1e-3
+
+
+def _recording(**signals: Array) -> Recording:
+    voltage = 8.0 * np.sign(np.sin(9.0 * TIME))
+    return Recording(name="run", time=TIME, signals={"voltage": voltage, **signals})
+
+
+def _peaks(noise: float, seed: int = 1) -> Array:
+    """A current that peaks some samples after each step of the voltage: winding and coupling of 1 to 3 ms."""
+    after = np.mod(TIME, np.pi / 9.0) / 1e-3
+    way = np.sign(np.sin(9.0 * TIME))
+    levels = np.repeat(1.0 + 0.02 * np.arange(20), 349)[: TIME.size]  # each may be the highest so far
+    rng = np.random.default_rng(seed)
+    return levels * way * 20.0 * (np.exp(-after / 30.0) - np.exp(-after / 1.5)) + noise * rng.standard_normal(TIME.size)
+
+
+def test_a_current_that_peaks_by_itself_has_no_spikes() -> None:
+    for seed in range(5):
+        run = _recording(current=_peaks(0.02, seed))
+        assert not SPIKES.flags(run, "current").any()
+
+
+def test_a_speed_that_a_sensor_rectifies_has_none_where_it_turns() -> None:
+    rng = np.random.default_rng(1)
+    run = _recording(speed=np.abs(150.0 * np.sin(9.0 * TIME)) + 0.05 * rng.standard_normal(TIME.size))
+    assert not SPIKES.flags(run, "speed").any()
+
+
+def test_spikes_among_such_peaks_are_found() -> None:
+    at = [150, 151, 600, 900, 1801, 3000]
+    current = _peaks(0.02)
+    current[at] = [30.0, -30.0, 30.0, -30.0, 30.0, 30.0]
+    assert set(np.flatnonzero(SPIKES.flags(_recording(current=current), "current"))) == set(at)
+
+
+def test_the_first_and_the_last_sample_beside_it_may_be_all_that_there_is() -> None:
+    speed = 100.0 * np.sin(TIME) + 0.05 * np.random.default_rng(1).standard_normal(TIME.size)
+    speed[[1, -2]] = 300.0
+    assert np.flatnonzero(SPIKES.flags(_recording(speed=speed), "speed")).tolist() == [1, TIME.size - 2]
+
+
+def _flagged(file: Path) -> tuple[Recording, dict[str, Array]]:
+    model = read_model(file.parent / "model.toml")
+    run = read_recording(file, layout=model.recording)
+    return run, {s: SPIKES.flags(run, s) for s in MEASURED if s in run.signals}
+
+
+@pytest.mark.parametrize("case", range(1, 15))
+def test_the_clean_example_cases_have_none(case: int, shared: Path) -> None:
+    for file in sorted((shared / f"cases/case_{case:02}").glob("*_?.csv")):
+        _, found = _flagged(file)
+        assert not any(flags.any() for flags in found.values()), file
+
+
+def test_those_of_the_messy_cases_are_found_and_nothing_else(shared: Path) -> None:
+    hit, there = 0, 0
+    for file in sorted((shared / "messy/outliers").glob("*/*_?.csv")):
+        run, found = _flagged(file)
+        clean, _ = _flagged(shared / "cases" / file.parent.name / file.name)
+        for signal, flags in found.items():
+            spoilt = run.signals[signal] != clean.signals[signal]
+            assert not (flags & ~spoilt).any(), (file, signal)
+            hit, there = hit + int((flags & spoilt).sum()), there + int(spoilt.sum())
+    # the others: zeros within the noise or the slope beside them, peaks no larger than that slope, one beside a zero
+    assert there == 426
+    assert hit >= 415

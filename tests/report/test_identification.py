@@ -1,0 +1,77 @@
+"""What `rwn identify` says of a fit contradicts nothing else that it says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.fit.identify import Identification
+from rwn.model.model import Model
+from rwn.recording.recording import Recording
+from rwn.report import identification
+
+DEMO = Path(rwn.__file__).parent / "demo"
+
+
+def _as(change: Callable[[Mapping[str, np.ndarray]], Mapping[str, np.ndarray]], count: int = 4000) -> Recording:
+    run = rwn.read_recording(DEMO / "train.csv").beginning(count)
+    return replace(run, signals={**run.signals, **change(run.signals)})
+
+
+WRONG: dict[str, Recording] = {
+    "a speed of the other sign": _as(lambda s: {"speed": -s["speed"]}),
+    "a current of the other sign": _as(lambda s: {"current": -s["current"]}),
+    "a current in mA": _as(lambda s: {"current": 1e3 * s["current"]}),
+    "ten times the voltage": _as(lambda s: {"voltage": 10.0 * s["voltage"]}),
+    "a run of 120 samples": _as(lambda _: {}, 120),
+    "nothing": _as(lambda _: {}),
+}
+
+
+def _identified(case: str) -> tuple[Identification, Model, list[str], str]:
+    run, model = WRONG[case], rwn.read_model(DEMO / "model.toml")
+    fit = rwn.identify(run, model)
+    signals = identification.fitted_signals(fit, [run])
+    doubts = [line for line in identification.lines(fit, signals, model) if line.startswith("warning")]
+    return fit, model, doubts, identification.failure(fit, signals)
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_nothing_is_said_to_be_unseen_that_moved_far_or_to_a_bound(case: str) -> None:
+    _, model, doubts, _ = _identified(case)
+    for name in model.uncertainty:
+        said = [line for line in doubts if re.search(rf"\b{name.replace('_', ' ')}\b", line)]
+        assert sum("say nothing of" in line for line in said) in (0, len(said)), said
+
+
+def test_what_moved_far_was_seen() -> None:
+    fit, _, doubts, _ = _identified("ten times the voltage")
+    assert "resistance" not in fit.not_identifiable  # 1.1 ohm in all but a scale: 10.9 +- 0.15 is not unknown
+    assert any("resistance moved by" in line for line in doubts)
+
+
+@pytest.mark.parametrize("case", ["a speed of the other sign", "a current of the other sign"])
+def test_a_sign_error_that_drives_a_parameter_to_the_end_of_its_search_is_no_fit(case: str) -> None:
+    fit, model, doubts, why = _identified(case)
+    ran = [n for n, e in fit.parameters.items() if not 2e-3 < e.value / model.parameters[n] < 500.0 and e.value > 0.0]
+    assert ran
+    assert "end of the search" in why
+    assert "check signs" in why
+    assert any("ran into a bound" in line for line in doubts)
+
+
+def test_a_friction_that_comes_out_as_nothing_is_a_fit() -> None:
+    model = rwn.read_model(DEMO / "model.toml")
+    exact = replace(model, parameters={**model.parameters, "viscous_friction": 1e-12}, uncertainty={})
+    given = rwn.read_recording(DEMO / "train.csv")
+    rng = np.random.default_rng(1)
+    made = {name: x + 0.02 * rng.standard_normal(x.size) for name, x in rwn.simulate(exact, given).signals.items()}
+    run = replace(given, signals={**given.signals, "current": made["current"], "speed": made["speed"]})
+    fit = rwn.identify(run, model)
+    assert not identification.failure(fit, identification.fitted_signals(fit, [run]))
