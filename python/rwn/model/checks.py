@@ -54,20 +54,22 @@ def check_nominal(values: Mapping[str, float], known: Iterable[NominalParameter]
             )
 
 
-def check_uncertainty(values: Mapping[str, float], parameters: Mapping[str, float], *, where: str) -> None:
-    """Each is a relative deviation of a value that is not 0, at most 1, or infinite. Raises InputError.
+LOOSEST = 3.0  # relative deviation; at 95 % it leaves a factor of 400 either way, which says as much as inf
 
-    Above 1 it would say that the value may as well be of the other sign: it is a percentage without its sign, or
-    nothing is known, and a number would feign that something is.
+
+def check_uncertainty(values: Mapping[str, float], parameters: Mapping[str, float], *, where: str) -> None:
+    """Each is a relative deviation of a value that is not 0, at most LOOSEST, or infinite. Raises InputError.
+
+    Above that it is a percentage without its sign, or nothing is known, and a number would feign that something is.
     """
     check_numbers({name: value for name, value in values.items() if value != math.inf}, where=where)
     for name, value in values.items():
-        if value < 0 or 1 < value < math.inf:
+        if value < 0 or LOOSEST < value < math.inf:
             in_percent = f'write {value / 100:g} or "{value:g} %", or inf' if value <= 100 else "write inf"
             raise InputError(
                 f"{name} is {value:g}" + (f", that is {100 * value:g} %" if value > 0 else ""),
                 where=where,
-                expected="a relative standard deviation of at most 1, 0.1 = 10 %, or inf",
+                expected=f"a relative standard deviation of at most {LOOSEST:g}, 0.1 = 10 %, or inf",
                 fix="write it without a sign" if value < 0 else f"{in_percent} where nothing is known",
             )
         if 0 < value < math.inf and parameters.get(name, 0.0) == 0:
