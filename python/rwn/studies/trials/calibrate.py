@@ -17,6 +17,7 @@ from rwn.decide.account import Remainder
 from rwn.decide.calibration import FEATURES, Calibration, calibration, features
 from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
+from rwn.studies.trials.bench_trials.also_true import also_true
 from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.grade import load_answers
 from rwn.studies.trials.run import out_of, trial_folders
@@ -76,7 +77,8 @@ def _true(answer: Mapping[str, Any]) -> set[str]:
     """Every name that says rightly what acts, physics that the trials conceal without a name under the one it has."""
     background = answer.get("background") or {}
     kinds = [e["name"] for e in answer["effects"]] + ([str(background["kind"])] if "kind" in background else [])
-    return set().union(*map(known_as, kinds), answer.get("equivalent", ()), answer.get("also_true", ()))
+    beside = also_true(answer) if "imperfections" in answer else set()
+    return set().union(*map(known_as, kinds), answer.get("equivalent", ()), beside)
 
 
 def bias_of(folders: Sequence[Path], *, results: Path | None = None) -> float:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from rwn.studies.trials.adapter import heldout_files, refitted_file, simulated_file
+from rwn.studies.trials.bench_trials.also_true import also_true
 from rwn.studies.trials.bench_trials.plan import BACKGROUND_ALONE, NOTHING
 from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.dossier import read_columns
@@ -26,9 +27,6 @@ from rwn.studies.trials.grade import (
 )
 from rwn.studies.trials.run import out_of, trial_folders
 
-LATE = frozenset({"input-delay", "speed-sensor-lag", "current-sensor-lag"})
-ROUNDED = "sensor-quantization"
-LATE_RECORDING = "time-shift"  # right where a channel is late
 WORSE = 1.01  # times the error of the refitted model, noise included
 
 
@@ -153,12 +151,10 @@ def _accepted(answer: Mapping[str, Any], truth: Sequence[str]) -> tuple[set[str]
     """The names that are asked for, and those that are true beside them.
 
     True beside them are names that describe an imperfection rightly, and the name of the background: it is "unnamed"
-    when the trials are written, and right as soon as the vocabulary has it. The speed of an encoder lies on steps.
+    when the trials are written, and right as soon as the vocabulary has it.
     """
     meant = {*truth, *answer["equivalent"]} if truth else set()
-    beside = set(answer["also_true"])
-    beside |= {LATE_RECORDING} if beside & LATE else set()
-    beside |= {ROUNDED} if answer["noise"]["kind"] == "encoder" else set()
+    beside = also_true(answer)
     beside |= known_as(str(answer["background"]["kind"])) if answer["background"] else set()
     return meant, beside - meant
 

@@ -19,7 +19,7 @@ class ZeroOffset(Imperfection):
 
     @property
     def like(self) -> frozenset[str]:
-        return frozenset({"sensor-bias"} if self.speed else ())
+        return frozenset({"sensor-bias"} if self.speed or self.current else ())
 
     def written(self, log: Log, rng: Rng) -> Log:  # noqa: ARG002
         return log.having(
