@@ -49,3 +49,12 @@ def test_the_innovations_of_filtered_noise_are_white() -> None:
     noise = Noise(level=1.0, reflection=(0.6,))
     assert np.std(noise.innovations(errors)) == pytest.approx(1.0, rel=0.05)
     assert noise.deviation == pytest.approx(np.std(errors), rel=0.1)
+
+
+def test_values_that_are_held_do_not_say_how_large_the_noise_is() -> None:
+    noise = np.random.default_rng(3).standard_normal(4000)
+    held = {"speed": np.arange(4000) % 5 > 0}
+    time, speed = 1e-3 * np.arange(4000), np.repeat(noise[::5], 5)
+    run = Run(name="held", time=time, input=0.0 * time, speed=speed, missing=held)
+    left = np.where(run.missing["speed"], 0.0, run.speed)  # 0 where it is not compared
+    assert noise_of([run], [{"speed": left}])["speed"].level == pytest.approx(1.0, rel=0.1)

@@ -30,9 +30,10 @@ def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> d
     levels = {}
     for signal in dict.fromkeys(s for left in residuals for s in left):
         steps = float(np.median([r.quantisation(signal) for r in runs if r.signal(signal).size]))
-        found = [_noise(left[signal]) for left in residuals if signal in left and left[signal].size > 8]
+        pairs = [(r, left[signal]) for r, left in zip(runs, residuals, strict=True) if signal in left]
+        found = [_noise(r.masked(signal, values)) for r, values in pairs if values.size > 8]
         differenced = max(float(np.median(found)) if found else 1.0, 1e-12)
-        encoder = signal == "position" or (signal == "speed" and any(r.speed_measured.is_difference for r in runs))
+        encoder = signal == "position" or (signal == "speed" and any(r.speed_measured.shows_counts for r in runs))
         levels[signal] = steps if steps and encoder else max(steps, differenced)
     if "position" in levels:
         travel = max(float(np.ptp(r.position)) for r in runs if r.position.size)

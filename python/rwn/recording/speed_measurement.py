@@ -17,6 +17,7 @@ SHORTEST = 20  # samples that say how a speed was obtained
 REPEATED = 0.05  # error of a difference of the recorded position, in units of the noise that it has
 # power near half the sampling rate in units of that near a quarter, where a rounded speed has 0.4 to 1
 VANISHING = 0.05  # central differences have 0.005
+LONGEST = 8  # samples of a difference: a moving average of so many differences over one
 MOTION = 0.2  # of the sampling rate: what moves a drive is slower
 RISING = 1.4  # differences over one sample have 2
 
@@ -33,12 +34,16 @@ class SpeedMeasurement:
         """Whether the speed is a difference of positions."""
         return self.before + self.after > 0
 
+    @property
+    def shows_counts(self) -> bool:
+        """Whether its noise is that of the counts; over many rows the instants of its updates outweigh these."""
+        return 0 < self.before + self.after <= LONGEST
+
 
 INSTANTANEOUS = SpeedMeasurement()
 CENTRAL = SpeedMeasurement(1, 1)
 BACKWARD = SpeedMeasurement(1, 0)
 FORWARD = SpeedMeasurement(0, 1)
-LONGEST = 8  # samples of a difference: a moving average of so many differences over one
 AVERAGED = tuple(SpeedMeasurement(k, 0) for k in range(LONGEST, 2, -1))
 DIFFERENCES = (CENTRAL, BACKWARD, FORWARD, SpeedMeasurement(2, 0), *AVERAGED)
 
