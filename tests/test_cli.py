@@ -39,6 +39,7 @@ class FakeIdentification:
     advice: str = ""
     not_identifiable: tuple[str, ...] = ()
     residual_over_noise: float = 1.0
+    findings: tuple[()] = ()
 
 
 def _fake_diagnose(calls: list[dict[str, Any]]) -> Callable[..., Diagnosis]:
@@ -182,7 +183,7 @@ def test_identify_says_what_ran_into_a_bound_and_what_is_not_seen() -> None:
     said = "\n".join(identification.lines(fit, (), model))  # type: ignore[arg-type]
     assert "warning: resistance ran into a bound" in said
     assert "say nothing of inertia" in said
-    assert "resistance moved by 27 times what was declared" in said
+    assert "times what was given, 27 declared deviations" in said
 
 
 def test_version(run: Run) -> None:

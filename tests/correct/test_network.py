@@ -110,7 +110,7 @@ def test_a_network_over_the_angle() -> None:
 
 
 def test_what_the_nominal_term_can_do_is_not_left_to_the_network() -> None:
-    unsure = replace(NOMINAL, uncertainty={**NOMINAL.uncertainty, "viscous_friction": 30.0})
+    unsure = replace(NOMINAL, uncertainty={**NOMINAL.uncertainty, "viscous_friction": np.inf})
     ranking = rank(prepare([recorded(seed, wavy) for seed in range(2)], unsure), progress=_silent, names=NONE)
     made = network_correction(ranking, unsure, at=places(ranking.problem, unsure)[0])
     assert made is not None

@@ -69,3 +69,12 @@ def test_counts_at_standstill_are_neither_held_nor_clipped() -> None:
     rng = np.random.default_rng(2)
     counts = np.round(20.0 * np.maximum(np.sin(3e-3 * np.arange(N)), 0.0) + 0.3 * rng.standard_normal(N))
     assert inspected([_recording({"speed": 0.5 * counts})]).findings == ()
+
+
+def test_a_held_signal_that_rests_at_its_largest_value_is_not_clipped(speed: Array) -> None:
+    """An update may bring the same value once more: the plateau is that of the motion, and the usual gap is said."""
+    updated = np.round(speed[::10], 2)
+    updated[120:126] = np.max(updated) + 0.5
+    found = inspected([_recording({"speed": np.repeat(updated, 10)})])
+    assert [finding.kind for finding in found.findings] == ["held"]
+    assert "every 10 samples" in found.findings[0].words

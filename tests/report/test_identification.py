@@ -53,7 +53,7 @@ def test_nothing_is_said_to_be_unseen_that_moved_far_or_to_a_bound(case: str) ->
 def test_what_moved_far_was_seen() -> None:
     fit, _, doubts, _ = _identified("ten times the voltage")
     assert "resistance" not in fit.not_identifiable  # 1.1 ohm in all but a scale: 10.9 +- 0.15 is not unknown
-    assert any("resistance moved by" in line for line in doubts)
+    assert any("resistance moved to" in line for line in doubts)
 
 
 @pytest.mark.parametrize("case", ["a speed of the other sign", "a current of the other sign"])

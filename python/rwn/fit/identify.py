@@ -21,6 +21,7 @@ from rwn.fit.residuals import Statistics, statistics
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit
+from rwn.recording.inspection import Finding, inspected
 from rwn.values import table_of_rows
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ class Identification:
     advice: str
     not_identifiable: tuple[str, ...]  # these recordings say less of them than the data sheet does
     residual_over_noise: float  # rms, 1: nothing but noise is left
+    findings: tuple[Finding, ...] = ()  # what is odd in the recordings, and what was done about it
 
     def __repr__(self) -> str:
         names = ", ".join(self.parameters)
@@ -78,7 +80,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     Raises InputError where a recording does not fit the model.
     """
     model = model_of(model)
-    runs = recordings_to_fit(recordings, model)
+    runs, findings = inspected(recordings_to_fit(recordings, model))
     model = with_intersample(runs, model)
     problem = prepare(runs, model)
     this = fit_nominal(problem)
@@ -93,6 +95,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
         advice=status.value,
         not_identifiable=_unseen(this, left),
         residual_over_noise=left.variance**0.5,
+        findings=findings,
     )
 
 

@@ -163,6 +163,6 @@ def _warnings(
         if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and declared:
             off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
             if off > BELIEVABLE:
-                by = f"by {off:.1f} times what was declared" if value > 0.0 else "down to zero"
-                texts.append(f"data sheet and recordings contradict each other in {u.name}: it moved {by}")
+                to = f"{value / u.prior:.2g} times what was given, {off:.1f} declared deviations" if value > 0.0 else "zero"
+                texts.append(f"data sheet and recordings contradict each other in {u.name}: it moved to {to}")
     return tuple(texts)

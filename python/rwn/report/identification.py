@@ -70,6 +70,7 @@ def lines(fit: Identification, signals: Sequence[Fitted], nominal: Model) -> Ite
     for row in signals:
         yield f"{row.recording}: {_share(row.explained)} of the variance of the {row.signal} is explained"
     yield f"what is left has {number(fit.residual_over_noise, 2)} times the rms of the noise (1: nothing but noise)"
+    yield from (f"{finding.recording}: {finding.words} ({finding.done})" for finding in fit.findings)
     yield from (f"warning: {text}" for text in _doubts(fit, nominal))
 
 
@@ -89,7 +90,11 @@ def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
                 nominal=nominal.parameters[name], uncertainty=nominal.uncertainty[name], refitted=value
             ).moved
             if moved > BELIEVABLE:
-                yield f"{_named(name)} moved by {number(moved, 2)} times what was declared: check data sheet and units"
+                factor = value.value / nominal.parameters[name]
+                yield (
+                    f"{_named(name)} moved to {number(factor, 2)} times what was given, {number(moved, 2)} declared "
+                    "deviations: check data sheet and units"
+                )
 
 
 def _held(fit: Identification, nominal: Model) -> Iterator[str]:

@@ -13,7 +13,7 @@ from rwn.prove.proof import LEFT_OUT
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.text import STRONGEST, estimate, likelihood, listing, number, percent, plain_name, prefix_for
 
-SLIGHT = 0.005  # share of the mismatch that is not worth a sentence
+SLIGHT = 0.005  # share of a mismatch or an error that is not worth a sentence
 
 
 def verdict_sentence(found: DiagnosisData) -> str:
@@ -126,9 +126,12 @@ def _proof(found: DiagnosisData, how: str) -> Iterator[str]:
     if row is None or row.gain is None:
         return
     before, after = before_after(row)
-    does = "reduces" if row.gain >= 0 else "increases"
     where = f"the {row.signal} error on {recording_in_words(row.recording)},"
-    yield f"{how} {does} {where} from {before} to {after} ({percent(abs(row.gain))})."
+    if abs(row.gain) < SLIGHT:
+        yield f"{how} changes nothing in {where} {after}: something larger is off there."
+    else:
+        does = "reduces" if row.gain >= 0 else "increases"
+        yield f"{how} {does} {where} from {before} to {after} ({percent(abs(row.gain))})."
     for other in found.heldout:
         if other is not row and other.region == "all" and worse(other):
             before, after = before_after(other)

@@ -16,16 +16,19 @@ TOGETHER = 5  # samples in a row at the end of the range: of a noise larger than
 
 
 def _clipped(recording: Recording, signal: str) -> Flags:
-    x = np.asarray(recording.signals[signal])
+    every = np.asarray(recording.signals[signal])
+    new = ~recording.missing.get(signal, np.zeros(every.size, dtype=bool))  # held values stand by themselves
+    x, found = every[new], np.zeros(every.size, dtype=bool)
     flags = np.zeros(x.size, dtype=bool)
     moving = x[np.append(False, np.diff(x) != 0.0)]
     if moving.size < 20 or not rough_noise(moving) > 2.0 * quantum(x):
-        return flags  # steps as coarse as the noise repeat by themselves
+        return found  # steps as coarse as the noise repeat by themselves
     for end in (float(np.max(x)), float(np.min(x))):
         at = x == end
         if end != 0.0 and _longest(at) >= TOGETHER:
             flags |= at
-    return flags
+    found[new] = flags
+    return found
 
 
 def _longest(at: Flags) -> int:

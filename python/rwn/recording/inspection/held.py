@@ -29,7 +29,7 @@ def _repeated(recording: Recording, signal: str) -> Flags:
 
 
 def _words(signal: str, repeated: Flags) -> str:
-    every = round(repeated.size / float(np.sum(~repeated)))
+    every = round(float(np.median(np.diff(np.flatnonzero(~repeated)))))  # an update may bring an equal value
     return f"the {signal} is updated every {every} samples and held between"
 
 
