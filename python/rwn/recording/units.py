@@ -61,6 +61,13 @@ def _angle_power(unit: Any) -> float:
     return float(dict(base._units).get("radian", 0))
 
 
+def _other_dimension(unit: str, si_unit: str, given: Any, wanted: Any) -> str:
+    if (1 / _registry().Quantity(1.0, given)).dimensionality == wanted.dimensionality:
+        turned = "/".join(reversed(unit.split("/")))
+        return f"this is a unit of the inverse (a speed constant, for instance): write 1 over the number, in {turned}"
+    return f"write the unit that the numbers have, for instance {si_unit}"
+
+
 def factor(unit: str, si_unit: str, *, where: object, strict_angle: bool = True) -> float:
     """What a number in `unit` is multiplied by to be in `si_unit`.
 
@@ -75,7 +82,7 @@ def factor(unit: str, si_unit: str, *, where: object, strict_angle: bool = True)
             f"unit '{unit}' has the wrong dimension",
             where=where,
             expected=expected,
-            fix=f"write the unit of the numbers in brackets, for instance [{si_unit}]",
+            fix=_other_dimension(unit, si_unit, given, wanted),
         )
     power, wanted_power = _angle_power(given), _angle_power(wanted)
     if power != wanted_power and (strict_angle or power != 0 or "hertz" in str(given)):

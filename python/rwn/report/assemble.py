@@ -163,6 +163,7 @@ def _warnings(
         if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and declared:
             off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
             if off > BELIEVABLE:
-                to = f"{value / u.prior:.2g} times what was given, {off:.1f} declared deviations" if value > 0.0 else "zero"
-                texts.append(f"data sheet and recordings contradict each other in {u.name}: it moved to {to}")
+                to = f"{value / u.prior:.2g} times what was given, {off:.1f} declared deviations"
+                said = f"data sheet and recordings contradict each other in {u.name}"
+                texts.append(f"{said}: it moved to {to if value > 0.0 else 'zero'}")
     return tuple(texts)
