@@ -65,7 +65,7 @@ def _other_dimension(unit: str, si_unit: str, given: Any, wanted: Any) -> str:
     if (1 / _registry().Quantity(1.0, given)).dimensionality == wanted.dimensionality:
         turned = "/".join(reversed(unit.split("/")))
         return f"this is a unit of the inverse (a speed constant, for instance): write 1 over the number, in {turned}"
-    return f"write the unit that the numbers have, for instance {si_unit}"
+    return f"write the unit that the numbers have, for instance {si_unit} ([{si_unit}] in a header)"
 
 
 def factor(unit: str, si_unit: str, *, where: object, strict_angle: bool = True) -> float:
