@@ -12,21 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from command_line import MODEL
 from rwn import cli
 from rwn.errors import InputError, plain
 from rwn.model.files import read_model
 from rwn.model.vocabulary import table
 from rwn.report.files import output_file, output_folder
 
-MODEL = """[motor]
-kind = "dc"
-resistance = 0.8
-inductance = 1.5e-3
-torque_constant = 0.1
-back_emf_constant = 0.1
-inertia = 3e-4
-viscous_friction = 7e-5
-"""
 HEADER = "time [s],voltage [V],speed [rad/s]\n"
 Refused = Callable[..., str]
 

@@ -9,19 +9,11 @@ import numpy as np
 import pytest
 
 import rwn
+from command_line import MODEL
 from rwn.errors import InputError
 from rwn.model.toml_reader import parse_model
 from rwn.recording.recording import read_recording
 
-MOTOR = """[motor]
-kind = "dc"
-resistance = 0.8
-inductance = 1e-3
-torque_constant = 0.05
-back_emf_constant = 0.05
-inertia = 6e-5
-viscous_friction = 1e-5
-"""
 RPM = np.pi / 30.0
 
 
@@ -32,7 +24,7 @@ def _file(folder: Path, header: str) -> Path:
 
 
 def _read(path: Path, recording: str = "") -> rwn.Recording:
-    model = parse_model(f"{MOTOR}[recording]\n{recording}\n", where="motor.toml")
+    model = parse_model(f"{MODEL}[recording]\n{recording}\n", where="motor.toml")
     return read_recording(path, layout=model.recording)
 
 

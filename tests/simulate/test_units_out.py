@@ -8,25 +8,17 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from command_line import MODEL
 from rwn.cli import app
 from rwn.errors import InputError
 from rwn.recording.recording import read_recording, write_csv
 
-MOTOR = """[motor]
-kind = "dc"
-resistance = 0.8
-inductance = 1e-3
-torque_constant = 0.05
-back_emf_constant = 0.05
-inertia = 6e-5
-viscous_friction = 1e-5
-"""
 TIME = np.arange(200) * 1e-3
 VOLTAGE = 6.0 * np.sign(np.sin(40.0 * TIME))
 
 
 def _simulated(folder: Path, header: str, columns: list[np.ndarray], recording: str = "") -> tuple[str, Path]:
-    (folder / "motor.toml").write_text(f"{MOTOR}[recording]\n{recording}\n")
+    (folder / "motor.toml").write_text(f"{MODEL}[recording]\n{recording}\n")
     np.savetxt(folder / "run.csv", np.column_stack(columns), fmt="%.9g", delimiter=",", header=header, comments="")
     out = folder / "out.csv"
     arguments = ["simulate", str(folder / "motor.toml"), "--input", str(folder / "run.csv"), "--out", str(out)]

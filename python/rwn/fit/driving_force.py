@@ -33,6 +33,7 @@ SMALL = 1e-9  # value that counts as one for that
 class BalancedRun(Run):
     """The smoothed motion of a recording, one sample of each smoothing length, with the force that drove it."""
 
+    velocity: Array = field(default_factory=lambda: np.empty(0))
     acceleration: Array = field(default_factory=lambda: np.empty(0))
 
     @property
@@ -50,11 +51,11 @@ class BalancedRun(Run):
 
     def motion(self) -> tuple[Array, Array]:
         """Speed and acceleration (n,)."""
-        return self.restart_speed, self.acceleration
+        return self.velocity, self.acceleration
 
     def until(self, end: int) -> BalancedRun:
         """Its first `end` samples."""
-        return replace(super().until(end), acceleration=self.acceleration[:end])  # type: ignore[call-arg,return-value]
+        return replace(super().until(end), velocity=self.velocity[:end], acceleration=self.acceleration[:end])  # type: ignore[call-arg,return-value]
 
 
 def balanced(run: Run) -> BalancedRun:
@@ -71,7 +72,7 @@ def balanced(run: Run) -> BalancedRun:
     position = every(smooth(run.position, length))
     return BalancedRun(
         name=run.name, time=every(run.time), input=every(smooth(run.input, length)), position=position, angle=position,
-        restart_speed=every(smooth(run.position, length, derivative=1, step=step)),
+        velocity=every(smooth(run.position, length, derivative=1, step=step)),
         acceleration=every(smooth(run.position, length, derivative=2, step=step)), missing={DRIVING_FORCE: near[rows]},
         own=run.own, start=run.start, start_spread=run.start_spread, in_motion=run.in_motion,
     )  # fmt: skip
@@ -134,7 +135,7 @@ class DrivingForceProblem(Problem):
     def _needed(self, run: BalancedRun, vector: Array, active: Sequence[int]) -> Array:
         self.work.add(run.time.size)
         return needed_force(
-            self.simulator, vector, active, time=run.time, position=run.position, speed=run.restart_speed,
+            self.simulator, vector, active, time=run.time, position=run.position, speed=run.velocity,
             acceleration=run.acceleration,
         )  # fmt: skip
 

@@ -63,7 +63,7 @@ class Model:
     """Kind of drive, nominal `parameters` (SI), `effects` name -> parameter values (SI), known `load`s, `recording`s.
 
     `uncertainty`: relative standard deviations of parameters, of those of effects as "effect.parameter" (of angles: in
-    rad); at most 1, or infinite: nothing is known; not listed: exact.
+    rad); at most 3, or infinite: nothing is known; not listed: exact.
 
     Kind `lti`: parameters b0, b1, .. and a0, .. are the coefficients of s^0, s^1, .. of a transfer function
     of `order`, monic in its denominator; where they are not given they are estimated.

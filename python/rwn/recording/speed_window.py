@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-LONGEST = 40  # rows of a window
+LONGEST_WINDOW = 40  # rows of a window
 JUDGED = 4000  # rows that are looked at
 LIKELIER = float(np.log(1000.0))  # than every other window, delay and filter
 MEMORIES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)  # of first-order filters, from update to update
@@ -27,18 +27,18 @@ def window_of(time: Array, speed: Array, position: Array, new: Flags) -> int:
     out of step do not decide.
     """
     rows = np.nonzero(new)[0]
-    rows = rows[(rows >= 2 * LONGEST) & (rows < time.size - LONGEST)]
-    moving = np.abs(position[rows] - position[rows - 2 * LONGEST]) > 0.0
-    if moving.sum() < 2 * LONGEST:
+    rows = rows[(rows >= 2 * LONGEST_WINDOW) & (rows < time.size - LONGEST_WINDOW)]
+    moving = np.abs(position[rows] - position[rows - 2 * LONGEST_WINDOW]) > 0.0
+    if moving.sum() < 2 * LONGEST_WINDOW:
         return 0
     update = max(round(float(np.median(np.diff(rows)))), 1)
     filtered = _filtered(time, speed, position, rows, moving, update)
     rows = rows[moving][:JUDGED]
     errors = _errors(time, speed, position, rows)
-    best = 1 + int(np.argmin([errors[width - 1, width] for width in range(1, LONGEST + 1)]))
+    best = 1 + int(np.argmin([errors[width - 1, width] for width in range(1, LONGEST_WINDOW + 1)]))
     if best <= 2 * update:  # not told from its neighbours
         return 0
-    widths, delays = np.arange(1, LONGEST + 1)[:, None], np.arange(2 * LONGEST + 1)
+    widths, delays = np.arange(1, LONGEST_WINDOW + 1)[:, None], np.arange(2 * LONGEST_WINDOW + 1)
     other = (np.abs(widths - best) > update) | (
         np.abs(delays - best) > 2 * update
     )  # out of step by more than an update
@@ -61,15 +61,15 @@ def _filtered(time: Array, speed: Array, position: Array, rows: NDArray[np.intp]
 
 
 def _errors(time: Array, speed: Array, position: Array, rows: NDArray[np.intp]) -> Array:
-    """Median error of the mean speed over each width, with each delay of its middle: (LONGEST, 2 LONGEST + 1).
+    """Median error of the mean speed over each width (rows), with each delay of its middle (columns, half rows).
 
     Infinite where width and delay make no whole rows, or reach further than the recording is looked at.
     """
-    errors = np.full((LONGEST, 2 * LONGEST + 1), np.inf)
-    for width in range(1, LONGEST + 1):
-        for delay in range(width % 2, 2 * LONGEST + 1, 2):
+    errors = np.full((LONGEST_WINDOW, 2 * LONGEST_WINDOW + 1), np.inf)
+    for width in range(1, LONGEST_WINDOW + 1):
+        for delay in range(width % 2, 2 * LONGEST_WINDOW + 1, 2):
             first, last = (-delay - width) // 2, (width - delay) // 2
-            if first >= -2 * LONGEST and last <= LONGEST:
+            if first >= -2 * LONGEST_WINDOW and last <= LONGEST_WINDOW:
                 mean = (position[rows + last] - position[rows + first]) / (time[rows + last] - time[rows + first])
                 errors[width - 1, delay] = np.median(np.abs(speed[rows] - mean))
     return errors
