@@ -9,7 +9,6 @@ import numpy as np
 
 from rwn.fit.fit import Fit
 from rwn.fit.intervals import Estimate
-from rwn.model.checks import LOOSEST
 from rwn.model.model import Model
 from rwn.model.vocabulary import Parameter, motor_index
 
@@ -62,4 +61,4 @@ def _deviation(p: Parameter, value: float, interval: tuple[float, float] | None)
         std = float(np.log(max(high / value, value / low))) / 1.96
     else:
         std = max(high - value, value - low) / (1.96 * abs(value))
-    return std if std <= LOOSEST else np.inf
+    return std if std <= 1.0 else np.inf
