@@ -13,7 +13,7 @@ import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.correct.network import network_correction, proved_network
 from rwn.decide.calibration import calibration
-from rwn.fit.network_formula import places
+from rwn.fit.network_places import places
 from rwn.fit.preparation import prepare
 from rwn.model.drives.axis import LINEAR_AXIS
 from rwn.model.files import write_model

@@ -93,5 +93,6 @@ def test_a_curve_in_the_place_of_a_law_says_no_more_of_its_state(ranking: Rankin
     friction = next(r for r in ranking.fits if r.added == ("coulomb-friction",)).fit
     problem = ranking.problem
     mimic = fit(problem, hypothesis(problem.prior, ("quadratic-drag",), problem.scales))
-    assert curve_instead(ranking.problem, friction, "coulomb-friction", MODEL) > 0.99
-    assert curve_instead(ranking.problem, mimic, "quadratic-drag", MODEL) < 0.5
+    nominal = ranking.nominal
+    assert curve_instead(ranking.problem, friction, nominal, "coulomb-friction", MODEL) > 0.99
+    assert curve_instead(ranking.problem, mimic, nominal, "quadratic-drag", MODEL) < 0.5

@@ -8,7 +8,8 @@ import numpy as np
 
 import rwn
 from made_up_motor import MOTOR, plant
-from rwn.fit.network_formula import parts_of, places
+from rwn.fit.network_formula import parts_of
+from rwn.fit.network_places import places
 from rwn.fit.preparation import prepare
 
 SHEET = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"viscous_friction": 0.3})

@@ -42,16 +42,20 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
     if decision.verdict == "unexplained":
         found = _without_a_name(decision, heldout, model, seed=seed)
         if found:
-            return found
-    warnings: tuple[str, ...] = ()
-    if decision.other:
-        warnings = (f"{decision.other.words} explains most of what is left: it has no name here",)
-    elif decision.verdict == "unexplained" and not model.drive.coefficients:
-        warnings = (NO_NETWORK,)
+            drawn = found.network.place if found.network else None
+            return replace(found, warnings=_seen(decision) if decision.other != drawn else ())
+    warnings = _seen(decision)
+    if decision.verdict == "unexplained" and not model.drive.coefficients:
+        warnings = (*warnings, NO_NETWORK)
     kept, left_out = _proved_part(decision, heldout, seed=seed)
     if left_out:
         warnings = (*warnings, NOT_HELPING.format(" + ".join(left_out)))
     return Correction(decision=decision, model=fitted_model(kept.final, model), final=kept.final, warnings=warnings)
+
+
+def _seen(decision: Decision) -> tuple[str, ...]:
+    other = decision.other
+    return (f"{other.words} explains most of what is left: it has no name here",) if other else ()
 
 
 def _proved_part(
@@ -83,7 +87,7 @@ def _without_a_name(
         made = Correction(
             decision=by_network, model=fitted_model(network.chosen.final, network.model), final=network.chosen.final,
             network=network,
-            stands_in=f"a wavelet network, {network.place.words}",
+            stands_in=f"{network.place.drawn_by}, {network.place.words}",
         )  # fmt: skip
         found.append((heldout_error(rows), made))
     leading = decision.account.leading

@@ -16,7 +16,9 @@ import numpy as np
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.network import has_room, knowing, with_network
-from rwn.fit.network_formula import NAME, PART, Place, as_effect, nominal_share, places
+from rwn.fit.network_formula import NAME, PART, as_effect, nominal_share
+from rwn.fit.network_places import Place, places
+from rwn.fit.network_screening import most_promising
 from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
@@ -27,6 +29,7 @@ from rwn.prove.heldout import HeldoutRow, helps
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
 
+PROMISING = 8  # places that are compared, of those that promise most to first order
 FEW, MANY = 7, 15  # wavelets while the states are compared, and of the network that is kept
 FREE = 1.02  # cost of a network without its nominal part against one with it, up to which it goes without
 WORTH = 0.9  # cost of a fit with the network against the one without, above which it is not worth a file
@@ -59,8 +62,8 @@ def network_correction(ranking: Ranking, model: Model, *, at: Place | None = Non
     if not has_room(model, parts):
         return None
     problem = ranking.problem
-    tried = [at] if at else places(problem, model)
     part = screening_part(problem, ranking.nominal)
+    tried = [at] if at else most_promising(part, ranking.nominal, places(problem, model), FEW, kept=PROMISING)
     networks = side_by_side(lambda place: _fit(part, ranking, model, place, FEW, 5), tried)
     for on, count, kept in ((part, FEW, 2), (problem, MANY, 1)):
         best_first = sorted(networks, key=lambda network: network.fit.cost)

@@ -10,7 +10,7 @@ from rwn.decide.other_law import curve_beside
 from rwn.decide.verdict import Verdict, verdict_of
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.network_formula import Place
+from rwn.fit.network_places import Place
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
@@ -29,7 +29,7 @@ class Decision:
     remainder: Remainder  # what it leaves
     verdict: Verdict
     rows: tuple[HeldoutRow, ...]
-    other: Place | None = None  # where another law is seen in what the stated effects leave
+    other: Place | None = None  # where a law without a name is seen in what is left
 
 
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
@@ -45,7 +45,7 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
         rows = proved(ranking, chosen, heldout, seed=seed)
     left = remainder(ranking, chosen.final)
     verdict = verdict_of(ranking, found, left)
-    curve = curve_beside(ranking.problem, chosen.fit, model) if chosen.added and left.signals else None
+    curve = curve_beside(ranking.problem, chosen.fit, model) if left.signals else None
     other = curve.place if curve is not None and curve.is_a_law else None
     return Decision(
         ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other

@@ -83,7 +83,7 @@ def evidence(
             unseen=float(np.mean(unseen)),
             part=_share(beside, after, beside, chance),
             odds=_odds(ranking, leading, {name, *rivals[name]}),
-            curve=curve_instead(ranking.problem, leading.fit, name, model),
+            curve=curve_instead(ranking.problem, leading.fit, without, name, model),
         )
 
     return Witnesses(evidence={name: one(name) for name in leading.added}, birge=_birge(seen))

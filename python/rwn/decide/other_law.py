@@ -8,22 +8,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
 from rwn.fit.budget import one_stage
 from rwn.fit.fit import Fit, fit
 from rwn.fit.network import has_room, with_network
-from rwn.fit.network_formula import PART, Place, places
+from rwn.fit.network_formula import PART
+from rwn.fit.network_places import Place, all_places
+from rwn.fit.network_screening import most_promising
 from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
 
-ITERATIONS = 4  # the weights are linear but for the motion that they change
+ITERATIONS = 6  # the weights are linear but for the motion that they change
+ENDED = 8  # curves that are fitted, of those that promise most to first order
 SHARES = 16  # of the work of a stage, for each curve
-SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights at the best of five places
+SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights at the best of all places
 MOST = 0.5  # share of the squared error above the noise that the curve has to explain
 
 
@@ -43,39 +47,51 @@ class Curve:
 
 
 def curve_beside(problem: Problem, this: Fit, model: Model) -> Curve | None:
-    """The best curve over one state beside a fit; None where the drive has no place for one."""
+    """The best curve over one state beside a fit, of any term; None where the drive has no place for one."""
     if not has_room(model, 1, beside=len(this.added)):
         return None
     part = screening_part(problem, this)
     left = statistics(part, this, drift=False)
-
-    def curve(place: Place) -> Curve:
-        after = _with_curve(part, model, place, this, this.added)
-        gained = left.variance - after.variance
-        seen = 0.5 * gained * left.count / (after.variance * after.correlation_time)
-        return Curve(place=place, gained=gained, seen=seen, left=left.variance)
-
-    return max(side_by_side(curve, places(problem, model)), key=lambda c: c.gained)
+    place, after = _best_curve(part, model, this, this.added, (this,))
+    gained = left.variance - after.variance
+    seen = 0.5 * gained * left.count / (after.variance * after.correlation_time)
+    return Curve(place=place, gained=gained, seen=seen, left=left.variance)
 
 
-def curve_instead(problem: Problem, this: Fit, name: str, model: Model) -> float:
+def curve_instead(problem: Problem, this: Fit, without: Fit, name: str, model: Model) -> float:
     """Squared error with the best curve over one state in place of an effect, in units of that with it; at most 1.
 
-    A law says as much of its state as any curve does. 1 where the drive has no place for a curve.
+    A law says as much of its state as any curve does. The curve may be of any term, also a coefficient or the error of
+    a sensor. 1 where the drive has no place for a curve. `without`: the fit by the other effects.
     """
     if not has_room(model, 1, beside=len(this.added) - 1):
         return 1.0
     part = screening_part(problem, this)
     law = statistics(part, this, drift=False).variance
-    others = tuple(n for n in this.added if n != name)
-    found = side_by_side(lambda place: _with_curve(part, model, place, this, others).variance, places(problem, model))
-    best = min((v for v in found if np.isfinite(v)), default=np.inf)
-    return float(min(max(best, 1.0) / max(law, 1.0), 1.0))
+    _, best = _best_curve(part, model, this, tuple(n for n in this.added if n != name), (without, this))
+    return float(min(max(best.variance, 1.0) / max(law, 1.0), 1.0))
 
 
-def _with_curve(part: Problem, model: Model, place: Place, this: Fit, beside: Sequence[str]) -> Statistics:
-    """What a curve at a place leaves beside some effects of a fit."""
+def _best_curve(
+    part: Problem, model: Model, this: Fit, beside: Sequence[str], leaving: Sequence[Fit]
+) -> tuple[Place, Statistics]:
+    """The place whose curve leaves least beside some effects of a fit, and what it leaves.
+
+    Fitted are those that promise most of what the fits `leaving` leave, in turn.
+    """
     effects = {name: this.values_of(name) for name in beside}
-    on, with_it = with_network(part, model, place, PART, motor=this.motor, effects=effects)
     share = one_stage(part.work) / SHARES
-    return statistics(on, fit(on, with_it, max_iterations=ITERATIONS, share=share), drift=False)
+
+    def ended(place: Place) -> Statistics:
+        on, with_it = with_network(part, model, place, PART, motor=this.motor, effects=effects)
+        return statistics(on, fit(on, this.carried_to(with_it), max_iterations=ITERATIONS, share=share), drift=False)
+
+    found = all_places(part, model)
+    ranked = [most_promising(part, one, found, PART, kept=ENDED) for one in leaving]
+    tried = list(dict.fromkeys(chain.from_iterable(zip(*ranked, strict=True))))[:ENDED]
+    left = side_by_side(ended, tried)
+    return min(zip(tried, left, strict=True), key=lambda row: _or_worst(row[1].variance))
+
+
+def _or_worst(variance: float) -> float:
+    return variance if np.isfinite(variance) else np.inf

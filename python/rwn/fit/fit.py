@@ -125,6 +125,13 @@ class Fit:
         known = (*names, *(name for name in self.hypothesis.effects if name in measured))
         return {name: self.values_of(name) for name in known}
 
+    def carried_to(self, other: Hypothesis) -> Hypothesis:
+        """Another hypothesis, begun from where this fit ended in the unknowns that both have."""
+        pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
+        ended = {u.name: float(v) for u, v in pairs}
+        begun = [ended.get(u.name, v) for u, v in zip(other.unknowns, other.start, strict=True)]
+        return other.starting_at(np.array(begun))
+
     def value(self, name: str) -> float:
         """A fitted unknown by name ("inertia", "coulomb-friction.coulomb_torque")."""
         names = [u.name for u in self.hypothesis.unknowns]

@@ -8,7 +8,8 @@ from types import MappingProxyType
 
 from rwn import _core
 from rwn.fit.hypothesis import Hypothesis, hypothesis
-from rwn.fit.network_formula import NAME, Place, parts_of, size_of
+from rwn.fit.network_formula import NAME, parts_of
+from rwn.fit.network_places import Place, size_of
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.correct.network import NetworkCorrection
-from rwn.fit.network_formula import states_of, unit_of_state
+from rwn.fit.network_places import states_of, unit_of_state, unit_of_weights
 from rwn.mismatch_map.dependence import CLEAR, Law
 from rwn.mismatch_map.regions import regions
 from rwn.name.initial_guesses import spectra
@@ -114,11 +114,13 @@ def network_over_its_state(made: NetworkCorrection) -> Plot:
     states = states_of(made.ranking.problem, place)
     low, high = np.percentile(states, [0.05, 99.95])
     x = np.linspace(0.0, 2.0 * np.pi / place.periods, 400) if place.periods else np.linspace(low, high, 400)
-    values = {p.name: p.start for p in effect.parameters} | made.values | {place.state: x}
+    values = {p.name: p.start for p in effect.parameters} | made.values
+    values |= {place.factor: 1.0} if place.factor else {}
+    shape, name = {**values, place.state: x}, place.drawn_by.removeprefix("a ")
     return Plot(
         slot="law", title=f"What corrected.toml holds for it: {place.words}",
-        x_label=place.state, x_unit=unit_of_state(place),
-        y_label="voltage lost" if place.term == "drop" else "force" if place.linear else "torque", y_unit=place.unit,
-        traces=(Trace(name="wavelet network", role="corrected", x=x, y=effect.formula.evaluate(values)),),
+        x_label=place.state, x_unit=unit_of_state(made.ranking.problem, place),
+        y_label=place.kind, y_unit=unit_of_weights(made.ranking.problem, place),
+        traces=(Trace(name=name, role="corrected", x=x, y=effect.formula.evaluate(shape)),),
         note="Fitted in free run together with the nominal parameters.",
     )  # fmt: skip

@@ -1,0 +1,172 @@
+"""Where a wavelet network may stand in the equations of a drive, and the state that it is over.
+
+Over the angle of a shaft that goes round it is a sum of harmonics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.fit.problem import Problem
+from rwn.model.model import Model
+from rwn.model.own_effects import TERMS, VARIABLES
+from rwn.simulate.unknown_inputs import unknown_inputs
+
+Array = NDArray[np.float64]
+
+TURN = "turn"  # the position within a revolution, of a shaft that goes round
+LARGEST = 99.0  # percentile of a signal's size that counts as its largest
+FACTORS = frozenset({"flux"})  # terms that are 1 where nothing is missing
+# What a term times a factor is.
+WORDS = {
+    ("torque", ""): "torque", ("torque", "speed"): "viscous friction", ("torque", "current"): "torque constant",
+    ("torque", "input"): "gain of the drive", ("friction", ""): "dry friction", ("flux", ""): "flux",
+    ("drop", ""): "voltage", ("drop", "speed"): "back-EMF constant", ("drop", "current"): "resistance",
+    ("drop", "input"): "gain of the amplifier", ("speed", ""): "error of the speed sensor",
+    ("speed", "speed"): "gain of the speed sensor", ("current", ""): "error of the current sensor",
+    ("current", "current"): "gain of the current sensor",
+}  # fmt: skip
+# The nominal parameter of the term that is linear in the state.
+NOMINAL = {
+    ("torque", "speed"): "viscous_friction", ("torque", "current"): "torque_constant", ("drop", "current"): "resistance"
+}  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """Where a network may stand: the term that it is, the state that it is over and what it is multiplied with."""
+
+    term: str  # a key of TERMS
+    state: str  # a key of VARIABLES
+    factor: str = ""  # another; a torque times the speed is a friction coefficient that is no constant
+    periods: int = 0  # per revolution, of a position
+    nominal: str = ""  # parameter of the nominal term that is linear in the same state
+    linear: bool = False  # on a linear axis
+
+    @property
+    def sign(self) -> float:
+        """Of the nominal term: viscous friction brakes."""
+        return -1.0 if self.nominal == "viscous_friction" else 1.0
+
+    @property
+    def kind(self) -> str:
+        """What depends on the state: "torque", "dry friction"."""
+        kind = WORDS[self.term, self.factor]
+        return "force" if self.linear and kind == "torque" else kind
+
+    @property
+    def words(self) -> str:
+        """A clause: "a torque over speed", which a friction coefficient over speed comes to as well."""
+        kind = replace(self, factor="").kind if self.factor == self.state else self.kind
+        article = "an" if kind[0] in "aeiou" else "a"
+        return f"{article} {kind} over {'angle' if self.periods else self.state}"
+
+    @property
+    def drawn_by(self) -> str:
+        """What the curve is a sum of."""
+        return "harmonics of the angle" if self.periods else "a wavelet network"
+
+    @property
+    def of_a_sensor(self) -> bool:
+        """Whether it is no part of the drive but of what records it."""
+        return self.term in VARIABLES
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the term."""
+        return TERMS[self.term][1 + self.linear]
+
+
+def places(problem: Problem, model: Model) -> tuple[Place, ...]:
+    """Where a correction may stand: in the equations of the drive, over what it will meet again."""
+    return tuple(p for p in all_places(problem, model) if p.state != "time" and not p.of_a_sensor)
+
+
+def all_places(problem: Problem, model: Model) -> tuple[Place, ...]:
+    """Every term over every state: forces, voltages, coefficients that are no constants, errors of a sensor.
+
+    These are far more laws than have a name, and hold most of those that have none. A dry friction over speed is not
+    among them: it is a torque over speed.
+    """
+    states = _states(problem, model)
+    recorded = {s for r in problem.whole for s in r.recorded}
+    winding = problem.drive.winding
+    drive = "current" if winding else "input"
+    terms = {"torque": ("", "speed", drive), "friction": ("",)}
+    terms |= {"drop": ("", "speed", "current", "input"), "flux": ("",)} if winding else {}
+    terms |= {sensor: ("", sensor) for sensor in ("speed", "current") if sensor in recorded}
+    return tuple(
+        _place(term, state, factor, model)
+        for term, factors in terms.items()
+        for factor in factors
+        for state in states
+        if factor in ("", *states) and not (term == "friction" and state in ("speed", "input"))
+    )
+
+
+def _states(problem: Problem, model: Model) -> tuple[str, ...]:
+    """What changes along the recordings."""
+    travel = max((float(np.ptp(r.angle)) for r in problem.whole if r.angle.size), default=0.0)
+    return (
+        "speed",
+        "time",
+        *(("position",) if travel > 0.0 else ()),
+        *((TURN,) if travel > 4.0 * np.pi and not model.linear else ()),
+        *(("current",) if problem.drive.winding else ()),
+        *(("input",) if any(np.ptp(r.input) > 0.0 for r in problem.whole) else ()),
+    )
+
+
+def _place(term: str, state: str, factor: str, model: Model) -> Place:
+    """`state`: a key of VARIABLES, or TURN."""
+    state, periods = ("position", 1) if state == TURN else (state, 0)
+    nominal = "" if factor else NOMINAL.get((term, state), "")
+    return Place(term=term, state=state, factor=factor, periods=periods, nominal=nominal, linear=model.linear)
+
+
+def size_of(problem: Problem, place: Place) -> float:
+    """Largest value that what the network is of can take, in the unit of its weights."""
+    if place.term in FACTORS or (place.of_a_sensor and place.factor):
+        return 1.0
+    if place.of_a_sensor:
+        return largest(problem, place.term)
+    whole = problem.scales["voltage" if place.term == "drop" else "torque"]
+    return whole / largest(problem, place.factor) if place.factor else whole
+
+
+def largest(problem: Problem, state: str) -> float:
+    """Of a state along all recordings, positive."""
+    return float(np.percentile(np.abs(_along(problem, state)), LARGEST)) or 1.0
+
+
+def states_of(problem: Problem, place: Place) -> Array:
+    """The state along all recordings."""
+    return _along(problem, place.state)
+
+
+def _along(problem: Problem, state: str) -> Array:
+    recorded = {"input": "input", "position": "angle", "time": "time"}
+    if state in recorded:
+        return np.concatenate([getattr(r, recorded[state]) for r in problem.whole])
+    vector = problem.as_given().vector
+    unknown = [unknown_inputs(problem.drive, problem.simulator, r, vector) for r in problem.whole]
+    return np.concatenate([getattr(u, state) for u in unknown])
+
+
+def unit_of_state(problem: Problem, place: Place) -> str:
+    """SI unit of the state."""
+    return _unit(problem, place.state, linear=place.linear)
+
+
+def unit_of_weights(problem: Problem, place: Place) -> str:
+    """SI unit of a weight: that of the term, or of the term over that of the factor."""
+    return f"{place.unit}/({_unit(problem, place.factor, linear=place.linear)})" if place.factor else place.unit
+
+
+def _unit(problem: Problem, state: str, *, linear: bool) -> str:
+    if state == "input":
+        return "V" if problem.drive.winding else "N" if linear else "N m"
+    return VARIABLES[state][linear]

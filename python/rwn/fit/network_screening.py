@@ -1,0 +1,134 @@
+"""The places at which a wavelet network promises most: what each explains of a residual to first order.
+
+A torque drives the speed as the linear drive does, J dr/dt + (B + Kt Ke / R) r = T; a voltage lost in the winding is
+the torque -Kt / R times it. Each wavelet or harmonic goes through that filter as a regressor: nothing is simulated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.fit.fit import Fit
+from rwn.fit.network_formula import basis_at
+from rwn.fit.network_places import FACTORS, Place
+from rwn.fit.problem import Problem
+from rwn.model.vocabulary import motor_index
+from rwn.simulate.linear_response import speed_filter
+from rwn.simulate.run import Run
+from rwn.simulate.unknown_inputs import unknown_inputs
+
+Array = NDArray[np.float64]
+
+
+def most_promising(problem: Problem, this: Fit, places: Sequence[Place], count: int, *, kept: int) -> list[Place]:
+    """The `kept` places at which a network of `count` wavelets explains most of what a fit leaves, the best first."""
+    residuals = problem.residuals(this.vector, this.active)
+    answers = [_Answers.of(problem, this, run, tuple(_told(r))) for run, r in zip(problem.runs, residuals, strict=True)]
+    left = np.concatenate([a.weighted(r) for a, r in zip(answers, residuals, strict=True)])
+    nominal, _ = np.linalg.qr(np.concatenate([a.of_nominal() for a in answers]))
+    left = left - nominal @ (nominal.T @ left)
+
+    def explained(place: Place) -> float:
+        waves = basis_at(place, [a.states[place.state] for a in answers], count)
+        columns = np.concatenate([a.of_network(place, w) for a, w in zip(answers, waves, strict=True)])
+        columns -= nominal @ (nominal.T @ columns)
+        own, size, _ = np.linalg.svd(columns, full_matrices=False)
+        return float(np.sum((own[:, size > 1e-6 * max(size[0], 1e-300)].T @ left) ** 2))
+
+    return sorted(places, key=explained, reverse=True)[:kept]
+
+
+def _told(residual: dict[str, Array]) -> list[str]:
+    """The signals that are looked at: a position adds up what the speed shows already."""
+    return [s for s in residual if s != "position"] or list(residual)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Answers:
+    """How one run's signals answer a torque or a voltage, to first order."""
+
+    signals: tuple[str, ...]
+    noise: dict[str, float]
+    states: dict[str, Array]  # (n,) each
+    acceleration: Array
+    step: float
+    filter: tuple[float, float]  # of the speed's answer to a torque
+    motor: dict[str, float]
+    uncertain: Container[str]  # parameters of the nominal model that a fit may move
+
+    @classmethod
+    def of(cls, problem: Problem, this: Fit, run: Run, signals: tuple[str, ...]) -> _Answers:
+        seen = unknown_inputs(problem.drive, problem.simulator, run, this.vector)
+        winding = ("resistance", "torque_constant", "back_emf_constant") if problem.drive.winding else ()
+        return cls(
+            signals=signals, noise={s: problem.noise[s].deviation for s in signals},
+            states={
+                "time": run.time, "input": run.input, "speed": seen.speed, "current": seen.current,
+                "position": run.angle if run.angle.size else np.zeros(run.time.size),
+            },
+            acceleration=seen.acceleration, step=run.sample_time,
+            filter=speed_filter(problem.drive, this.vector, run.sample_time),
+            motor={name: float(this.vector[motor_index(name)]) for name in winding},
+            uncertain=problem.prior.uncertainty.keys(),
+        )  # fmt: skip
+
+    def weighted(self, signals: dict[str, Array]) -> Array:
+        """Columns (n,) or (n, m) by signal, stacked, in units of the noise."""
+        return np.concatenate([signals[s] / self.noise[s] for s in self.signals])
+
+    def of_nominal(self) -> Array:
+        """The answers to what the uncertain parameters of the nominal model scale, and to a start at another speed."""
+        speed, current = self.states["speed"], self.states["current"]
+        torques = {
+            "viscous_friction": speed, "coulomb_friction": np.sign(speed), "inertia": self.acceleration,
+            "torque_constant": current,
+        }  # fmt: skip
+        losses = {"resistance": current, "back_emf_constant": speed}
+        start = np.zeros(speed.size)
+        start[0] = 1.0 / self.filter[1]
+        columns = [
+            self._to_torque(np.column_stack([start, *(x for name, x in torques.items() if name in self.uncertain)]))
+        ]
+        voltages = [x for name, x in losses.items() if name in self.uncertain]
+        if voltages:
+            columns.append(self._to_voltage(np.column_stack(voltages)))
+        return np.column_stack(columns)
+
+    def of_network(self, place: Place, waves: Array) -> Array:
+        """The answers to each wavelet (n, m) at a place."""
+        factor = self.states[place.factor][:, None] * waves if place.factor else waves
+        if place.of_a_sensor:
+            nothing = np.zeros(waves.shape)
+            return self.weighted({s: factor if s == place.term else nothing for s in self.signals})
+        if place.term in FACTORS:
+            current, speed = self.states["current"][:, None], self.states["speed"][:, None]
+            torque = self._to_torque(self.motor["torque_constant"] * current * waves)
+            return torque + self._to_voltage(self.motor["back_emf_constant"] * speed * waves)
+        if place.term == "drop":
+            return self._to_voltage(factor)
+        return self._to_torque(-np.sign(self.states["speed"])[:, None] * factor if place.term == "friction" else factor)
+
+    def _to_torque(self, torque: Array) -> Array:
+        speed = self._speed(torque)
+        back = self.motor["back_emf_constant"] / self.motor["resistance"] if self.motor else 0.0
+        return self._all(speed, -back * speed)
+
+    def _to_voltage(self, lost: Array) -> Array:
+        current = -lost / self.motor["resistance"]
+        speed = self._speed(self.motor["torque_constant"] * current)
+        return self._all(speed, current - self.motor["back_emf_constant"] / self.motor["resistance"] * speed)
+
+    def _speed(self, torque: Array) -> Array:
+        from scipy.signal import lfilter  # late: the command line starts without it
+
+        a, b = self.filter
+        answer: Array = lfilter([0.0, b], [1.0, -a], torque, axis=0)
+        return answer
+
+    def _all(self, speed: Array, current: Array) -> Array:
+        position = self.step * np.cumsum(speed, axis=0)
+        return self.weighted({"speed": speed, "current": current, "position": position})
