@@ -64,7 +64,7 @@ _SCALES: dict[str, Callable[[float], float]] = {
     "unseen": _log_odds,
     "part": _log_odds,
     "odds": lambda x: float(np.arcsinh(np.clip(x, -100.0, 1e4))),
-    "curve": float,
+    "curve": lambda share: float(np.log(np.clip(share, 0.05, 1.0))),
 }
 
 
