@@ -57,3 +57,11 @@ def test_what_is_not_there_has_no_place() -> None:
     assert not {"drop", "current"} & {p.term for p in axis}
     assert not {"current"} & {p.state for p in axis}
     assert not any(p.periods for p in axis), "a linear axis does not go round"
+
+
+def test_a_state_that_one_sample_alone_changes_has_no_place() -> None:
+    """A range of nothing made numbers beyond all bounds of the wavelets over it."""
+    time = 1e-3 * np.arange(5000)
+    signals = {"voltage": np.append(np.zeros(time.size - 1), 1e-6), "speed": 60.0 + 20.0 * time}
+    problem = prepare([rwn.Recording(name="run.csv", time=time, signals=signals)], SHAFT)
+    assert not any("input" in (p.state, p.factor) for p in all_places(problem, SHAFT))

@@ -28,7 +28,7 @@ LAWS: dict[str, Callable[[float, float], float]] = {
 @pytest.mark.parametrize("law", LAWS)
 def test_the_place_of_the_law_is_among_the_first(law: str) -> None:
     problem = prepare([recorded(3, LAWS[law])], SHEET)
-    first = most_promising(problem, fit_nominal(problem), all_places(problem, SHEET), 7, kept=8)
+    first = most_promising(problem, fit_nominal(problem), all_places(problem, SHEET), 7)
     assert law in {place.words for place in first}
 
 

@@ -54,6 +54,7 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
 
 
 def _seen(decision: Decision) -> tuple[str, ...]:
+    """The law without a name that is seen in what is left, in words."""
     other = decision.other
     return (f"{other.words} explains most of what is left: it has no name here",) if other else ()
 

@@ -29,7 +29,6 @@ from rwn.prove.heldout import HeldoutRow, helps
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
 
-PROMISING = 8  # places that are compared, of those that promise most to first order
 FEW, MANY = 7, 15  # wavelets while the states are compared, and of the network that is kept
 FREE = 1.02  # cost of a network without its nominal part against one with it, up to which it goes without
 WORTH = 0.9  # cost of a fit with the network against the one without, above which it is not worth a file
@@ -63,7 +62,9 @@ def network_correction(ranking: Ranking, model: Model, *, at: Place | None = Non
         return None
     problem = ranking.problem
     part = screening_part(problem, ranking.nominal)
-    tried = [at] if at else most_promising(part, ranking.nominal, places(problem, model), FEW, kept=PROMISING)
+    tried = [at] if at else most_promising(part, ranking.nominal, places(problem, model), FEW)
+    if not tried:
+        return None
     networks = side_by_side(lambda place: _fit(part, ranking, model, place, FEW, 5), tried)
     for on, count, kept in ((part, FEW, 2), (problem, MANY, 1)):
         best_first = sorted(networks, key=lambda network: network.fit.cost)

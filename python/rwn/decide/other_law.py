@@ -1,4 +1,4 @@
-"""Whether another law is seen: a few wavelets over each state, beside an explanation or in place of one of its effects.
+"""Whether another law is seen: a curve over one state in some term, beside an explanation or in place of an effect.
 
 A cubic drag called quadratic leaves a per cent of the mismatch. That may be as little as a right name leaves, but it is
 a curve over speed, where a right name leaves noise.
@@ -17,7 +17,7 @@ from rwn.fit.fit import Fit, fit
 from rwn.fit.network import has_room, with_network
 from rwn.fit.network_formula import PART
 from rwn.fit.network_places import Place, all_places
-from rwn.fit.network_screening import most_promising
+from rwn.fit.network_screening import KEPT, most_promising
 from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
@@ -25,7 +25,6 @@ from rwn.model.model import Model
 from rwn.parallel import side_by_side
 
 ITERATIONS = 6  # the weights are linear but for the motion that they change
-ENDED = 8  # curves that are fitted, of those that promise most to first order
 SHARES = 16  # of the work of a stage, for each curve
 SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights at the best of all places
 MOST = 0.5  # share of the squared error above the noise that the curve has to explain
@@ -87,8 +86,8 @@ def _best_curve(
         return statistics(on, fit(on, this.carried_to(with_it), max_iterations=ITERATIONS, share=share), drift=False)
 
     found = all_places(part, model)
-    ranked = [most_promising(part, one, found, PART, kept=ENDED) for one in leaving]
-    tried = list(dict.fromkeys(chain.from_iterable(zip(*ranked, strict=True))))[:ENDED]
+    ranked = [most_promising(part, one, found, PART) for one in leaving]
+    tried = list(dict.fromkeys(chain.from_iterable(zip(*ranked, strict=True))))[:KEPT]
     left = side_by_side(ended, tried)
     return min(zip(tried, left, strict=True), key=lambda row: _or_worst(row[1].variance))
 

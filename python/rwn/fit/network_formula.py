@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.network_places import FACTORS, Place, size_of, states_of, unit_of_state, unit_of_weights
+from rwn.fit.network_places import FACTORS, Place, range_of, size_of, states_of, unit_of_state, unit_of_weights
 from rwn.fit.problem import Problem
 from rwn.model import formula
 from rwn.model.model import Model
@@ -60,8 +60,8 @@ class _Grid:
 
 
 def _grid(states: Array, count: int) -> _Grid:
-    low, high = (float(x) for x in np.percentile(states, [0.05, 99.95]))
-    return _Grid(low=low, scale=max(high - low, 1e-300), places=dyadic_places(count))
+    low, high = range_of(states)
+    return _Grid(low=low, scale=high - low, places=dyadic_places(count))
 
 
 def basis_at(place: Place, states: Sequence[Array], count: int) -> list[Array]:

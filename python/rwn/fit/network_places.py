@@ -24,7 +24,7 @@ FACTORS = frozenset({"flux"})  # terms that are 1 where nothing is missing
 WORDS = {
     ("torque", ""): "torque", ("torque", "speed"): "viscous friction", ("torque", "current"): "torque constant",
     ("torque", "input"): "gain of the drive", ("friction", ""): "dry friction", ("flux", ""): "flux",
-    ("drop", ""): "voltage", ("drop", "speed"): "back-EMF constant", ("drop", "current"): "resistance",
+    ("drop", ""): "voltage lost", ("drop", "speed"): "back-EMF constant", ("drop", "current"): "resistance",
     ("drop", "input"): "gain of the amplifier", ("speed", ""): "error of the speed sensor",
     ("speed", "speed"): "gain of the speed sensor", ("current", ""): "error of the current sensor",
     ("current", "current"): "gain of the current sensor",
@@ -109,15 +109,10 @@ def all_places(problem: Problem, model: Model) -> tuple[Place, ...]:
 
 def _states(problem: Problem, model: Model) -> tuple[str, ...]:
     """What changes along the recordings."""
+    known = ("speed", "time", "position", *(("current",) if problem.drive.winding else ()), "input")
     travel = max((float(np.ptp(r.angle)) for r in problem.whole if r.angle.size), default=0.0)
-    return (
-        "speed",
-        "time",
-        *(("position",) if travel > 0.0 else ()),
-        *((TURN,) if travel > 4.0 * np.pi and not model.linear else ()),
-        *(("current",) if problem.drive.winding else ()),
-        *(("input",) if any(np.ptp(r.input) > 0.0 for r in problem.whole) else ()),
-    )
+    turns = (TURN,) if travel > 4.0 * np.pi and not model.linear else ()
+    return (*(state for state in known if np.ptp(range_of(_along(problem, state))) > 0.0), *turns)
 
 
 def _place(term: str, state: str, factor: str, model: Model) -> Place:
@@ -145,6 +140,12 @@ def largest(problem: Problem, state: str) -> float:
 def states_of(problem: Problem, place: Place) -> Array:
     """The state along all recordings."""
     return _along(problem, place.state)
+
+
+def range_of(states: Array) -> tuple[float, float]:
+    """Where the wavelets stand: between the percentiles of a state that leave its outliers out; (0, 0) of nothing."""
+    low, high = np.percentile(states, [0.05, 99.95]) if states.size else (0.0, 0.0)
+    return float(low), float(high)
 
 
 def _along(problem: Problem, state: str) -> Array:

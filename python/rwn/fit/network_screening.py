@@ -1,7 +1,8 @@
 """The places at which a wavelet network promises most: what each explains of a residual to first order.
 
 A torque drives the speed as the linear drive does, J dr/dt + (B + Kt Ke / R) r = T; a voltage lost in the winding is
-the torque -Kt / R times it. Each wavelet or harmonic goes through that filter as a regressor: nothing is simulated.
+the torque -Kt / R times it. Each wavelet or harmonic goes through that filter as a regressor; one simulation serves all
+places.
 """
 
 from __future__ import annotations
@@ -17,15 +18,18 @@ from rwn.fit.network_formula import basis_at
 from rwn.fit.network_places import FACTORS, Place
 from rwn.fit.problem import Problem
 from rwn.model.vocabulary import motor_index
+from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.linear_response import speed_filter
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import unknown_inputs
 
 Array = NDArray[np.float64]
 
+KEPT = 8  # places that are worth a fit each: the order to first order is not that of the fits
 
-def most_promising(problem: Problem, this: Fit, places: Sequence[Place], count: int, *, kept: int) -> list[Place]:
-    """The `kept` places at which a network of `count` wavelets explains most of what a fit leaves, the best first."""
+
+def most_promising(problem: Problem, this: Fit, places: Sequence[Place], count: int) -> list[Place]:
+    """The KEPT places at which a network of `count` wavelets explains most of what a fit leaves, the best first."""
     residuals = problem.residuals(this.vector, this.active)
     answers = [_Answers.of(problem, this, run, tuple(_told(r))) for run, r in zip(problem.runs, residuals, strict=True)]
     left = np.concatenate([a.weighted(r) for a, r in zip(answers, residuals, strict=True)])
@@ -39,7 +43,7 @@ def most_promising(problem: Problem, this: Fit, places: Sequence[Place], count: 
         own, size, _ = np.linalg.svd(columns, full_matrices=False)
         return float(np.sum((own[:, size > 1e-6 * max(size[0], 1e-300)].T @ left) ** 2))
 
-    return sorted(places, key=explained, reverse=True)[:kept]
+    return sorted(places, key=explained, reverse=True)[:KEPT]
 
 
 def _told(residual: dict[str, Array]) -> list[str]:
@@ -112,23 +116,17 @@ class _Answers:
             return self._to_voltage(factor)
         return self._to_torque(-np.sign(self.states["speed"])[:, None] * factor if place.term == "friction" else factor)
 
-    def _to_torque(self, torque: Array) -> Array:
-        speed = self._speed(torque)
-        back = self.motor["back_emf_constant"] / self.motor["resistance"] if self.motor else 0.0
-        return self._all(speed, -back * speed)
-
     def _to_voltage(self, lost: Array) -> Array:
         current = -lost / self.motor["resistance"]
-        speed = self._speed(self.motor["torque_constant"] * current)
-        return self._all(speed, current - self.motor["back_emf_constant"] / self.motor["resistance"] * speed)
+        return self._to_torque(self.motor["torque_constant"] * current, current)
 
-    def _speed(self, torque: Array) -> Array:
+    def _to_torque(self, torque: Array, current: Array | float = 0.0) -> Array:
+        """The answers to a torque (n, m), of which `current` flows before the motor turns."""
         from scipy.signal import lfilter  # late: the command line starts without it
 
         a, b = self.filter
-        answer: Array = lfilter([0.0, b], [1.0, -a], torque, axis=0)
-        return answer
-
-    def _all(self, speed: Array, current: Array) -> Array:
+        speed = lfilter([0.0, b], [1.0, -a], torque, axis=0)
+        back = self.motor["back_emf_constant"] / self.motor["resistance"] if self.motor else 0.0
         position = self.step * np.cumsum(speed, axis=0)
-        return self.weighted({"speed": speed, "current": current, "position": position})
+        answers = {"speed": speed, "current": current - back * speed, "position": position, DRIVING_FORCE: torque}
+        return self.weighted(answers)

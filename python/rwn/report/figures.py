@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.correct.network import NetworkCorrection
-from rwn.fit.network_places import states_of, unit_of_state, unit_of_weights
+from rwn.fit.network_places import range_of, states_of, unit_of_state, unit_of_weights
 from rwn.mismatch_map.dependence import CLEAR, Law
 from rwn.mismatch_map.regions import regions
 from rwn.name.initial_guesses import spectra
@@ -111,8 +111,7 @@ def _spectrum(ranking: Ranking, linear: bool) -> Plot | None:
 def network_over_its_state(made: NetworkCorrection) -> Plot:
     """The network that stands in for what has no name, as corrected.toml gives it."""
     effect, place = made.model.own_effects[-1], made.place
-    states = states_of(made.ranking.problem, place)
-    low, high = np.percentile(states, [0.05, 99.95])
+    low, high = range_of(states_of(made.ranking.problem, place))
     x = np.linspace(0.0, 2.0 * np.pi / place.periods, 400) if place.periods else np.linspace(low, high, 400)
     values = {p.name: p.start for p in effect.parameters} | made.values
     values |= {place.factor: 1.0} if place.factor else {}
