@@ -59,15 +59,12 @@ def _log_odds(share: float) -> float:
     return float(np.log(share / (1.0 - share)))
 
 
-LEAST_CURVE = 0.05  # of an effect's error: a curve that leaves less refuses it no further
-
-
 _SCALES: dict[str, Callable[[float], float]] = {
     "share": _log_odds,
     "unseen": _log_odds,
     "part": _log_odds,
     "odds": lambda x: float(np.arcsinh(np.clip(x, -100.0, 1e4))),
-    "curve": lambda share: float(np.log(np.clip(share, LEAST_CURVE, 1.0))),
+    "curve": float,
 }
 
 

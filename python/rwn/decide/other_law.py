@@ -17,7 +17,7 @@ from rwn.fit.fit import Fit, fit
 from rwn.fit.network import has_room, with_network
 from rwn.fit.network_formula import PART
 from rwn.fit.network_places import Place, all_places
-from rwn.fit.network_screening import KEPT, most_promising
+from rwn.fit.network_screening import most_promising
 from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
@@ -76,7 +76,7 @@ def _best_curve(
 ) -> tuple[Place, Statistics]:
     """The place whose curve leaves least beside some effects of a fit, and what it leaves.
 
-    Fitted are those that promise most of what the fits `leaving` leave, in turn.
+    Fitted are those that promise most of what each of the fits `leaving` leaves.
     """
     effects = {name: this.values_of(name) for name in beside}
     share = one_stage(part.work) / SHARES
@@ -86,8 +86,7 @@ def _best_curve(
         return statistics(on, fit(on, this.carried_to(with_it), max_iterations=ITERATIONS, share=share), drift=False)
 
     found = all_places(part, model)
-    ranked = [most_promising(part, one, found, PART) for one in leaving]
-    tried = list(dict.fromkeys(chain.from_iterable(zip(*ranked, strict=True))))[:KEPT]
+    tried = list(dict.fromkeys(chain.from_iterable(most_promising(part, one, found, PART) for one in leaving)))
     left = side_by_side(ended, tried)
     return min(zip(tried, left, strict=True), key=lambda row: _or_worst(row[1].variance))
 
