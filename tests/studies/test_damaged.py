@@ -49,7 +49,7 @@ def test_a_truncated_seal_with_its_hash_is_named(cut: int, tmp_path: Path) -> No
 def test_a_page_without_matplotlib_is_refused_before_the_experiments(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
     with pytest.raises(InputError, match=r"pip install 'rwn\[thesis\]'"):
-        thesis._run([], Path(), count="quick", jobs=1, page=Path("a.md"))
+        thesis._run([], Path(), count="quick", seeds=1, jobs=1, page=Path("a.md"))
 
 
 def test_a_page_that_is_a_folder_is_refused(tmp_path: Path) -> None:

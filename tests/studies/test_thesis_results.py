@@ -27,7 +27,7 @@ from rwn.studies.thesis.experiment import Experiment, Outcome, Settings
 from rwn.studies.thesis.formats import number
 from rwn.studies.thesis.overview import NUMBERS
 from rwn.studies.thesis.registry import EXPERIMENTS
-from rwn.studies.thesis.runner import run
+from rwn.studies.thesis.runner import Finished, run
 from thesis_rows import PAGE, row
 
 
@@ -40,6 +40,18 @@ def one(calls: list[int]) -> Experiment:
     return Experiment(name="one", title="One", run=run_it)
 
 
+def archived(done: Finished) -> Archived:
+    return Archived(
+        name=done.name,
+        count=done.count,
+        fingerprint=done.fingerprint,
+        made=done.made,
+        seconds=done.seconds,
+        numbers=numbers(done),
+        seeds=done.seeds,
+    )
+
+
 def test_a_finished_experiment_is_not_run_again(tmp_path: Path) -> None:
     calls: list[int] = []
     first = run([one(calls)], tmp_path)
@@ -47,6 +59,42 @@ def test_a_finished_experiment_is_not_run_again(tmp_path: Path) -> None:
     assert len(calls) == 1
     run([one(calls)], tmp_path, count="tiny")
     assert len(calls) == 2, "another count is another run"
+
+
+def test_the_longest_trainings_are_made_from_as_many_seeds_as_asked(tmp_path: Path) -> None:
+    asked: list[int] = []
+
+    def run_it(settings: Settings) -> Outcome:
+        asked.append(settings.seeds)
+        return Outcome(rows=[row(1.0, 1.0, answer=True)])
+
+    long, short = (
+        Experiment(name=name, title=name, run=run_it, seed_minutes=minutes)
+        for name, minutes in (("long", 1.0), ("short", 0.0))
+    )
+    found = run([long, short], tmp_path, seeds=3)
+    assert (asked, [f.seeds for f in found]) == ([3, 1], [3, None])
+    run([long, short], tmp_path, seeds=3)
+    run([long, short], tmp_path)
+    assert asked == [3, 1, 1], "another number of seeds is another run, where there are such trainings"
+    old = archived(found[0])
+    (one,) = run([long], tmp_path)
+    (difference,) = differences([old], {"long": one})
+    assert (difference.found, difference.changed) == ("missing (--seeds 1, the archive has 3)", True)
+
+
+def test_every_start_has_its_own_training_and_the_median_speaks(tmp_path: Path) -> None:
+    experiment = next(e for e in EXPERIMENTS if e.name == "structured-friction")
+    shares: list[float] = []
+    (one,) = run([experiment], tmp_path / "1", count="tiny")
+    (three,) = run([experiment], tmp_path / "3", count="tiny", seeds=3, progress=lambda _, s: shares.append(s))
+    alone, among = (next(r for r in done.rows if r.answer) for done in (one, three))
+    assert alone.spread == (alone.ours, alone.ours)
+    assert among.count.endswith("3 seeds")
+    low, high = among.spread or (0.0, 0.0)
+    assert low <= min(alone.ours or 0.0, among.ours or 0.0) < high
+    assert one.figures == three.figures, "of the first seed"
+    assert shares == sorted(shares)
 
 
 def test_a_result_depends_on_the_helpers_of_its_experiment() -> None:
@@ -120,10 +168,7 @@ def test_check_names_what_differs_from_an_archive(tmp_path: Path) -> None:
 
     experiment, archive = Experiment(name="one", title="One", run=run_it), tmp_path / "archive.json"
     (done,) = run([experiment], tmp_path / "first")
-    kept = Archived(
-        name="one", count="full", fingerprint=done.fingerprint, made=done.made, seconds=1.0, numbers=numbers(done)
-    )
-    archive.write_bytes(msgspec.json.encode([kept]))
+    archive.write_bytes(msgspec.json.encode([archived(done)]))
     for value, code, text in ((1.04, 0, "0 differ"), (1.5, 0, "1 differ"), (9.0, 1, "1 (reproduced) archived, 9 (not")):
         out = tmp_path / f"{value}"
         run([experiment], out)
@@ -155,7 +200,7 @@ def test_what_is_no_archive_and_no_result_is_refused(options: list[str], text: s
 
 def test_the_archive_holds_the_numbers_that_the_page_shows() -> None:
     """`rwn thesis archive` writes the one, `rwn thesis run --all --page` the other."""
-    found = [n for archived in read_archive() for n in archived.numbers]
+    found = [n for kept in read_archive() for n in kept.numbers]
     assert Counter(n.where for n in found) == NUMBERS
     assert ARCHIVE.stat().st_size < 200_000
     page = PAGE.read_text(encoding="utf-8")
@@ -167,6 +212,6 @@ def test_the_archive_holds_the_numbers_that_the_page_shows() -> None:
 def test_the_code_gives_the_archived_numbers(tmp_path: Path) -> None:
     """Those of Table 19, in full; `rwn thesis check` runs every short experiment."""
     (done,) = run([e for e in EXPERIMENTS if e.name == "three-parameters"], tmp_path)
-    old = [archived for archived in read_archive() if archived.name == done.name]
-    assert sum(len(archived.numbers) for archived in old) == 5
+    old = [kept for kept in read_archive() if kept.name == done.name]
+    assert sum(len(kept.numbers) for kept in old) == 5
     assert not list(differences(old, {done.name: done}))

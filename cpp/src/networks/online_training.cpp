@@ -1,6 +1,7 @@
 #include "rwn/networks/online_training.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -91,6 +92,47 @@ OnlineStatus judge(bool still, double mse_frozen, double mean_square) {
   return still && mse_frozen > 1e-12 * mean_square ? OnlineStatus::stalled : OnlineStatus::completed;
 }
 
+Vector parameters(const StructuredRun& run) {
+  Vector theta(StructuredNetwork::linear + 4 * run.wavelets());
+  run.save(theta);
+  return theta;
+}
+Vector parameters(const RecurrentRun& run) { return run.theta(); }
+
+bool same_bits(const Vector& a, const Vector& b) {
+  return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+/// The cycles of a run. A cycle that ends, bit for bit, with the parameters and the memory of the rule that it began with
+/// would be repeated by every later one, so that those are not run.
+template <class Rates>
+class Cycles {
+ public:
+  explicit Cycles(Rates& rates) : rates_(rates) {}
+
+  /// The sum of squared errors of the next cycle.
+  template <class Run, class Signals>
+  double train(Run& run, const Signals& signals) {
+    if (repeats_) {
+      rates_.report.count_again(before_, after_);
+      return squares_;
+    }
+    const Vector theta = parameters(run);
+    const std::vector<double> memory = rates_.memory();
+    before_ = rates_.report;
+    squares_ = rates_.train(run, signals);
+    after_ = rates_.report;
+    repeats_ = same_bits(theta, parameters(run)) && rates_.memory() == memory;
+    return squares_;
+  }
+
+ private:
+  Rates& rates_;
+  RateReport before_, after_;
+  double squares_ = 0.0;
+  bool repeats_ = false;
+};
+
 PlantGain gain_of(const Eigen::Matrix2d& a) { return plant_gain(a(0, 0), a(0, 1), a(1, 0), a(1, 1)); }
 
 }  // namespace
@@ -117,9 +159,10 @@ StructuredTraining train(const StructuredNetwork& network, const StructuredSigna
   keep_frozen(history, 0, mean_squared_error(network, signals));
   OnlineWatch watcher(history, mean_square, history.mse_frozen[0]);
   Vector theta = network.theta();
+  Cycles<StructuredRates> cycles(rates);
   bool still = false;
   for (int done = 1; done <= options.cycles; ++done) {
-    const double mse = rates.train(run, signals) / samples;
+    const double mse = cycles.train(run, signals) / samples;
     run.save(theta);
     if (watcher.diverged(mse, theta)) {
       break;
@@ -157,9 +200,10 @@ RecurrentTraining train(const RecurrentNetwork& network, const RecurrentSignals&
   const double mean_square = signals.output.squaredNorm() / samples;
   keep_frozen(history, 0, mean_squared_error(network, signals));
   OnlineWatch watcher(history, mean_square, history.mse_frozen[0]);
+  Cycles<RecurrentRates> cycles(rates);
   bool still = false;
   for (int done = 1; done <= options.cycles; ++done) {
-    const double mse = rates.train(run, signals) / samples;
+    const double mse = cycles.train(run, signals) / samples;
     if (watcher.diverged(mse, run.theta())) {
       break;
     }

@@ -84,6 +84,8 @@ def train_structured(
 
     learn: names of the groups that learn, of v1..v5, w, m, d, c.
     rates: the learning-rate rule; None is `rwn.networks.rates.Tightened()`.
+    cycles: one that leaves the parameters and the rule as they were, bit for bit, would be repeated by all that
+        follow: the histories have those too, but they are not run.
     frozen_every: cycles between evaluations with frozen parameters; 0: before the first and after the last.
     follow_state: after each correction the state moves with its parameters, x += (dx/dtheta) dtheta, so that
         a change acts at once instead of after 1/(1 - rho) samples.

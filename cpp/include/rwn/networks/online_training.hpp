@@ -57,7 +57,9 @@ struct StructuredTraining {
   OnlineHistory history;
 };
 
-/// `rules.hpp` makes the rates. \throws std::invalid_argument for signals of different lengths or cycles < 1.
+/// A cycle that leaves the parameters and the rule as they were, bit for bit, is repeated by all that follow: they are in
+/// the history and are not run. `rules.hpp` makes the rates.
+/// \throws std::invalid_argument for signals of different lengths or cycles < 1.
 StructuredTraining train(const StructuredNetwork& network, const StructuredSignals& signals, StructuredRates& rates,
                          const StructuredMask& learn, const OnlineOptions& options);
 

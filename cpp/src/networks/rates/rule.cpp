@@ -37,6 +37,13 @@ void RateReport::include_friction(double ratio, double smallest) {
   smallest_dilation = std::min(smallest_dilation, smallest);
 }
 
+void RateReport::count_again(const RateReport& before, const RateReport& after) {
+  samples += after.samples - before.samples;
+  unstable += after.unstable - before.unstable;
+  defective += after.defective - before.defective;
+  recurrent += after.recurrent - before.recurrent;
+}
+
 void watch(RateReport& report, const RecurrentRun& run, double slope) {
   const auto d = run.parameters(kScale).array().abs();
   const auto c = run.parameters(kLoop).array().abs();

@@ -65,6 +65,13 @@ class Adaptive : public Rates {
   Values bounds() const override { return values(t_.maximum); }
 
  protected:
+  /// The maxima and rates of the groups, to which a network adds those of its signals.
+  std::vector<double> remembered() const {
+    std::vector<double> all(t_.maximum, t_.maximum + N);
+    all.insert(all.end(), t_.rate, t_.rate + N);
+    return all;
+  }
+
   Options rule_;
   std::array<bool, N> learn_;
   Bounds t_{};
@@ -96,6 +103,12 @@ class AdaptiveStructured : public Adaptive<StructuredRates, ThesisBounds, kStruc
     const double squares = run.train_thesis(signals, t_);
     record(signals);
     return squares;
+  }
+
+  std::vector<double> memory() const override {
+    std::vector<double> all = remembered();
+    all.insert(all.end(), {t_.x1, t_.x2, t_.u, t_.tau, t_.input});
+    return all;
   }
 
  private:
@@ -138,6 +151,12 @@ class AdaptiveRecurrent : public Adaptive<RecurrentRates, RecurrentBounds, kRecu
     const double squares = run.train_thesis(signals, t_);
     record();
     return squares;
+  }
+
+  std::vector<double> memory() const override {
+    std::vector<double> all = remembered();
+    all.insert(all.end(), input_.begin(), input_.end());
+    return all;
   }
 
  private:

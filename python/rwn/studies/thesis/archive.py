@@ -41,8 +41,8 @@ class Number:
 
 @dataclass(frozen=True, kw_only=True)
 class Archived:
-    """What an experiment said of the thesis's numbers, in full counts or shortened; `fingerprint` is of the code that
-    said it."""
+    """What an experiment said of the thesis's numbers, in full counts or shortened, its longest trainings from so many
+    `seeds` where it has such; `fingerprint` is of the code that said it."""
 
     name: str
     count: Count
@@ -50,6 +50,7 @@ class Archived:
     made: Made
     seconds: float
     numbers: list[Number]
+    seeds: int | None = None
 
 
 def numbers(done: Finished) -> list[Number]:
@@ -93,6 +94,7 @@ def write_archive(found: Collection[Finished], path: Path = ARCHIVE) -> list[Arc
             made=done.made,
             seconds=round(done.seconds, 1),
             numbers=numbers(done),
+            seeds=done.seeds,
         )
         for done in found
     ]

@@ -28,7 +28,8 @@ def differences(archive: Sequence[Archived], found: Mapping[str, Finished]) -> I
     """What of the archive's numbers the results do not hold in the same count, or hold another value of."""
     for old in archive:
         done = found.get(old.name)
-        new = {(n.where, n.case): n for n in numbers(done)} if done is not None and done.count == old.count else {}
+        alike = done is not None and (done.count, done.seeds or 1) == (old.count, old.seeds or 1)
+        new = {(n.where, n.case): n for n in numbers(done)} if done is not None and alike else {}
         for n in old.numbers:
             other = new.get((n.where, n.case))
             if other is None or not _same(n.ours, other.ours):
@@ -36,9 +37,15 @@ def differences(archive: Sequence[Archived], found: Mapping[str, Finished]) -> I
                     where=n.where,
                     case=n.case,
                     archived=_text(n),
-                    found="missing" if other is None else _text(other),
+                    found=_missing(old, done) if other is None else _text(other),
                     changed=other is None or other.word != n.word,
                 )
+
+
+def _missing(old: Archived, done: Finished | None) -> str:
+    if done is None or done.count != old.count or done.seeds == old.seeds:
+        return "missing"
+    return f"missing (--seeds {done.seeds or 1}, the archive has {old.seeds or 1})"
 
 
 def _same(a: float | None, b: float | None) -> bool:

@@ -47,6 +47,9 @@ def run(
     quick: Annotated[
         bool, typer.Option("--quick", help="Shortened counts, at most five minutes: a look, not a repetition.")
     ] = False,
+    seeds: Annotated[
+        int, typer.Option(min=1, help="Starts of the trainings over all cycles (Tables 11-16, 20; Figures 46-54).")
+    ] = 1,
     jobs: Annotated[int, typer.Option(min=1, help="Experiments at a time.")] = os.cpu_count() or 1,
     page: Annotated[Path | None, typer.Option(help="The page to write; default OUT/thesis.md.")] = None,
 ) -> None:
@@ -61,7 +64,8 @@ def run(
             fix="`rwn thesis list` shows what there is",
         )
     experiments = select(table=table, figure=figure)
-    _run(experiments, out, count="quick" if quick else "full", jobs=jobs, page=page or out / "thesis.md")
+    count: Count = "quick" if quick else "full"
+    _run(experiments, out, count=count, seeds=seeds, jobs=jobs, page=page or out / "thesis.md")
 
 
 @app.command()
@@ -85,7 +89,7 @@ def check(
         full = {a.name for a in old if a.count == "full"}
         short = [e for e in EXPERIMENTS if e.minutes <= SHORT and e.name in full]
         with TemporaryDirectory() as folder:
-            new = {done.name: done for done in _with_progress(short, Path(folder), "full", os.cpu_count() or 1)}
+            new = {done.name: done for done in _with_progress(short, Path(folder), "full", 1, os.cpu_count() or 1)}
         old = [a for a in old if a.name in new]
     else:
         new = results(out)
@@ -137,7 +141,7 @@ def table_20(
     typer.echo(f"page: {page}")
 
 
-def _run(experiments: Sequence[Experiment], out: Path, *, count: Count, jobs: int, page: Path) -> None:
+def _run(experiments: Sequence[Experiment], out: Path, *, count: Count, seeds: int, jobs: int, page: Path) -> None:
     from rich.console import Console
 
     from rwn.studies.thesis.comparison import rich_table
@@ -149,7 +153,7 @@ def _run(experiments: Sequence[Experiment], out: Path, *, count: Count, jobs: in
     console = Console()
     if not console.is_terminal:
         console = Console(width=160)  # a file or a pipe has room
-    results = _with_progress(experiments, out, count, jobs)
+    results = _with_progress(experiments, out, count, seeds, jobs)
     console.print(rich_table(results))
     console.print(overview_table(results))
     seconds = sum(r.seconds for r in results)
@@ -170,7 +174,9 @@ def _check_page(page: Path) -> None:
     check_file(page)
 
 
-def _with_progress(experiments: Sequence[Experiment], out: Path, count: Count, jobs: int) -> list[Finished]:
+def _with_progress(
+    experiments: Sequence[Experiment], out: Path, count: Count, seeds: int, jobs: int
+) -> list[Finished]:
     """Runs them; bars of each and of all on stderr, with the time left at the weights of the experiments."""
     from rich.console import Console
     from rich.progress import Progress
@@ -178,7 +184,7 @@ def _with_progress(experiments: Sequence[Experiment], out: Path, count: Count, j
     from rwn.studies.thesis.runner import run as run_experiments
 
     done = dict.fromkeys([e.name for e in experiments], 0.0)
-    weights = {e.name: e.minutes for e in experiments}
+    weights = {e.name: e.minutes_of(seeds) for e in experiments}
     with Progress(console=Console(stderr=True)) as bars:
         tasks = {e.name: bars.add_task(e.name, total=1.0) for e in experiments}
         every = bars.add_task("all", total=sum(weights.values()))
@@ -188,4 +194,4 @@ def _with_progress(experiments: Sequence[Experiment], out: Path, count: Count, j
             bars.update(tasks[experiment.name], completed=share)
             bars.update(every, completed=sum(weights[name] * part for name, part in done.items()))
 
-        return run_experiments(experiments, out, count=count, jobs=jobs, progress=show)
+        return run_experiments(experiments, out, count=count, seeds=seeds, jobs=jobs, progress=show)

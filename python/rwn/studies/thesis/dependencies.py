@@ -16,10 +16,10 @@ from rwn import _core
 
 
 @cache
-def fingerprint(module: str, count: str) -> str:
+def fingerprint(module: str, count: str, seeds: int | None = None) -> str:
     """Hash of every source of rwn that `module` reaches, of the extension, of numpy's version, of the instruction
-    set and of the count; another one means that a result must be made again."""
-    digest = hashlib.sha256(f"{count} {np.__version__} {_core.isa()}".encode())
+    set, of the count and of the seeds; another one means that a result must be made again."""
+    digest = hashlib.sha256(f"{count} {seeds} {np.__version__} {_core.isa()}".encode())
     for name, path in sorted(sources(module).items()):
         digest.update(name.encode() + path.read_bytes())
     digest.update(_extension())

@@ -134,10 +134,12 @@ SHORTER = 20  # times shorter than the full counts are the quick ones
 
 @dataclass(frozen=True)
 class Settings:
-    """How to run: at which counts (`tiny` ones are for tests), and where to report progress (share done, 0 to 1)."""
+    """How to run: at which counts (`tiny` ones are for tests), where to report progress (share done, 0 to 1), and from
+    how many starts (seeds) the trainings that take all of the thesis's cycles."""
 
     count: Count = "full"
     progress: Callable[[float], None] = lambda _: None
+    seeds: int = 1
 
     def pick(self, full: int, tiny: int) -> int:
         """The count to use."""
@@ -147,7 +149,8 @@ class Settings:
 @dataclass(frozen=True, kw_only=True)
 class Experiment:
     """An experiment: `run(settings)`; the choices the thesis leaves open are the docstring of the file of
-    `run`. `minutes` of one core at full counts, roughly, weigh the time that is left."""
+    `run`. `minutes` of one core at full counts, roughly, weigh the time that is left; `seed_minutes` is what every
+    start after the first costs, 0 where `Settings.seeds` means nothing."""
 
     name: str
     title: str
@@ -155,6 +158,11 @@ class Experiment:
     tables: tuple[int, ...] = ()
     figures: tuple[int, ...] = ()
     minutes: float = 0.2
+    seed_minutes: float = 0.0
+
+    def minutes_of(self, seeds: int) -> float:
+        """Minutes of one core with so many starts."""
+        return self.minutes + (seeds - 1) * self.seed_minutes
 
     @property
     def module(self) -> str:

@@ -20,7 +20,8 @@ SHORT = 0.3  # minutes of one core
 @dataclass(frozen=True, kw_only=True)
 class Finished:
     """A finished experiment as kept on disk; `fingerprint` is of everything that it depends on, `seconds` of processor
-    time are its thread's, which other work on the machine does not stretch."""
+    time are its thread's, which other work on the machine does not stretch; `seeds` as in `Settings`, None where
+    the experiment has no such trainings."""
 
     name: str
     title: str
@@ -32,6 +33,7 @@ class Finished:
     count: Count
     fingerprint: str
     made: Made
+    seeds: int | None = None
 
 
 def run(
@@ -39,12 +41,14 @@ def run(
     out: Path,
     *,
     count: Count = "full",
+    seeds: int = 1,
     jobs: int = 1,
     progress: Callable[[Experiment, float], None] = lambda *_: None,
 ) -> list[Finished]:
     """Results of the experiments, in order; those finished in `out` with the same fingerprint (for a quick run: in
     full, too) are read, not run.
 
+    seeds: starts of the trainings that take all of the thesis's cycles.
     jobs: experiments at a time, in threads (the core releases the interpreter); results do not depend on it.
     progress(experiment, share done) is called now and then, with 1 at the end.
     """
@@ -52,15 +56,16 @@ def run(
 
     def one(experiment: Experiment) -> Finished:
         path, used = out / f"{experiment.name}.json", _count(experiment, count)
+        starts = seeds if experiment.seed_minutes else None
         good: tuple[Count, ...] = ("quick", "full") if used == "quick" else (used,)
         done = read(path)
-        if done is None or done.fingerprint not in [fingerprint(experiment.module, c) for c in good]:
-            done = _run_one(experiment, used, progress)
+        if done is None or done.fingerprint not in [fingerprint(experiment.module, c, starts) for c in good]:
+            done = _run_one(experiment, used, starts, progress)
             _write(path, done)
         progress(experiment, 1.0)
         return done
 
-    longest_first = sorted(experiments, key=lambda e: -e.minutes)
+    longest_first = sorted(experiments, key=lambda e: -e.minutes_of(seeds))
     pool = ThreadPoolExecutor(jobs)
     try:
         found = dict(zip([e.name for e in longest_first], pool.map(one, longest_first), strict=True))
@@ -75,10 +80,10 @@ def _count(experiment: Experiment, count: Count) -> Count:
 
 
 def _run_one(
-    experiment: Experiment, count: Count, progress: Callable[[Experiment, float], None]
+    experiment: Experiment, count: Count, seeds: int | None, progress: Callable[[Experiment, float], None]
 ) -> Finished:
     start = time.thread_time()
-    outcome: Outcome = experiment.run(Settings(count, lambda share: progress(experiment, share)))
+    outcome: Outcome = experiment.run(Settings(count, lambda share: progress(experiment, share), seeds or 1))
     return Finished(
         name=experiment.name,
         title=experiment.title,
@@ -88,8 +93,9 @@ def _run_one(
         searches=outcome.searches,
         seconds=time.thread_time() - start,
         count=count,
-        fingerprint=fingerprint(experiment.module, count),
+        fingerprint=fingerprint(experiment.module, count, seeds),
         made=made(),
+        seeds=seeds,
     )
 
 

@@ -1,10 +1,12 @@
-"""Choices of Tables 11 to 14 (ours): levels of the friction, rule, fraction of the bound, size of w and cycles.
+"""Choices of Tables 11 to 16 (ours): levels of the friction, rule, fraction of the bound, size of w and cycles.
 
 One seed. Tc and Ts are the levels of (3.99) [N m]; where none are named they are those of chapter 5. All 100 000
 cycles of one choice take 5 and 10 minutes of a core, so only the choice that is taken has them, in the tables
 themselves; here every choice has a hundredth and less of them, and the nearest have a tenth and a twentieth.
 Tables 13 and 14 are tried with the tightened bounds too: there the larger fractions break down, with the printed
-ones they do not.
+ones they do not. With omega0 = 5 the printed bounds lose their meaning for Morlet after a few cycles and nothing learns
+any more, so that its error in Table 15 is that of the first ones; with 1.75, which the text does not give either, it
+learns like the others.
 """
 
 from __future__ import annotations
@@ -110,13 +112,51 @@ def tables_13_14(settings: Settings) -> Search:
         tried,
         taken="",
         count=GOES_ON.format("thesis 0.1, w 0.1"),
-        progress=lambda share: settings.progress(0.5 + 0.5 * share),
+        progress=lambda share: settings.progress(0.5 + 0.4 * share),
+    )
+
+
+def tables_15_16(settings: Settings) -> Search:
+    """The structured network with every wavelet, omega0 of Morlet in two columns."""
+    u, test_u = sine(1.0, 1.0), sine(0.75, 1.0)
+    y, test = speed_with_friction(u), speed_with_friction(test_u)
+    wavelets = {name: rwn.Wavelet(name) for name in structured.WAVELETS}
+    wavelets |= {"morlet, omega0 1.75": rwn.Wavelet("morlet", 1.75)}
+    thesis = {name: structured.WAVELETS[name.partition(",")[0]] for name in wavelets}
+
+    def values(rule: RateRule, size: float, cycles: int) -> Values:
+        learning, tested = [], []
+        for name, wavelet in wavelets.items():
+            start = friction_network(y, 15, seed=0, size=size, wavelet=wavelet)
+            run = rwn.train_structured(start, u, y, learn=structured.NETWORK, rates=rule, cycles=cycles)
+            learning.append(finite(run.mse_learning[-1], run.status))
+            if thesis[name][1] is not None:
+                tested.append(finite(run.network.mse(test_u, test), run.status))
+        return learning + tested
+
+    grid = [(f, size, 500) for f in (0.01, 0.1, 0.5, 0.9) for size in (0.001, 0.1)]
+    near = [(f, size, 5000) for f in (0.1, 0.5) for size in (0.001, 0.1)]
+    tried = {
+        f"thesis {f}, w {size}, {settings.pick(cycles, 2)} cycles": partial(
+            values, thesis_rule(f), size, settings.pick(cycles, 2)
+        )
+        for f, size, cycles in (*grid, *near)
+    }
+    numbers = {f"T15 {name}": pair[0] for name, pair in thesis.items()}
+    numbers |= {f"T16 {name}": pair[1] for name, pair in thesis.items() if pair[1] is not None}
+    return search(
+        "Tables 15 and 16: fraction, size of w, omega0 of Morlet and cycles",
+        numbers,
+        tried,
+        taken="",
+        count=GOES_ON.format("thesis 0.1, w 0.1"),
+        progress=lambda share: settings.progress(0.9 + 0.1 * share),
     )
 
 
 def run(settings: Settings) -> Outcome:
-    """Both."""
-    return Outcome(rows=[], searches=[tables_11_12(settings), tables_13_14(settings)])
+    """All three."""
+    return Outcome(rows=[], searches=[tables_11_12(settings), tables_13_14(settings), tables_15_16(settings)])
 
 
-EXPERIMENT = Experiment(name="search-friction", title="Choices of Tables 11 to 14", run=run, minutes=4.5)
+EXPERIMENT = Experiment(name="search-friction", title="Choices of Tables 11 to 16", run=run, minutes=4.5)

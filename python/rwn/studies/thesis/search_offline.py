@@ -12,11 +12,12 @@ from functools import partial
 import numpy as np
 
 from rwn.networks.arrays import Array
-from rwn.networks.initialisation import DyadicGrid, Heuristic, LeastSquares, SmallRandom
+from rwn.networks.initialisation import DyadicGrid, Heuristic
 from rwn.studies.thesis import miso_rate, miso_size, siso_rate, siso_size
 from rwn.studies.thesis.experiment import Experiment, Outcome, Search, Settings
-from rwn.studies.thesis.functions import grid, miso, siso
-from rwn.studies.thesis.offline import MATLAB, PRINTED, Case, Task, descent, train
+from rwn.studies.thesis.functions import miso
+from rwn.studies.thesis.offline import Case, Task, descent, train
+from rwn.studies.thesis.offline_choices import ONE_INPUT, READINGS, TWO_INPUTS, two_inputs
 from rwn.studies.thesis.search import median, search
 
 Choices = dict[str, Callable[[], Sequence[float | None]]]
@@ -44,44 +45,20 @@ def errors(tables: dict[str, list[Case]], task: Task, reading: str, iterations: 
     return found
 
 
-def one_input(points: int, start: LeastSquares | SmallRandom) -> Task:
-    """(2.25) at so many points."""
-    x = np.linspace(-10, 10, points)[:, None]
-    return Task(x, siso(x), x, siso(x), start)
-
-
 def whole_bracket(x: Array) -> Array:
     """(2.26) read with 1.335 before all of it."""
     first = 1.335 * (1.5 - 1.5 * x[:, 0])
     return np.asarray(first + 1.335 * (miso(x) - first))
 
 
-def two_inputs(
-    low: float, points: int, size: float, function: Callable[[Array], Array] = miso
-) -> Task:
-    """(2.26) on a square of side 1."""
-    x = grid(low, low + 1, points)
-    y = function(x)[:, None]
-    return Task(x, y, x, y, SmallRandom(scale=size))
-
-
 def run(settings: Settings) -> Outcome:
     """One input, then two."""
     iterations = settings.pick(10_000, 20)
-    readings = {"mu (1 - gamma)": MATLAB, "mu": PRINTED}
-    starts: dict[str, LeastSquares | SmallRandom] = {
-        "b, a least squares, w 0.1": LeastSquares(scale=0.1),
-        "b, a least squares, w 1": LeastSquares(scale=1.0),
-        "all random 0.1": SmallRandom(scale=0.1),
-    }
     tables = {"T1": siso_size.CASES, "T2": siso_rate.CASES}
     tried: Choices = {
-        f"{reading}, {points} points, {name}": partial(errors, tables, one_input(points, start), value, iterations)
-        for reading, value in readings.items()
-        for points, name, start in (
-            *((201, name, start) for name, start in starts.items()),
-            (51, "b, a least squares, w 0.1", starts["b, a least squares, w 0.1"]),
-        )
+        f"{reading}, {name}": partial(errors, tables, task, value, iterations)
+        for reading, value in READINGS.items()
+        for name, task in ONE_INPUT.items()
     }
     taken = "mu (1 - gamma), 201 points, b, a least squares, w 0.1"
     found: list[Search] = []
@@ -97,17 +74,12 @@ def run(settings: Settings) -> Outcome:
         )
     )
     tables = {"T5": miso_size.CASES, "T6": miso_rate.CASES}
-    tasks = {
-        "[0, 1]^2, 21 x 21, w 0.1": two_inputs(0.0, 21, 0.1),
-        "[0, 1]^2, 21 x 21, w 1": two_inputs(0.0, 21, 1.0),
-        "[0, 1]^2, 11 x 11, w 0.1": two_inputs(0.0, 11, 0.1),
-        "[-0.5, 0.5]^2, 11 x 11, w 0.1": two_inputs(-0.5, 11, 0.1),
-        "[0, 1]^2, 11 x 11, w 0.1, 1.335 before all of (2.26)": two_inputs(0.0, 11, 0.1, whole_bracket),
-    }
+    whole = two_inputs(0.0, 11, 0.1, whole_bracket)
+    tasks = {**TWO_INPUTS, "[0, 1]^2, 11 x 11, w 0.1, 1.335 before all of (2.26)": whole}
     tried = {
         f"{reading}, {name}": partial(errors, tables, task, value, iterations)
         for name, task in tasks.items()
-        for reading, value in readings.items()
+        for reading, value in READINGS.items()
     }
     found.append(
         search(

@@ -8,20 +8,25 @@ LM is one Jacobian, however many dampings are tried with it.
 
 from __future__ import annotations
 
+from functools import partial
+
 from rwn.networks.initialisation import Heuristic
 from rwn.networks.trainers import LevenbergMarquardt, Trainer
-from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Settings
+from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Search, Settings
 from rwn.studies.thesis.offline import (
     MATLAB,
     PRINTED,
     SEEDS,
     SISO,
+    Task,
     compare_trainers,
     descent,
     history_figure,
     output_panel,
     train,
 )
+from rwn.studies.thesis.offline_choices import ONE_INPUT, READINGS, WAYS
+from rwn.studies.thesis.search import median, search
 
 TRAINERS: dict[str, Trainer] = {"LM": LevenbergMarquardt(mu=0.1, beta=2.0, iterations=100)}
 TRAINERS |= {
@@ -52,7 +57,30 @@ def run(settings: Settings) -> Outcome:
         ),
         Figure(number=18, title=title, panels=[output_panel(SISO, runs)]),
     ]
-    return Outcome(rows=rows, figures=figures)
+    return Outcome(rows=rows, figures=figures, searches=[choices(settings)])
+
+
+def choices(settings: Settings) -> Search:
+    """Reading of (2.20), patterns, start of b, a and w, and of the wavelets."""
+    seeds = settings.pick(SEEDS, 3)
+
+    def values(way: str, task: Task, reading: str) -> list[float | None]:
+        start, trainers = WAYS[way](linear=task.linear), (TRAINERS["LM"], TRAINERS["gradient descent" + reading])
+        return [median(train(task, start, trainer, wavelets=15, seeds=seeds).mses) for trainer in trainers]
+
+    tried = {
+        f"{reading}, {name}, {way}": partial(values, way, task, value)
+        for way in WAYS
+        for reading, value in READINGS.items()
+        for name, task in ONE_INPUT.items()
+    }
+    return search(
+        "Table 3: reading of (2.20), patterns and start",
+        {"LM": THESIS["LM"], "gradient descent": THESIS["gradient descent"]},
+        tried,
+        taken="mu (1 - gamma), 201 points, b, a least squares, w 0.1, dyadic grid",
+        count=f"{seeds} seeds, 100 iterations",
+    )
 
 
 EXPERIMENT = Experiment(

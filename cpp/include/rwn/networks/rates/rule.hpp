@@ -32,6 +32,8 @@ struct RateReport {
 
   void include(double rho, double cond);
   void include_friction(double ratio, double smallest);
+  /// Counts what was counted between two reports once more.
+  void count_again(const RateReport& before, const RateReport& after);
 };
 
 using StructuredRateValues = std::array<double, kStructuredGroups>;
@@ -51,6 +53,8 @@ class StructuredRates {
   virtual StructuredRateValues rates() const = 0;
   /// The bounds of ||dy/dtheta_g|| behind the rates; 0 where the rule has none.
   virtual StructuredRateValues bounds() const { return {}; }
+  /// What a cycle takes from those before it, besides the parameters; empty for a rule that remembers nothing.
+  virtual std::vector<double> memory() const { return {}; }
 
   RateReport report;
 };
@@ -64,6 +68,7 @@ class RecurrentRates {
   virtual double train(RecurrentRun& run, const RecurrentSignals& signals) = 0;
   virtual RecurrentRateValues rates() const = 0;
   virtual RecurrentRateValues bounds() const { return {}; }
+  virtual std::vector<double> memory() const { return {}; }
 
   RateReport report;
 };
