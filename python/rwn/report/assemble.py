@@ -68,8 +68,10 @@ def assemble(
     torque_unknown = verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
     place = located(where, depends, linear=model.linear)
+    known = correction.by_free_run.fit if correction.by_free_run else correction.final
     filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
-    drawn = figures.plots(ranking, chosen, heldout, unknown, depends, correction.network, linear=model.linear)
+    shown = correction.by_free_run or chosen
+    drawn = figures.plots(ranking, shown, heldout, unknown, depends, correction.network, linear=model.linear)
     return Diagnosis(
         verdict=verdict,
         equation=equation,
@@ -91,7 +93,7 @@ def assemble(
         version=__version__,
         elapsed=elapsed,
         stand_in=correction.stands_in,
-        corrected=with_doubt(correction.model, estimates(correction.final, ranking.counted, doubt=doubt)),
+        corrected=with_doubt(correction.model, estimates(known, ranking.counted, doubt=doubt)),
     )
 
 
