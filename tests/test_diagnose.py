@@ -127,6 +127,10 @@ def test_emps(shared: Path) -> None:
     assert force.refitted > 15.0
     assert force.corrected is not None
     assert force.corrected <= 6.0
+    position = next(r for r in found.heldout if r.signal == "position")
+    assert position.corrected is not None
+    assert position.corrected <= 5.2e-3, "corrected.toml is fitted to the free run"
+    assert set(found.corrected.effects) & set(found.set)
 
 
 def test_identify_says_how_far_the_nominal_structure_is_from_the_noise() -> None:

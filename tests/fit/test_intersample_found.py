@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.intersample import stating, with_intersample, without_unknown
+from rwn.fit.fit import refit
+from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
+from rwn.fit.likelihood import DECISIVE, log_likelihood
+from rwn.fit.nominal import nominal_of
+from rwn.fit.residuals import accuracy_lost
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 
@@ -36,6 +42,36 @@ def test_thinned_rows_are_told_from_whole_ones_also_beneath_missing_physics(
 ) -> None:
     found = with_intersample([_kept(_run(friction=friction), slice(None, None, every))], MODEL)
     assert found.recording.intersample == law
+
+
+def test_a_law_that_the_free_run_refuses_is_not_taken() -> None:
+    """The steps of the voltage reach the speed's cable: what is new in a row goes with the voltage of that row."""
+    rng, time = np.random.default_rng(5), 1e-3 * np.arange(3000)
+    voltage = 3.0 * np.sign(np.sin(2 * np.pi * (2.0 * time + 4.0 * time**2))) + 0.05 * rng.standard_normal(time.size)
+    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    truth = rwn.Model(kind="dc", parameters=MOTOR, effects={"coulomb-friction": {"coulomb_torque": 4e-3}})
+    picked_up = 1.5 * np.diff(voltage, prepend=0.0) + 0.05 * rng.standard_normal(time.size)
+    speed = rwn.simulate(truth, bare).signals["speed"] + picked_up
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage, "speed": speed})
+    problem, held = nominal_of([run], stating(MODEL, "held"))
+    halves = replace(problem, runs=tuple(r.with_intersample("halves") for r in problem.runs))
+    other = refit(held, halves)
+    assert log_likelihood(halves, other) > log_likelihood(problem, held) + DECISIVE
+    assert likeliest(problem, held) == "held"
+
+
+def test_accuracy_lost_is_none_between_the_same_and_changes_sign_with_the_order() -> None:
+    time = 1e-3 * np.arange(3000)
+    voltage = np.random.default_rng(7).uniform(-3.0, 3.0, time.size)
+    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    speed = rwn.simulate(MODEL, bare).signals["speed"]
+    whole = rwn.Recording(name="run", time=time, signals={"voltage": voltage, "speed": speed})
+    problem, held = nominal_of([_kept(whole, slice(None, None, 2))], stating(MODEL, "held"))
+    halves = replace(problem, runs=tuple(r.with_intersample("halves") for r in problem.runs))
+    other = refit(held, halves)
+    assert accuracy_lost(problem, held, problem, held) == 0.0
+    assert accuracy_lost(problem, held, halves, other) < -3.0  # every second row was kept
+    assert accuracy_lost(halves, other, problem, held) == -accuracy_lost(problem, held, halves, other)
 
 
 def test_lost_rows_are_bridged_where_the_voltage_went_on_moving() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from rwn.correct.free_run import by_free_run
 from rwn.correct.network import NetworkCorrection, proved_network
 from rwn.decide.decision import Decision
 from rwn.fit.fit import Fit
@@ -12,7 +13,7 @@ from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
 from rwn.name.weights import RankedFit
 from rwn.prove.heldout import heldout_error, helps, log_change
-from rwn.prove.proof import proved
+from rwn.prove.proof import compared, proved
 from rwn.simulate.run import Run
 
 NO_NETWORK = (
@@ -22,6 +23,10 @@ NO_NETWORK = (
 NOT_HELPING = (
     "on recordings that were not fitted the simulation is better without {}, as fitted here: corrected.toml leaves it "
     "out"
+)
+BY_FREE_RUN = (
+    "what is stated was found by the driving force, with the parameters that this tells; corrected.toml holds {} "
+    "fitted to the free run, which predicts better what was not fitted"
 )
 
 
@@ -33,6 +38,7 @@ class Correction:
     model: Model  # what corrected.toml holds
     final: Fit  # whose values it has
     network: NetworkCorrection | None = None
+    by_free_run: RankedFit | None = None  # what was found by the driving force, as `final` fitted to the free run
     stands_in: str = ""  # what stands in the model for what has no name
     warnings: tuple[str, ...] = ()
 
@@ -50,7 +56,16 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
     kept, left_out = _proved_part(decision, heldout, seed=seed)
     if left_out:
         warnings = (*warnings, NOT_HELPING.format(" + ".join(left_out)))
-    return Correction(decision=decision, model=fitted_model(kept.final, model), final=kept.final, warnings=warnings)
+    moved = by_free_run(decision, kept, seed=seed)
+    if moved is None:
+        return Correction(decision=decision, model=fitted_model(kept.final, model), final=kept.final, warnings=warnings)
+    final, rows = moved.explanation.final, moved.rows
+    if heldout:
+        rows = compared(decision.ranking, decision.ranking.nominal, final, heldout, seed=seed)
+    return Correction(
+        decision=replace(decision, rows=rows), model=fitted_model(final, model), final=final,
+        by_free_run=moved.explanation, warnings=(*warnings, BY_FREE_RUN.format(" + ".join(final.added))),
+    )  # fmt: skip
 
 
 def _seen(decision: Decision) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.fault import Fault
 from rwn.faults.resolve import resolved
 from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
@@ -83,6 +84,12 @@ def explained(
         again = stating(stated, likeliest(ranking.problem, best))
     if (still, again) != (late, stated):
         faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say, effort=effort)
+    for wrong in contradicted(ranking):
+        free = without_declared(again, wrong)
+        others, told = resolved(_as_acted(powered(recordings, still, model), again), free, say=say, effort=effort)
+        if confirmed(told, ranking, again, wrong):
+            faults, ranking = others, told
+            break
     again = stating_filters(again, ranking.problem.filters)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from statistics import NormalDist
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from rwn.fit.fit import Fit, refit
 from rwn.fit.likelihood import DECISIVE, log_likelihood
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
+from rwn.fit.residuals import LEVEL, accuracy_lost
 from rwn.model.model import Model
 from rwn.model.start import CERTAIN
 from rwn.parallel import side_by_side
@@ -19,6 +21,7 @@ from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording, beginnings
 
 MOST_OFF = 0.5  # share of the rows: where more are off, that is the noise of the current
+REFUSED = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations of the loss of a law that the free run certainly refuses
 ITERATIONS = 8  # of a fit that begins near its end
 
 
@@ -33,10 +36,20 @@ def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
 
 
 def likeliest(problem: Problem, this: Fit) -> str:
-    """The law under which the errors of a fit, refitted, are likeliest; "held" where none is so by far."""
-    scores = _log_likelihoods(problem, this)
-    best = max(scores, key=lambda law: scores[law])
-    return best if scores[best] > scores[HELD] + DECISIVE else HELD
+    """The law under which the errors of a fit, refitted, are likeliest; "held" where none is so by far.
+
+    What is new in an error may go with the input by another way than through the drive: a controller answers the noise
+    of a row by the input of that row, a cable picks its steps up. A law that foretells this is likelier for no physics,
+    so one that simulates the recordings certainly worse, from their input alone, is not taken.
+    """
+    under = {law: _under(problem, law) for law in INTERSAMPLE}
+    told = {law: p for law, p in under.items() if law == HELD or any(r.acting is not None for r in p.runs)}
+    fits = side_by_side(lambda p: refit(this, p, iterations=ITERATIONS), told.values())
+    refitted = dict(zip(told, fits, strict=True))
+    scores = {law: log_likelihood(told[law], refitted[law]) for law in told}
+    likely = [law for law in told if scores[law] > scores[HELD] + DECISIVE]
+    lost = {law: accuracy_lost(told[HELD], refitted[HELD], told[law], refitted[law]) for law in likely}
+    return max((law for law in likely if lost[law] < REFUSED), key=lambda law: scores[law], default=HELD)
 
 
 def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recording]:
@@ -63,14 +76,6 @@ def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recor
 def stating(model: Model, law: str) -> Model:
     """The model with a law in its recordings' layout."""
     return replace(model, recording=replace(model.recording, intersample=law))
-
-
-def _log_likelihoods(problem: Problem, this: Fit) -> Mapping[str, float]:
-    """Of a fit repeated under every law that says something else than "held" of these recordings."""
-    under = {law: _under(problem, law) for law in INTERSAMPLE}
-    told = {law: p for law, p in under.items() if law == HELD or any(r.acting is not None for r in p.runs)}
-    found = side_by_side(lambda p: log_likelihood(p, refit(this, p, iterations=ITERATIONS)), told.values())
-    return dict(zip(told, found, strict=True))
 
 
 def _under(problem: Problem, law: str) -> Problem:

@@ -130,6 +130,27 @@ def variance(problem: Problem, this: Fit) -> float:
     return sum(_energies(joined).values()) / max(_count(joined), 1)
 
 
+def accuracy_lost(problem: Problem, this: Fit, other: Problem, that: Fit) -> float:
+    """How certainly `that` simulates the recordings worse than `this`, in deviations; 0 where both do it alike.
+
+    Diebold, Mariano (1995): the mean difference of squared weighted errors over its own deviation, which counts how
+    long differences last. `other`: the same recordings under the same noise.
+    """
+    difference = _losses(other, that) - _losses(problem, this)
+    spread = float(np.std(difference)) * np.sqrt(correlation_time(difference) / difference.size)
+    return float(np.mean(difference)) / spread if spread > 0.0 else 0.0
+
+
+def _losses(problem: Problem, this: Fit) -> Array:
+    """Squared weighted error of each sample, all signals together; 0 where nothing is compared."""
+
+    def of_a_run(left: Mapping[str, Array]) -> Array:
+        squares: Array = np.sum([np.square(x / problem.noise[s].level) for s, x in left.items()], axis=0)
+        return squares
+
+    return np.concatenate(list(map(of_a_run, problem.residuals(this.vector, this.active))))
+
+
 def statistics_of(joined: Mapping[str, Array]) -> Statistics:
     """Statistics of weighted residuals by signal."""
     energies, count = _energies(joined), _count(joined)

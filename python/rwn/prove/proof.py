@@ -32,7 +32,7 @@ def proved(
     nothing is proved where it finds none.
     """
     if heldout:
-        return _rows(ranking, ranking.nominal, chosen.final, heldout, seed=seed)
+        return compared(ranking, ranking.nominal, chosen.final, heldout, seed=seed)
 
     def fold(case: Fold) -> tuple[HeldoutRow, ...] | None:
         problem, run, first = case
@@ -40,11 +40,11 @@ def proved(
             other = again(problem)
             if other is None:
                 return None
-            return _rows(other[0], other[0].nominal, other[1], [run], seed=seed, first=first)
+            return compared(other[0], other[0].nominal, other[1], [run], seed=seed, first=first)
         nominal = refit(ranking.nominal, problem)
         weighted = replace(ranking.weighted, runs=problem.runs)
         fitted = refit(chosen.final, weighted) if chosen.added else chosen.final
-        return _rows(ranking, nominal, fitted, [run], seed=seed, first=first)
+        return compared(ranking, nominal, fitted, [run], seed=seed, first=first)
 
     parts = side_by_side(fold, _folds(ranking.problem))
     return tuple(row for part in parts for row in part or ()) if None not in parts else ()
@@ -58,9 +58,10 @@ def hurts(rows: Sequence[HeldoutRow]) -> bool:
     return bool(main) and all(r.gain_interval[1] < 0.0 for r in main if r.gain_interval)
 
 
-def _rows(
+def compared(
     ranking: Ranking, refitted: Fit, fitted: Fit, runs: Sequence[Run], *, seed: int, first: int = 0
 ) -> tuple[HeldoutRow, ...]:
+    """Rows of two fits on runs that neither saw, `refitted` in the place of the nominal model's; see `heldout_rows`."""
     problem = ranking.problem.in_free_run()
     linear = problem.simulator.angle_per_position != 1.0
     units = {"current": "A", "speed": "m/s" if linear else "rad/s", "position": "m" if linear else "rad"}
@@ -88,6 +89,6 @@ def _folds(problem: Problem) -> Iterator[Fold]:
             others = tuple(r for j, r in enumerate(problem.runs) if j != k)
             yield replace(problem, runs=others), replace(run, name=f"{run.name} {LEFT_OUT}"), 0
         return
-    first = int(FITTED_PART * whole[0].time.size)
+    first, last = (int(FITTED_PART * r.time.size) for r in (whole[0], problem.runs[0]))  # a fit may take fewer samples
     late = replace(whole[0], name=f"last {1.0 - FITTED_PART:.0%} of {whole[0].name} {LEFT_OUT}".replace("%", " %"))
-    yield replace(problem, runs=(problem.runs[0].until(first),)), late, first
+    yield replace(problem, runs=(problem.runs[0].until(last),)), late, first

@@ -37,6 +37,12 @@ class Acting(Values):
     values: Array
     spread: Array
 
+    def since(self, begin: float) -> Acting:
+        """The same of a recording that begins at `begin` [s], in its time."""
+        first = max(int(np.searchsorted(self.instants, begin, side="right")) - 1, 0)
+        instants = np.maximum(self.instants[first:], begin) - begin
+        return Acting(instants=instants, values=self.values[first:], spread=self.spread[first:])
+
 
 @dataclass(frozen=True, kw_only=True)
 class Law:

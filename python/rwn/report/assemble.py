@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -68,8 +68,10 @@ def assemble(
     torque_unknown = verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
     place = located(where, depends, linear=model.linear)
+    known = correction.by_free_run.fit if correction.by_free_run else correction.final
     filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
-    drawn = figures.plots(ranking, chosen, heldout, unknown, depends, correction.network, linear=model.linear)
+    shown = correction.by_free_run or chosen
+    drawn = figures.plots(ranking, shown, heldout, unknown, depends, correction.network, linear=model.linear)
     return Diagnosis(
         verdict=verdict,
         equation=equation,
@@ -82,7 +84,9 @@ def assemble(
         heldout=rows,
         curves=drawn,
         sensor_filters=filters,
-        warnings=(*_warnings(ranking, chosen, rows, filters), *correction.warnings),
+        warnings=(
+            *_contradictions(chosen, model), *_warnings(ranking, chosen, rows, filters), *correction.warnings
+        ),
         next_experiment="; ".join(filter(None, wanted)),
         adequate_probability=ranking.nothing_missing.probability,
         account=decision.account.effects,
@@ -91,7 +95,7 @@ def assemble(
         version=__version__,
         elapsed=elapsed,
         stand_in=correction.stands_in,
-        corrected=with_doubt(correction.model, estimates(correction.final, ranking.counted, doubt=doubt)),
+        corrected=with_doubt(correction.model, estimates(known, ranking.counted, doubt=doubt)),
     )
 
 
@@ -158,12 +162,16 @@ def _warnings(
             f"{' + '.join(f.added)} fits better, but {', '.join(f.limits_met)} ran into a limit: there the law bends "
             "towards one that it is not, and it is not named"
         )
+    return tuple(texts)
+
+
+def _contradictions(chosen: RankedFit, model: Model) -> Iterator[str]:
+    """What an explanation moves beyond what the data sheet leaves room for."""
     for u, value in zip(chosen.final.hypothesis.unknowns, chosen.final.minimum.values, strict=True):
-        declared = "." not in u.name or u.name in ranking.problem.prior.of_effects
-        if u.prior is not None and u.prior > 0.0 and u.prior_std > 0.0 and declared:
-            off = abs(np.log(value / u.prior)) / u.prior_std if value > 0.0 else np.inf
+        declared = model.uncertainty.get(u.name, 0.0)
+        if u.prior is not None and u.prior > 0.0 and 0.0 < declared < np.inf:
+            off = abs(np.log(value / u.prior)) / declared if value > 0.0 else np.inf
             if off > BELIEVABLE:
                 to = f"{value / u.prior:.2g} times what was given, {off:.1f} declared deviations"
                 said = f"data sheet and recordings contradict each other in {u.name}"
-                texts.append(f"{said}: it moved to {to if value > 0.0 else 'zero'}")
-    return tuple(texts)
+                yield f"{said}: it moved to {to if value > 0.0 else 'zero'}"

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from rwn.fit.intervals import NO_DOUBT, Doubt, Estimate, estimates
+from rwn.fit.prior_weight import BELIEVABLE
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
@@ -29,6 +30,14 @@ class FittedParameter:
             return 0.0
         ratio = self.refitted.value / self.nominal
         return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
+
+    @property
+    def contradicted(self) -> bool:
+        """Whether it left what was declared beyond belief together with the found effects."""
+        if not self.uncertainty or self.nominal <= 0.0 or self.corrected is None:
+            return False
+        ratio = self.corrected.value / self.nominal
+        return ratio <= 0.0 or abs(math.log(ratio)) > BELIEVABLE * self.uncertainty
 
 
 @dataclass(frozen=True, kw_only=True)

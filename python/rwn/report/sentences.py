@@ -38,7 +38,18 @@ def _missing(found: DiagnosisData) -> tuple[str, ...]:
         names = listing([plain_name(name) for name in found.set], "or")
         parts = [f"{names} (these recordings cannot tell which)", *parts[1:]]
     them = "it" if len(found.effects) == 1 else "them"
-    return (f"The model lacks {listing(parts)}.", *_proof(found, f"Adding {them}"), *_left(found))
+    said = f"{_contradiction(found)}The model lacks {listing(parts)}."
+    return (said, *_proof(found, f"Adding {them}"), *_left(found))
+
+
+def _contradiction(found: DiagnosisData) -> str:
+    """A data sheet that is wrong is no measure of what is missing: said first."""
+    far = [
+        f"{plain_name(name)} ({number(p.corrected.value / p.nominal, 2)} times what was given)"
+        for name, p in found.nominal_fit.parameters.items()
+        if p.corrected is not None and p.contradicted
+    ]
+    return f"Data sheet and recordings contradict each other in {listing(far)}. " if far else ""
 
 
 def _left(found: DiagnosisData) -> Iterator[str]:

@@ -112,6 +112,18 @@ class Run:
         cut = {name: getattr(self, name)[:end] for name in arrays}
         return replace(self, **cut, missing={s: lost[:end] for s, lost in self.missing.items()})
 
+    def since(self, begin: int) -> Run:
+        """Its samples from `begin`, from the smoothed motion that was recorded there."""
+        arrays = ("input", "current", "speed", "position", "angle", "restart_speed", "restart_position")
+        cut = {name: getattr(self, name)[begin:] for name in arrays}
+        speed, position = float(self.motion()[0][begin]), float(self.angle[begin]) if self.angle.size else 0.0
+        first = float(self.time[begin])
+        return replace(
+            self, **cut, time=self.time[begin:] - first, start=(0.0, speed, position), start_spread={}, own=(),
+            in_motion=True, input_before=float(self.input[begin - 1]), acting=self.acting and self.acting.since(first),
+            missing={s: lost[begin:] for s, lost in self.missing.items()},
+        )  # fmt: skip
+
     def following_nothing(self) -> Run:
         """The same, simulated from the input alone: angle-dependent effects follow the simulated position."""
         return replace(self, angle=np.empty(0))

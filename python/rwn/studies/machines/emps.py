@@ -2,36 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.fit import Fit, fit, refit
-from rwn.fit.hypothesis import Hypothesis, hypothesis
+from rwn.correct.free_run import fitted_to_motion
+from rwn.fit.fit import fit
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
-from rwn.fit.prior_weight import worth
-from rwn.fit.problem import Problem
 from rwn.fit.residuals import correlation_time
-from rwn.fit.secant import down_secants
 from rwn.model.files import read_model
 from rwn.model.model import Model
-from rwn.name.initial_guesses.guesses import initial_guesses
 from rwn.recording.recording import Recording, read_recording
 from rwn.report.diagnosis import Diagnosis
 from rwn.simulate.inverse_dynamics import needed_force
-from rwn.simulate.run import Run, run_of
 from rwn.simulate.simulator import Simulator
-from rwn.studies.machines.machine import Error, Machine, Outcome, Say, data_file, error_of, judged
+from rwn.studies.machines.machine import Machine, Outcome, Say, data_file, error_of, judged
 
 Array = NDArray[np.float64]
 NOMINAL = Path(__file__).parents[2] / "demo/emps.toml"
 FILES = ("DATA_EMPS", "DATA_EMPS_PULSES")  # fitted, judged by
 FREE_RUN = "free-running position, PULSES [mm]"
-TURNS = 2  # of secants where the error is not smooth
-OFFICIAL = 20  # first samples, from which the state is taken and which are not judged
+OFFICIAL = 20  # first samples, from which the state of a fit by hand is taken and which are not judged there
 PERIODS = np.linspace(20.0, 1000.0, 1961)  # per metre: 50 mm to 1 mm
 
 
@@ -43,18 +37,20 @@ def run(folder: Path, say: Say) -> tuple[Outcome, ...]:
         for name in FILES
     )
     outcome = judged("EMPS", "mass and viscous friction", model, [train], [pulses], say)
-    errors = [
-        error_of(outcome.found, pulses.name, "driving force", "driving force, PULSES [%]", published="5.98", wanted=5.4)
-    ]
+    errors = (
+        error_of(
+            outcome.found, pulses.name, "driving force", "driving force, PULSES [%]", published="5.98", wanted=5.4,
+        ),
+        error_of(
+            outcome.found, pulses.name, "position", FREE_RUN, scale=1e3, published="2.64 (dynoNet)", wanted=5.2,
+        ),
+    )  # fmt: skip
     notes = list(drift(train, pulses))
     if outcome.found.effects:
         say("EMPS: free run, position-periodic force")
-        error, own, names = free_run_error(outcome.found, model, train, pulses)
-        errors.append(error)
-        notes.append(f"in free run, of what is not told apart, {' + '.join(names)} predicts the fitted file best")
-        notes.append(f"the same model fitted to the free run of PULSES itself: {own:.2f} mm; the rest is the drift")
+        notes.append(fitted_to_itself(outcome.found, model, pulses))
         notes.append(periodic_force(outcome.found, train, pulses))
-    return (replace(outcome, errors=tuple(errors), notes=tuple(notes)),)
+    return (replace(outcome, errors=errors, notes=tuple(notes)),)
 
 
 # ---- friction that drifts between the files --------------------------------------------------------------------------
@@ -90,82 +86,16 @@ def drift(*recordings: Recording) -> tuple[str, ...]:
 # ---- the free run ----------------------------------------------------------------------------------------------------
 
 
-def free_run_error(
-    found: Diagnosis, model: Model, train: Recording, pulses: Recording
-) -> tuple[Error, float, tuple[str, ...]]:
-    """Rms of the free-running position [mm], that of a fit to PULSES, and the names, validated on the fitted file.
-
-    Explanations that the diagnosis does not tell apart are tried. The second figure is no prediction: it says what the
-    structure can do where its friction is that of the file.
-    """
-    problem = prepare([train], model).in_free_run()
-    row = next(r for r in found.heldout if (r.signal, r.region) == ("position", "all"))
-    explanations = [_begun(problem, found, names) for names in _not_told_apart(found)]
-    start = min(explanations, key=lambda these: _validated(problem, these))
-    fitted = _over_all(problem, problem.runs[0], start)
-    judge = run_of(pulses, model)
-    corrected = _rms(problem, judge, fitted.vector, fitted.active)
-    own = _over_all(problem, judge, [fitted.hypothesis.starting_at(fitted.minimum.values)])
-    error = Error(
-        measure=FREE_RUN, nominal=1e3 * row.nominal,
-        refitted=1e3 * row.refitted, corrected=1e3 * corrected, published="2.64 (dynoNet)", wanted=5.2,
-    )  # fmt: skip
-    return error, 1e3 * _rms(problem, judge, own.vector, own.active), fitted.added
-
-
-def _not_told_apart(found: Diagnosis) -> list[tuple[str, ...]]:
-    """The names of the explanation, and with each that the recordings do not tell from its first in the place of it."""
-    first, *rest = (e.name for e in found.effects)
-    return [(name, *rest) for name in dict.fromkeys((first, *found.set)) if name not in rest]
-
-
-def _begun(problem: Problem, found: Diagnosis, names: tuple[str, ...]) -> list[Hypothesis]:
-    """Starts of an explanation: the first guesses of its first effect beside the others as they were found."""
-    first, *rest = names
-    known = {name: found.corrected.effects[name] for name in rest}
-    motor = found.corrected.parameters
-    base = fit(problem, hypothesis(problem.prior, tuple(rest), problem.scales, known, motor))
-    guesses = [
-        *initial_guesses(problem, base, problem.prior.table[first], count=1),
-        *([found.corrected.effects[first]] if first in found.corrected.effects else []),
-    ]
-    return [hypothesis(problem.prior, names, problem.scales, {**known, first: g}, motor) for g in guesses]
-
-
-def _over_all(problem: Problem, run: Run, starts: Sequence[Hypothesis]) -> Fit:
-    """Fitted to a whole run, from the start that leads furthest: contacts make its error non-smooth.
-
-    Priors, that of the run's start with them, weigh against errors that last.
-    """
-    problem = replace(problem, runs=(run.following_nothing(),))
-    plain = min((fit(problem, start) for start in starts), key=lambda this: this.cost)
-    problem = replace(problem, colour=worth(problem, plain))
-    ends = [refit(down_secants(problem, fit(problem, start), turns=TURNS), problem) for start in starts]
-    return min(ends, key=lambda this: this.cost)
-
-
-def _validated(problem: Problem, starts: Sequence[Hypothesis]) -> float:
-    """Rms on the last and on the first quarter of the fitted file, each from a fit to the other three."""
-    (whole,), n = problem.runs, problem.runs[0].time.size
-    errors = []
-    for part, rest in (((0, 3 * n // 4), (3 * n // 4, n)), ((n // 4, n), (0, n // 4))):
-        fitted = _over_all(problem, _part(whole, *part), starts)
-        errors.append(_rms(problem, _part(whole, *rest), fitted.vector, fitted.active))
-    return float(np.linalg.norm(errors))
-
-
-def _part(whole: Run, first: int, last: int) -> Run:
-    part = slice(first, last)
-    speed = whole.start[1] if first == 0 else float(whole.motion()[0][first])
-    return replace(
-        whole, time=whole.time[part] - whole.time[first], input=whole.input[part], position=whole.position[part],
-        angle=whole.angle[part], start=(0.0, speed, float(whole.position[first])), restart_every=0,
-    )  # fmt: skip
-
-
-def _rms(problem: Problem, run: Run, vector: Array, active: Sequence[int]) -> float:
-    simulated = problem.simulate(run.following_nothing(), vector, active).signals["position"]
-    return float(np.sqrt(np.mean((run.position - simulated)[OFFICIAL:] ** 2)))
+def fitted_to_itself(found: Diagnosis, model: Model, pulses: Recording) -> str:
+    """What the structure of the correction can do where its friction is that of the file: no prediction."""
+    problem = prepare([pulses], model).in_free_run()
+    corrected = found.corrected
+    names = tuple(corrected.effects)
+    begun = fit(problem, hypothesis(problem.prior, names, problem.scales, corrected.effects, corrected.parameters))
+    own = fitted_to_motion(problem, problem.runs, begun, names[0])
+    left = problem.on(problem.runs).residuals(own.vector, own.active)[0]["position"]
+    rms = 1e3 * float(np.sqrt(np.mean(left**2)))
+    return f"{' + '.join(names)} fitted to the free run of PULSES itself: {rms:.2f} mm; the rest is the drift"
 
 
 # ---- the force that is periodic in position --------------------------------------------------------------------------
@@ -194,15 +124,23 @@ def periodic_force(found: Diagnosis, train: Recording, pulses: Recording) -> str
 
 
 def _lacking(found: Diagnosis, recording: Recording) -> tuple[Array, Array]:
-    """Position and the force that the corrected model lacks there."""
+    """Position and the force that what is stated lacks there, with the parameters that the force tells."""
     position, speed, acceleration, force = (np.ascontiguousarray(x) for x in filtered(recording))
-    model = found.corrected
+    model = stated(found)
     active = [model.effect_table[name].index for name in model.effects]
     needed = needed_force(
         Simulator.of(model), model.vector, active, time=np.ascontiguousarray(recording.time[50:-50]),
         position=position, speed=speed, acceleration=acceleration,
     )  # fmt: skip
     return position, force - needed
+
+
+def stated(found: Diagnosis) -> Model:
+    """The model with what is stated, its parameters as they are stated."""
+    fitted = {name: p.corrected.value for name, p in found.nominal_fit.parameters.items() if p.corrected}
+    effects = {e.name: {name: p.value for name, p in e.parameters.items()} for e in found.effects}
+    model: Model = found.corrected
+    return replace(model, parameters={**model.parameters, **fitted}, effects=effects, uncertainty={})
 
 
 def _without_low_orders(position: Array, force: Array) -> Array:
