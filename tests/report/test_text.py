@@ -94,6 +94,24 @@ def test_a_signal_that_got_worse_is_said_beside_the_one_that_improves() -> None:
     assert "worse" not in verdict_sentence(found)
 
 
+def test_a_current_that_stays_far_off_is_said_beside_the_speed() -> None:
+    found = made_up.found()
+    off = replace(found.heldout[0], signal="current", unit="A", refitted=0.5, corrected=0.48, noise_floor=0.02)
+    off = replace(off, gain=0.04, gain_interval=(-0.01, 0.09))
+    said = verdict_sentence(replace(found, heldout=(found.heldout[0], off)))
+    assert said.endswith("The current error there is still 24 times its noise, 0.480 A.")
+    for fine in (replace(off, corrected=0.03), replace(off, noise_floor=None), replace(off, signal="position")):
+        assert "times its noise" not in verdict_sentence(replace(found, heldout=(found.heldout[0], fine)))
+
+
+def test_an_adequate_model_that_fails_on_a_run_that_was_kept_back_says_so() -> None:
+    fine = made_up.adequate()
+    assert "But on" not in verdict_sentence(fine)
+    row = replace(fine.heldout[0], refitted=9.0 * (fine.heldout[0].noise_floor or 0.0))
+    said = verdict_sentence(replace(fine, heldout=(row,)))
+    assert f"But on {row.recording}, not used for fitting, the speed error is 9.0 times its noise" in said
+
+
 def test_the_two_numbers_are_those_that_the_gain_is_of() -> None:
     found = made_up.found()
     row = headline(found)
