@@ -18,6 +18,7 @@ from rwn.faults.likeness import FAR, Likeness
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
+from rwn.recording.kinematics import kinematics_of
 from rwn.recording.recording import Recording, beginnings
 from rwn.recording.smoothing import smooth
 from rwn.simulate.run import Run
@@ -53,6 +54,9 @@ LEAST_FORCE = 0.3  # correlation of a force with what the motion takes, below wh
 def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """A unit, sign or gear ratio that is plainly wrong; None where the scale of every signal is believable."""
     recordings = beginnings(recordings)
+    certain = _contradiction(recordings, model)
+    if certain:
+        return certain
     if model.drive.force:
         return _of_axis(recordings, model)
     seen = _likeness(recordings, model)
@@ -71,6 +75,22 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
         if left < (most if _plain(fault.factor) else min(most, LEFT)) and everywhere < least:
             best, least = fault, everywhere
     return best
+
+
+def _contradiction(recordings: Sequence[Recording], model: Model) -> Fault | None:
+    """The speed or the position in a wrong unit or sign, where their kinematics say that one of them is.
+
+    Which of the two is left to the model. None where no unit makes them agree: a gear between their sensors, say.
+    """
+    motions = [motion for recording in recordings if (motion := kinematics_of(recording))]
+    if not motions or not all(motion.contradict for motion in motions):
+        return None
+    ratios = np.array([motion.ratio for motion in motions])
+    faults = []
+    for signal, power in (("speed", 1), ("position", -1)):
+        tried = chain([_turned((signal,))], _in_units((signal,), _units((signal,), model)))
+        faults += [one for one in tried if np.all(np.abs(ratios / one.factor**power - 1.0) < SAME)]
+    return min(faults, key=lambda one: relative_error(without(recordings, one), model), default=None)
 
 
 def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
