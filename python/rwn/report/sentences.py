@@ -11,7 +11,17 @@ from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report.diagnosis_data import DiagnosisData
-from rwn.report.text import STRONGEST, estimate, likelihood, listing, number, percent, plain_name, prefix_for
+from rwn.report.text import (
+    STRONGEST,
+    estimate,
+    likelihood,
+    listing,
+    number,
+    percent,
+    plain_name,
+    prefix_for,
+    unknown_name,
+)
 
 FAR_OFF = 2.0  # error in units of the noise, from which three quarters of its square are something else
 SLIGHT = 0.005  # share of a mismatch or an error that is not worth a sentence
@@ -64,7 +74,7 @@ def _adequate(found: DiagnosisData) -> tuple[str, ...]:
     return (
         f"The model is adequate{tail}: nothing that these recordings can show is missing.",
         *(
-            f"But {plain_name(name)} had to move by {number(times, 2)} times its declared uncertainty: check it."
+            f"But {unknown_name(name)} had to move by {number(times, 2)} times its declared uncertainty: check it."
             for name, times in far.items()
         ),
         *_more_than_noise(found),
