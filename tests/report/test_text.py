@@ -11,6 +11,9 @@ from rwn.fit.intervals import Estimate
 from rwn.mismatch_map.regions import Region
 from rwn.prove.proof import LEFT_OUT
 from rwn.report import text as words
+from rwn.report.assemble import from_near
+from rwn.report.diagnosis_data import Alternative
+from rwn.report.next_steps import next_steps
 from rwn.report.sentences import before_after, headline, verdict_sentence
 
 
@@ -82,6 +85,16 @@ def test_a_parameter_beyond_its_declared_uncertainty_is_said_to_be_so() -> None:
     said = verdict_sentence(replace(fine, nominal_fit=replace(fine.nominal_fit, parameters=parameters)))
     assert said.endswith(f"But {words.plain_name(name)} had to move by 20 times its declared uncertainty: check it.")
     assert "within" not in said
+
+
+def test_a_near_explanation_has_the_experiment_that_tells_it_from_the_stated_one() -> None:
+    near = Alternative(effects=("stribeck-friction",), probability=0.3, separated_by="slow ramps")
+    far = Alternative(effects=("backlash",), probability=0.02, separated_by="reversals")
+    again = Alternative(effects=("constant-load",), probability=0.2, separated_by="slow ramps")
+    assert from_near((near, far, again), named=True) == "slow ramps"
+    assert from_near((near,), named=False) == from_near((far,), named=True) == ""
+    first, *_ = next_steps(replace(made_up.found(), next_experiment="slow ramps"))
+    assert first == "To tell it from the next explanations: slow ramps"
 
 
 def test_a_signal_that_got_worse_is_said_beside_the_one_that_improves() -> None:

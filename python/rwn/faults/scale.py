@@ -31,6 +31,7 @@ SAME = 0.05  # relative difference between a size and a unit's factor that nothi
 WIDEST = 0.3  # the same where the data sheet is poor and physics is missing
 PLAIN = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
 GEARED = 2.0  # size from which a gear is believed: what slows a motor by so much does not leave its transients alike
+MOST_GEARED = 1e4  # four stages of ten to one: small motors have no gear beyond
 GEAR_LIKE = 1.5  # size from which a gear is tried beside physics
 SURELY = 3.0  # standard deviations of the data sheet that a gear ratio has to be away from 1
 SPEED_UNITS = {
@@ -188,6 +189,8 @@ def gear(group: tuple[str, ...], factor: float, spread: float) -> Fault:
     """A motion `factor` times that of the motor, which is known to `spread` (relative standard deviation)."""
     turned = ", and of the wrong sign" if factor < 0.0 else ""
     text = f"{' and '.join(group)} of a shaft that turns {abs(factor):.3g} times as fast as the motor{turned}"
+    if abs(np.log(abs(factor))) > np.log(MOST_GEARED):
+        text += ", which no gear does: its unit or scale is wrong, as of counts of an encoder"
     return Fault(name=GEAR, signals=group, factor=factor, spread=spread, meaning=text)
 
 
