@@ -131,12 +131,13 @@ coverage: install-trust
 	$(PY) -m coverage run --branch --source-pkgs=rwn -m pytest -q -m "$(WHICH)"
 	$(PY) -m coverage report --skip-covered
 
-# Lines and branches of C++, with the kernels that any processor runs.
+# Lines and branches of C++, with the kernels that any processor runs; a line of a template counts once.
 coverage-cpp: install-trust
 	cmake --preset dev -B build/coverage -DCMAKE_CXX_FLAGS="--coverage -O0" >/dev/null
 	cmake --build build/coverage -j $(JOBS) -- --quiet
 	build/coverage/rwn_tests --gtest_brief=1
-	$(PY) -m gcovr --root . --filter cpp/ --exclude cpp/tests/ --exclude-throw-branches --print-summary build/coverage | tail -4
+	$(PY) -m gcovr --root . --filter cpp/ --exclude cpp/tests/ --exclude-throw-branches --merge-lines \
+	  --print-summary build/coverage | tail -4
 
 fuzz: install-trust
 	$(TRUST).fuzz $(TARGET) --seconds $(SECONDS)

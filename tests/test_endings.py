@@ -81,3 +81,21 @@ run(deaf)
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=30, check=False)
     assert (done.returncode, done.stderr) == (STOPPED, "rwn: stopped\n")
+
+
+@pytest.mark.parametrize("module", ["rwn", "numpy", "numpy.linalg", "rwn.diagnose", "rwn.cli"])
+def test_ctrl_c_while_rwn_is_imported_is_one_line(module: str) -> None:
+    """An extension whose import is cut short fails as an ImportError that names no Ctrl-C."""
+    script = f"""
+import os, signal, sys
+from rwn_command import main
+class Presses:
+    def find_spec(self, name, *_):
+        if name == {module!r}:
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Presses())
+sys.argv = ["rwn", "effects"]
+main()
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (STOPPED, "", "rwn: stopped\n")

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from rwn.cli import main
+from rwn_command import main
 
 main()

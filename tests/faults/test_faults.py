@@ -51,6 +51,15 @@ def right(model: rwn.Model) -> rwn.Recording:
     return replace(recording, signals=signals)
 
 
+@pytest.fixture(scope="module")
+def with_position(model: rwn.Model, friction: rwn.Recording) -> rwn.Recording:
+    """The same with a position, of a motor three times as heavy as its model: its size is unlike that of a free run."""
+    heavy = replace(model, parameters={**model.parameters, "inertia": 3.0 * model.parameters["inertia"]})
+    run = rwn.simulate(heavy, friction).signals
+    signals = {"voltage": friction.signals["voltage"], **{s: run[s] for s in ("current", "speed", "position")}}
+    return replace(friction, signals=signals)
+
+
 def altered(recording: rwn.Recording, names: tuple[str, ...], factor: float = 1.0, delay: int = 0) -> rwn.Recording:
     signals = {name: np.array(values) for name, values in recording.signals.items()}
     for name in names:
@@ -66,6 +75,19 @@ def altered(recording: rwn.Recording, names: tuple[str, ...], factor: float = 1.
 
 def silent(what: str, done: float) -> None:
     """Progress that nobody asked for."""
+
+
+@pytest.mark.parametrize("signal", MOTION)
+@pytest.mark.parametrize(("factor", "name"), [(np.pi / 180.0, "wrong-unit"), (-1.0, "wrong-sign"), (0.2, "")])
+def test_which_of_two_that_contradict_each_other_is_wrong_is_left_to_the_model(
+    signal: str, factor: float, name: str, with_position: rwn.Recording, model: rwn.Model
+) -> None:
+    found = wrong_scale([altered(with_position, (signal,), factor)], model)
+    if name:
+        assert found is not None
+        assert (found.name, found.signals, found.factor) == (name, (signal,), pytest.approx(factor))
+    else:  # no unit is five times another: a gear between the two sensors, which is said and not undone
+        assert found is None
 
 
 @pytest.mark.parametrize(

@@ -43,6 +43,16 @@ def test_gear_ratio(model: rwn.Model, friction: rwn.Recording, ratio: float) -> 
     assert found.factor == pytest.approx(ratio, rel=0.15)  # friction slows the motor too
 
 
+@pytest.mark.parametrize(("ratio", "believed"), [(1.0 / 300.0, True), (3e5, False), (1e-5, False)])
+def test_a_ratio_that_no_gear_has_is_said_to_be_a_wrong_scale(
+    ratio: float, believed: bool, model: rwn.Model, friction: rwn.Recording
+) -> None:
+    found = wrong_scale([geared(friction, ratio)], model)
+    assert found is not None
+    assert found.factor == pytest.approx(ratio, rel=0.15)
+    assert ("which no gear does: its unit or scale is wrong" in found.meaning) != believed
+
+
 @pytest.mark.slow
 def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Model, friction: rwn.Recording) -> None:
     wrong = geared(friction, 1.0 / 3.5)

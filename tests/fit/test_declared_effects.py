@@ -17,6 +17,7 @@ from rwn.fit.intervals import Estimate
 from rwn.fit.prior import Prior
 from rwn.model.files import read_model, write_model
 from rwn.report import identification
+from rwn.report.tables import parameter_table
 
 MOTOR = {
     "resistance": 1.1, "inductance": 4.5e-4, "torque_constant": 0.037, "back_emf_constant": 0.037, "inertia": 2.9e-5,
@@ -123,6 +124,29 @@ def test_what_a_diagnosis_finds_it_writes_with_its_doubt(tmp_path: Path) -> None
     value = corrected.effects["coulomb-friction"]["coulomb_torque"]
     assert corrected.uncertainty[NAME] == pytest.approx((high - low) / (2 * 1.96 * value), rel=0.05)
     assert NAME in rwn.identify(_recording(2), corrected).parameters
+
+
+@pytest.mark.slow
+def test_a_declared_effect_is_among_the_parameters_of_a_report() -> None:
+    sheet = _model({**SURE, NAME: 0.3})
+    found = rwn.diagnose(_recording(1, torque=6e-3), sheet, effort=0.1, jobs=1)
+    row = found.nominal_fit.parameters[NAME]
+    assert (row.nominal, row.uncertainty, row.refitted.unit) == (4.5e-3, 0.3, "N m")
+    assert row.refitted.value == pytest.approx(6e-3, rel=0.03)
+    table = parameter_table(found)
+    assert "Coulomb torque of Coulomb friction" in table
+    assert "4.500 mN m" in table
+    exact = rwn.diagnose(_recording(1), _model(SURE), effort=0.1, jobs=1).nominal_fit.parameters[NAME]
+    assert (exact.uncertainty, exact.refitted.interval) == (0.0, None)
+
+
+def test_an_effect_of_zero_does_not_act_and_is_not_said_to_be_taken_as_exact() -> None:
+    offset = {"sensor-bias": {"speed_offset": 0.0, "current_offset": 0.1}}
+    sheet = rwn.Model(kind="dc", parameters=MOTOR, uncertainty=SURE, effects=FRICTION | offset)
+    said = [line for line in identification.lines(rwn.identify(_recording(1), sheet), (), sheet) if "as exact" in line]
+    assert len(said) == 1
+    assert "current offset of sensor bias" in said[0]
+    assert "speed offset" not in said[0]
 
 
 def test_the_farther_end_of_an_interval_says_how_far_a_value_is_believed() -> None:

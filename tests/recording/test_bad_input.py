@@ -28,8 +28,8 @@ def _changed(column: int, value: Callable[[int], float]) -> str:
     return csv_text(rows=rows)
 
 
-def _from_rest_without_input() -> str:
-    return csv_text(rows=[[k / 1000, 0.0, 0.1 * np.sin(k / 20), 30 * np.sin(k / 20)] for k in range(200)])
+def _from_rest_without_input(voltage: float = 0.0) -> str:
+    return csv_text(rows=[[k / 1000, voltage, 0.1 * np.sin(k / 20), 30 * np.sin(k / 20)] for k in range(200)])
 
 
 def _without_lines(first: int, last: int) -> str:
@@ -95,6 +95,9 @@ RECORDINGS: dict[str, tuple[str, tuple[str, ...]]] = {
     "constant speed": (_changed(3, lambda _: 3.0), ("'speed' is constant (3)", "sensor")),
     "constant current": (_changed(2, lambda _: 0.0), ("'current' is constant (0)", "leave the column out")),
     "no input at all": (_from_rest_without_input(), ("'voltage' is zero throughout", "estimate")),
+    "an input of rounding": (_from_rest_without_input(-3e-17), ("'voltage' is zero throughout", "estimate")),
+    "a current of rounding": (_changed(2, lambda _: 3e-17), ("'current' is constant (3e-17)", "leave the column out")),
+    "a voltage scaled to nothing": (_changed(1, lambda k: 1e-14 * (k % 7)), ("voltage goes to 6e-14", "unit or scale")),
     "binary": ("\0\1\2\3" * 100, ("not a text file", "CSV")),
 }
 

@@ -78,3 +78,29 @@ def test_a_held_signal_that_rests_at_its_largest_value_is_not_clipped(speed: Arr
     found = inspected([_recording({"speed": np.repeat(updated, 10)})])
     assert [finding.kind for finding in found.findings] == ["held"]
     assert "every 10 samples" in found.findings[0].words
+
+
+@pytest.mark.parametrize(
+    ("ratio", "said"), [(60.0 / (2.0 * np.pi), "9.55 times"), (-1.0, "of the other sign"), (1.07, "1.07 times")]
+)
+def test_a_speed_that_contradicts_its_position_is_said(ratio: float, said: str, speed: Array) -> None:
+    position = 3.0 - 50.0 * np.cos(2.0 * np.arange(N) * 1e-3)
+    (found,) = inspected([_recording({"speed": ratio * speed, "position": position})]).findings
+    assert (found.kind, found.signals) == ("contradiction", ("speed", "position"))
+    assert said in found.words
+
+
+@pytest.mark.parametrize("how", ["alike", "a bias of the speed", "2 % of a sensor", "wraps", "late", "steady", "still"])
+def test_a_speed_and_position_that_may_be_of_one_motion_are_not_doubted(how: str, speed: Array) -> None:
+    position = 3.0 - 50.0 * np.cos(2.0 * np.arange(N) * 1e-3)
+    if how == "wraps":
+        position = np.mod(position, 2.0 * np.pi)
+    elif how == "late":
+        speed = np.roll(speed, 20)
+    elif how == "steady":
+        position, speed = 500.0 * np.arange(N) * 1e-3, 1000.0 + speed / 100.0
+    elif how == "still":
+        position = np.zeros(N)
+    speed = speed * (1.02 if how == "2 % of a sensor" else 1.0) + (5.0 if how == "a bias of the speed" else 0.0)
+    found = inspected([_recording({"speed": speed, "position": position})]).findings
+    assert "contradiction" not in [finding.kind for finding in found]

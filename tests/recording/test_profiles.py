@@ -129,6 +129,42 @@ def test_an_export_of_twincat_scope(separator: str, comma: bool, tmp_path: Path)
     _as_meant(read_recording(path, layout=Layout(columns={"speed": speed})), ("voltage", "speed"))
 
 
+SCOPE_KEYS = (
+    "Name", "SymbolComment", "Data-Type", "SampleTime[ms]", "VariableSize", "SymbolBased", "IndexGroup", "IndexOffset",
+    "SymbolName", "NetID", "Port", "Offset", "ScaleFactor", "BitMask", "Unit", "Unit ScaleFactor", "Unit Offset",
+)  # fmt: skip
+
+
+def _scope_of_pairs(path: Path, *, late: float = 0.0, keys: tuple[str, ...] = SCOPE_KEYS) -> Path:
+    """A Scope export in which each channel has times of its own, as pytcs and the DLR's shepard describe it."""
+    european = len(keys) > 1
+    separator = "\t" if european else ","
+    about = {"SampleTime[ms]": ("20", "20"), "Unit": ("V (Voltage)", "(None)"), "Name": ("voltage", "speed")}
+    lines = [f"Name{separator}run", f"Starttime of export{separator}133238090039920000", ""]
+    for key in keys:
+        first, second = about.get(key, ("1", "1"))
+        lines.append(separator.join((key, first, key, second)))
+    lines.append("")
+    for t, u, w in zip(1e3 * TIME, VOLTAGE, SPEED, strict=True):
+        cells = [f"{x:.12g}" for x in (t, u, t + late, w)]
+        lines.append(separator.join(cell.replace(".", ",") if european else cell for cell in cells))
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("keys", [SCOPE_KEYS, ("Name",)])
+def test_an_export_of_twincat_scope_with_times_for_each_channel(keys: tuple[str, ...], tmp_path: Path) -> None:
+    path = _scope_of_pairs(tmp_path / "run.csv", keys=keys)
+    columns = {"speed": Column(source="speed", unit="rad/s"), "voltage": Column(source="voltage", unit="V")}
+    _as_meant(read_recording(path, layout=Layout(columns=columns)), ("voltage", "speed"))
+
+
+def test_a_channel_of_twincat_scope_at_other_instants_is_not_taken_for_one_of_the_same(tmp_path: Path) -> None:
+    path = _scope_of_pairs(tmp_path / "run.csv", late=0.5)
+    with pytest.raises(InputError, match=r"speed@\+0\.5ms"):
+        read_recording(path, layout=Layout(columns={"speed": Column(source="speed", unit="rad/s")}))
+
+
 def test_twincat_asks_for_the_unit_of_an_axis_and_for_channels_of_the_same_instants(tmp_path: Path) -> None:
     path = _scope(tmp_path / "run.csv")
     with pytest.raises(InputError, match=r"'Axis 1\.ActVelo' has no unit"):

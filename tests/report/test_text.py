@@ -11,6 +11,9 @@ from rwn.fit.intervals import Estimate
 from rwn.mismatch_map.regions import Region
 from rwn.prove.proof import LEFT_OUT
 from rwn.report import text as words
+from rwn.report.assemble import from_near
+from rwn.report.diagnosis_data import Alternative
+from rwn.report.next_steps import next_steps
 from rwn.report.sentences import before_after, headline, verdict_sentence
 
 
@@ -84,6 +87,16 @@ def test_a_parameter_beyond_its_declared_uncertainty_is_said_to_be_so() -> None:
     assert "within" not in said
 
 
+def test_a_near_explanation_has_the_experiment_that_tells_it_from_the_stated_one() -> None:
+    near = Alternative(effects=("stribeck-friction",), probability=0.3, separated_by="slow ramps")
+    far = Alternative(effects=("backlash",), probability=0.02, separated_by="reversals")
+    again = Alternative(effects=("constant-load",), probability=0.2, separated_by="slow ramps")
+    assert from_near((near, far, again), named=True) == "slow ramps"
+    assert from_near((near,), named=False) == from_near((far,), named=True) == ""
+    first, *_ = next_steps(replace(made_up.found(), next_experiment="slow ramps"))
+    assert first == "To tell it from the next explanations: slow ramps"
+
+
 def test_a_signal_that_got_worse_is_said_beside_the_one_that_improves() -> None:
     found = made_up.found()
     bad = replace(
@@ -92,6 +105,24 @@ def test_a_signal_that_got_worse_is_said_beside_the_one_that_improves() -> None:
     said = verdict_sentence(replace(found, heldout=(found.heldout[0], bad)))
     assert "But the current error on heldout_1.csv gets worse, from 0.100 A to 0.300 A." in said
     assert "worse" not in verdict_sentence(found)
+
+
+def test_a_current_that_stays_far_off_is_said_beside_the_speed() -> None:
+    found = made_up.found()
+    off = replace(found.heldout[0], signal="current", unit="A", refitted=0.5, corrected=0.48, noise_floor=0.02)
+    off = replace(off, gain=0.04, gain_interval=(-0.01, 0.09))
+    said = verdict_sentence(replace(found, heldout=(found.heldout[0], off)))
+    assert said.endswith("The current error there is still 24 times its noise, 0.480 A.")
+    for fine in (replace(off, corrected=0.03), replace(off, noise_floor=None), replace(off, signal="position")):
+        assert "times its noise" not in verdict_sentence(replace(found, heldout=(found.heldout[0], fine)))
+
+
+def test_an_adequate_model_that_fails_on_a_run_that_was_kept_back_says_so() -> None:
+    fine = made_up.adequate()
+    assert "But on" not in verdict_sentence(fine)
+    row = replace(fine.heldout[0], refitted=9.0 * (fine.heldout[0].noise_floor or 0.0))
+    said = verdict_sentence(replace(fine, heldout=(row,)))
+    assert f"But on {row.recording}, not used for fitting, the speed error is 9.0 times its noise" in said
 
 
 def test_the_two_numbers_are_those_that_the_gain_is_of() -> None:

@@ -14,6 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 
 CORPUS = Path(__file__).resolve().parents[2] / "tests" / "corpus"
+ROWS = 80  # of the recordings that are simulated
 Target = Callable[[bytes], None]
 
 
@@ -68,10 +69,35 @@ def diagnosis(data: bytes) -> None:
         Diagnosis.load(_FOLDER)
 
 
+def simulation(data: bytes) -> None:
+    """Whatever numbers as motor, effect and input: what the checks let pass goes through the bindings to the kernels."""
+    import numpy as np
+
+    import rwn
+    from rwn.errors import InputError
+    from rwn.model.drives import KINDS
+    from rwn.model.vocabulary import table
+
+    numbers = np.frombuffer(data[1 : 1 + (len(data) - 1) // 8 * 8])
+    effect = list(table().values())[data[0] % len(table())] if data else None
+    motor = [p.name for p in KINDS["dc"].nominal(0)]
+    of_effect = [p.name for p in effect.parameters] if effect else []
+    if effect is None or numbers.size <= len(motor) + len(of_effect):
+        return
+    values = numbers.tolist()
+    law = dict(zip(of_effect, values[len(motor) :], strict=False))
+    voltage = np.resize(numbers[len(motor) + len(law) :], ROWS)
+    with suppress(InputError):
+        model = rwn.Model(kind="dc", parameters=dict(zip(motor, values, strict=False)), effects={effect.name: law})
+        run = rwn.simulate(model, rwn.Recording(name="x", time=1e-3 * np.arange(ROWS), signals={"voltage": voltage}))
+        assert all(np.isfinite(x).all() for x in run.signals.values()), "no NaN silently"
+
+
 _FOLDER = Path(tempfile.mkdtemp(prefix="rwn-fuzz-"))
 TARGETS: dict[str, Target] = {
     "csv": _reads(".csv"), "wpilog": _reads(".wpilog"), "sysid": _reads(".json"), "npz": _reads(".npz"),
     "mat": _reads(".mat"), "model": model, "formula": formula, "diagnosis": diagnosis,
+    "simulation": simulation,
 }  # fmt: skip
 
 

@@ -18,6 +18,7 @@ from rwn.faults.likeness import FAR, Likeness
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
+from rwn.recording.kinematics import kinematics_of
 from rwn.recording.recording import Recording, beginnings
 from rwn.recording.smoothing import smooth
 from rwn.simulate.run import Run
@@ -30,6 +31,7 @@ SAME = 0.05  # relative difference between a size and a unit's factor that nothi
 WIDEST = 0.3  # the same where the data sheet is poor and physics is missing
 PLAIN = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
 GEARED = 2.0  # size from which a gear is believed: what slows a motor by so much does not leave its transients alike
+MOST_GEARED = 1e4  # four stages of ten to one: small motors have no gear beyond
 GEAR_LIKE = 1.5  # size from which a gear is tried beside physics
 SURELY = 3.0  # standard deviations of the data sheet that a gear ratio has to be away from 1
 SPEED_UNITS = {
@@ -53,6 +55,9 @@ LEAST_FORCE = 0.3  # correlation of a force with what the motion takes, below wh
 def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """A unit, sign or gear ratio that is plainly wrong; None where the scale of every signal is believable."""
     recordings = beginnings(recordings)
+    certain = _contradiction(recordings, model)
+    if certain:
+        return certain
     if model.drive.force:
         return _of_axis(recordings, model)
     seen = _likeness(recordings, model)
@@ -71,6 +76,22 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
         if left < (most if _plain(fault.factor) else min(most, LEFT)) and everywhere < least:
             best, least = fault, everywhere
     return best
+
+
+def _contradiction(recordings: Sequence[Recording], model: Model) -> Fault | None:
+    """The speed or the position in a wrong unit or sign, where their kinematics say that one of them is.
+
+    Which of the two is left to the model. None where no unit makes them agree: a gear between their sensors, say.
+    """
+    motions = [motion for recording in recordings if (motion := kinematics_of(recording))]
+    if not motions or not all(motion.contradict for motion in motions):
+        return None
+    ratios = np.array([motion.ratio for motion in motions])
+    faults = []
+    for signal, power in (("speed", 1), ("position", -1)):
+        tried = chain([_turned((signal,))], _in_units((signal,), _units((signal,), model)))
+        faults += [one for one in tried if np.all(np.abs(ratios / one.factor**power - 1.0) < SAME)]
+    return min(faults, key=lambda one: relative_error(without(recordings, one), model), default=None)
 
 
 def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
@@ -168,6 +189,8 @@ def gear(group: tuple[str, ...], factor: float, spread: float) -> Fault:
     """A motion `factor` times that of the motor, which is known to `spread` (relative standard deviation)."""
     turned = ", and of the wrong sign" if factor < 0.0 else ""
     text = f"{' and '.join(group)} of a shaft that turns {abs(factor):.3g} times as fast as the motor{turned}"
+    if abs(np.log(abs(factor))) > np.log(MOST_GEARED):
+        text += ", which no gear does: its unit or scale is wrong, as of counts of an encoder"
     return Fault(name=GEAR, signals=group, factor=factor, spread=spread, meaning=text)
 
 

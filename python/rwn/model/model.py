@@ -26,6 +26,7 @@ from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
 from rwn.model.own_effects import OwnEffect, check_constants, check_own_effects, with_own
 from rwn.model.vocabulary import Effect, Parameter
 from rwn.recording.columns import Layout
+from rwn.recording.units import linear_unit
 
 
 class EffectParameter(Protocol):
@@ -180,7 +181,10 @@ class Model:
         return vocabulary.parameter_vector(self.motor, self.effects, self.effect_table)
 
     def unit(self, parameter: str) -> str:
-        """SI unit of a nominal parameter."""
+        """SI unit of a nominal parameter, or of one of an effect as "effect.parameter"."""
+        if parameter in self.effect_values:
+            unit, own = self.effect_values[parameter][0].unit, self.effect_table[parameter.split(".")[0]].own
+            return linear_unit(unit) if self.linear and not own else unit  # a user has written units as they are
         entry = next(p for p in self.nominal if p.name == parameter)
         return (entry.linear_unit if self.linear else entry.unit) or entry.unit
 

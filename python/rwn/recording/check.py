@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rwn.errors import InputError
 
 MIN_SAMPLES = 50
-SMALLEST, LARGEST = 1e-12, 1e12  # of the largest value of a signal in SI: no drive comes near either
+SMALLEST, LARGEST = 1e-12, 1e12  # of the largest value of a signal in SI that moves: no drive comes near either
 GAP_WARNED, GAP_REFUSED = 3.0, 20.0  # times the median sample time
 
 Row = Callable[[int], str]
@@ -61,7 +61,7 @@ def _check_finite(name: str, values: Array, row: Row) -> None:
             fix="remove the row, or cut the recording there (from, to under [recording])",
         )
     peak = float(np.max(np.abs(values)))
-    if peak > LARGEST or 0.0 < peak < SMALLEST:
+    if peak > LARGEST or (peak < SMALLEST and np.ptp(values) > 0.0):
         raise InputError(
             f"{name} goes to {peak:g} in SI",
             where=row(int(np.argmax(np.abs(values)))),

@@ -29,6 +29,7 @@ from rwn.prove.proof import LEFT_OUT
 from rwn.report import figures
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.diagnosis_data import Alternative, Beneath, Location
+from rwn.report.next_steps import NEAR
 from rwn.report.nominal_fit import nominal_fit
 from rwn.report.sensor_filter import FittedFilter, fitted_filters
 from rwn.report.text import located
@@ -59,7 +60,8 @@ def assemble(
     names = (stated[0].name, *stated[0].rivals) if stated else tuple(e.name for e in physics[:1])
     effects = (*(fault.found(_probability(fault)) for fault in faults), *physics)
     beneath = Beneath(verdict=verdict, set=names) if faults else None
-    wanted = [_next_experiment(ranking, verdict, names)]
+    alternatives = _alternatives(ranking, chosen)
+    wanted = [_next_experiment(ranking, verdict, names) or from_near(alternatives, named=named)]
     if faults:
         verdict, names = "recording-mistake", (faults[0].name, *faults[0].also)
         wanted.insert(0, _next_experiment(ranking, verdict, names))
@@ -78,7 +80,7 @@ def assemble(
         effects=effects,
         set=names,
         beneath=beneath,
-        alternatives=_alternatives(ranking, chosen),
+        alternatives=alternatives,
         location=Location(equation=equation, regions=where, description=place),
         nominal_fit=nominal_fit(ranking, chosen, model, doubt=doubt),
         heldout=rows,
@@ -126,6 +128,12 @@ def _next_experiment(ranking: Ranking, verdict: Verdict, names: Sequence[str]) -
     if verdict == "insufficient-excitation":
         return excitation.advice(ranking.problem.whole)
     return separated_by(names) if len(names) > 1 else ""
+
+
+def from_near(alternatives: Sequence[Alternative], *, named: bool) -> str:
+    """What would tell what is stated from the explanations that are nearly as likely."""
+    near = (other.separated_by for other in alternatives if named and other.probability >= NEAR)
+    return "; ".join(dict.fromkeys(filter(None, near)))
 
 
 def _does_not_run(ranking: Ranking) -> list[str]:

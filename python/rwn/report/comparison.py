@@ -48,7 +48,7 @@ def _rows(first: DiagnosisData, second: DiagnosisData) -> Iterator[list[str]]:
     fits = [found.nominal_fit.parameters for found in (first, second)]
     for name in (n for n in fits[0] if n in fits[1]):
         best = [p.refitted if p.corrected is None else p.corrected for p in (fits[0][name], fits[1][name])]
-        yield [escape(words.capital(words.plain_name(name))), *map(_value, best), _apart(*best)]
+        yield [escape(words.capital(words.unknown_name(name))), *map(_value, best), _apart(*best)]
 
 
 def _effect(name: str, first: FoundEffect | None, second: FoundEffect | None) -> Iterator[list[str]]:

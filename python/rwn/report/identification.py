@@ -14,7 +14,7 @@ from rwn.fit.prior_weight import BELIEVABLE
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
 from rwn.report.nominal_fit import FittedParameter
-from rwn.report.text import estimate, listing, number, percent, plain_name
+from rwn.report.text import estimate, listing, number, percent, unknown_name
 from rwn.simulate.simulation import simulate
 
 CUT = 1e-6  # relative; intervals are wider than AGREEMENT of a value on either side
@@ -54,7 +54,7 @@ def failure(fit: Identification, signals: Sequence[Fitted]) -> str:
             f"the fitted model explains {_share(max(explained))} of the variance of any recorded signal: check signs, "
             "units and columns (rwn check), or diagnose what is missing (rwn diagnose)"
         )
-    limits = [_named(n) for n, e in fit.parameters.items() if "." not in n and e.value != 0.0 and _at_a_bound(e)]
+    limits = [unknown_name(n) for n, e in fit.parameters.items() if "." not in n and e.value != 0.0 and _at_a_bound(e)]
     if limits:
         said.append(
             f"{listing(limits)} ran to the end of the search, a thousand times the given value or a thousandth: check "
@@ -79,9 +79,9 @@ def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
     at_bound = [name for name, value in fit.parameters.items() if _at_a_bound(value)]
     unseen = [name for name in fit.not_identifiable if name not in at_bound]
     if at_bound:
-        yield f"{listing([_named(n) for n in at_bound])} ran into a bound: the value is that of the bound"
+        yield f"{listing([unknown_name(n) for n in at_bound])} ran into a bound: the value is that of the bound"
     if unseen:
-        names = listing([_named(n) for n in unseen])
+        names = listing([unknown_name(n) for n in unseen])
         yield f"these recordings say nothing of {names} that was not declared"
     yield from _held(fit, nominal)
     for name, value in fit.parameters.items():
@@ -92,26 +92,24 @@ def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
             if moved > BELIEVABLE:
                 factor = value.value / nominal.parameters[name]
                 yield (
-                    f"{_named(name)} moved to {number(factor, 2)} times what was given, {number(moved, 2)} declared "
-                    "deviations: check data sheet and units"
+                    f"{unknown_name(name)} moved to {number(factor, 2)} times what was given, {number(moved, 2)} "
+                    "declared deviations: check data sheet and units"
                 )
 
 
 def _held(fit: Identification, nominal: Model) -> Iterator[str]:
-    """Parameters of effects that are taken as exact: the intervals of all others are too narrow by what is not."""
-    held = [name for name in nominal.effect_values if nominal.uncertainty.get(name, 0.0) == 0.0]
+    """Parameters of effects that are taken as exact: the intervals of all others are too narrow by what is not.
+
+    One of 0 does not act, as the effects that are not declared at all.
+    """
+    values = nominal.effect_values
+    held = [name for name, (_, value) in values.items() if value != 0.0 and not nominal.uncertainty.get(name)]
     if held and fit.parameters:
-        names = listing([_named(name) for name in held])
+        names = listing([unknown_name(name) for name in held])
         yield (
             f"{names} {'is' if len(held) == 1 else 'are'} taken as exact, and the intervals are as narrow as if that "
             f"were so: say how far it is believed under [uncertainty], for instance {held[0]} = 0.1"
         )
-
-
-def _named(unknown: str) -> str:
-    """inertia -> inertia, coulomb-friction.coulomb_torque -> Coulomb torque of Coulomb friction."""
-    effect, _, parameter = unknown.rpartition(".")
-    return plain_name(parameter) + (f" of {plain_name(effect)}" if effect else "")
 
 
 def _at_a_bound(value: Estimate) -> bool:

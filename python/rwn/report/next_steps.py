@@ -25,7 +25,8 @@ def next_steps(found: DiagnosisData) -> tuple[str, ...]:
 
 def _missing(found: DiagnosisData) -> Iterator[str]:
     if found.next_experiment:
-        yield f"To tell them apart: {found.next_experiment}" if len(found.set) > 1 else found.next_experiment
+        which = "them apart" if len(found.set) > 1 else "it from the next explanations"
+        yield f"To tell {which}: {found.next_experiment}"
     yield from _use_it("the effects that were found")
     if not any(source.use == "heldout" for source in found.sources) and found.sources:
         yield "Keep one recording back with `--heldout`: a proof on a run of its own is stronger than cross-validation."

@@ -15,8 +15,8 @@ from rwn.name.weights import RankedFit
 
 @dataclass(frozen=True, kw_only=True)
 class FittedParameter:
-    """A nominal parameter: as given, its declared relative standard deviation (0: exact; None: not known at all), and
-    as refitted."""
+    """A parameter of the model as given, an effect's as "effect.parameter": its value, its declared relative standard
+    deviation (0: exact; None: not known at all), and as refitted."""
 
     nominal: float
     uncertainty: float | None
@@ -55,11 +55,15 @@ def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, doubt: Dou
     together = estimates(chosen.final, ranking.counted, doubt=doubt) if chosen.added else {}
     rows = {}
     given = dict(model.parameters) or dict(ranking.problem.prior.free)
-    for name, value in given.items():
+    of_effects = model.effect_values
+    for name, value in (given | {name: value for name, (_, value) in of_effects.items()}).items():
+        declared = model.uncertainty.get(name, 0.0)
+        if declared and name in of_effects and of_effects[name][0].cyclic:
+            declared = declared / abs(value) if value else math.inf  # declared in radians
         unit = model.unit(name)
         rows[name] = FittedParameter(
             nominal=value,
-            uncertainty=_finite(model.uncertainty.get(name, 0.0)),
+            uncertainty=_finite(declared),
             refitted=replace(alone[name], unit=unit) if name in alone else Estimate(value=value, unit=unit),
             corrected=replace(together[name], unit=unit) if name in together else None,
         )

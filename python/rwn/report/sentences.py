@@ -11,8 +11,19 @@ from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report.diagnosis_data import DiagnosisData
-from rwn.report.text import STRONGEST, estimate, likelihood, listing, number, percent, plain_name, prefix_for
+from rwn.report.text import (
+    STRONGEST,
+    estimate,
+    likelihood,
+    listing,
+    number,
+    percent,
+    plain_name,
+    prefix_for,
+    unknown_name,
+)
 
+FAR_OFF = 2.0  # error in units of the noise, from which three quarters of its square are something else
 SLIGHT = 0.005  # share of a mismatch or an error that is not worth a sentence
 
 
@@ -74,10 +85,20 @@ def _adequate(found: DiagnosisData) -> tuple[str, ...]:
     return (
         f"The model is adequate{tail}: nothing that these recordings can show is missing.",
         *(
-            f"But {plain_name(name)} had to move by {number(times, 2)} times its declared uncertainty: check it."
+            f"But {unknown_name(name)} had to move by {number(times, 2)} times its declared uncertainty: check it."
             for name, times in far.items()
         ),
+        *_more_than_noise(found),
     )
+
+
+def _more_than_noise(found: DiagnosisData) -> Iterator[str]:
+    """Where an adequate model fails on what it was not fitted to, by the signal that fails most."""
+    rows = [row for row in found.heldout if row.region == "all" and row.signal != "position"]
+    row = max(rows, key=over_noise, default=None)
+    if row is not None and over_noise(row) > FAR_OFF:
+        where = f"the {row.signal} error is {number(over_noise(row), 2)} times its noise"
+        yield f"But on {recording_in_words(row.recording)}, {where}: that run shows what the fitted ones do not."
 
 
 def _unexplained(found: DiagnosisData) -> tuple[str, ...]:
@@ -118,6 +139,12 @@ def before_after(row: HeldoutRow) -> tuple[str, str]:
     return f"{number(before * scale)} {unit}".strip(), f"{number(after * scale)} {unit}".strip()
 
 
+def over_noise(row: HeldoutRow) -> float:
+    """The error that stays, in units of the signal's noise; 0 where that is not known."""
+    error = row.refitted if row.corrected is None else row.corrected
+    return error / row.noise_floor if row.noise_floor else 0.0
+
+
 def worse(row: HeldoutRow) -> bool:
     """Whether the correction certainly raises this error."""
     if row.gain is None:
@@ -147,3 +174,12 @@ def _proof(found: DiagnosisData, how: str) -> Iterator[str]:
         if other is not row and other.region == "all" and worse(other):
             before, after = before_after(other)
             yield f"But the {other.signal} error on {other.recording} gets worse, from {before} to {after}."
+        elif _hides(row, other):
+            after, times = before_after(other)[1], number(over_noise(other), 2)
+            yield f"The {other.signal} error there is still {times} times its noise, {after}."
+
+
+def _hides(row: HeldoutRow, other: HeldoutRow) -> bool:
+    """Whether the headline says nothing of what is left in another signal; a position adds up what the speed shows."""
+    beside = (other.recording, other.region) == (row.recording, "all") and other.signal not in (row.signal, "position")
+    return beside and over_noise(other) > max(FAR_OFF, over_noise(row))

@@ -123,6 +123,12 @@ def parameter_name(effect: str, parameter: str) -> str:
     return name if not sign or sign == name.replace(" ", "_") else f"{name} {sign}"
 
 
+def unknown_name(unknown: str) -> str:
+    """inertia -> inertia, coulomb-friction.coulomb_torque -> Coulomb torque of Coulomb friction."""
+    effect, _, parameter = unknown.rpartition(".")
+    return plain_name(parameter) + (f" of {plain_name(effect)}" if effect else "")
+
+
 def capital(text: str) -> str:
     """The text with its first letter large."""
     return text[:1].upper() + text[1:]

@@ -62,13 +62,24 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
     elif run.in_motion:
         vector = nearest_state(simulator, run, vector, active)
     output = simulator.simulate(run, vector, active)
-    wanted = [name for name in MEASURED if name in model.drive.outputs]
+    shown = {name: output.signals[name] for name in MEASURED if name in model.drive.outputs}
+    finite = all(np.isfinite(values).all() for values in shown.values())  # a sensor's law may overflow by itself
+    status = output.status if finite or output.status != "ok" else "diverged"
     return Simulation(
         time=recording.time,
-        signals={name: _as_logged(name, run.time, output.signals[name], model.recording) for name in wanted},
-        status=output.status,
-        advice=_core.simulation_advice(output.status),
+        signals={name: _as_logged(name, run.time, _held(values), model.recording) for name, values in shown.items()},
+        status=status,
+        advice=_core.simulation_advice(status),
     )
+
+
+def _held(values: Array) -> Array:
+    """A signal (n,) held from where it is no number."""
+    bad = np.flatnonzero(~np.isfinite(values))
+    if not bad.size:
+        return values
+    first = int(bad[0])
+    return np.where(np.arange(values.size) < first, values, values[first - 1] if first else 0.0)
 
 
 def _as_logged(name: str, time: Array, values: Array, layout: Layout) -> Array:

@@ -32,10 +32,10 @@ def table_of_channels(
     more slowly shows as held samples. Rows before every channel has a value, and rows that repeat an instant, are left
     out. Raises InputError where a channel holds no real numbers, or too many.
     """
-    units = {**units, TIME.name: TIME.unit}
     used = {name: channel for name, channel in channels.items() if name in wanted and name != TIME.name}
-    if not used:
-        return Table(where=where, columns={}, units=units)
+    if not used:  # nor is there a time
+        return Table(where=where, columns={}, units={n: unit for n, unit in units.items() if n != TIME.name})
+    units = {**units, TIME.name: TIME.unit}
     told = {name: vector(where, name, channel.values) for name, channel in used.items()}
     longest = max(used, key=lambda name: len(told[name]))
     rows = used[longest].instants

@@ -119,7 +119,7 @@ def closed_loop_error(values: Mapping[str, float], servos: Sequence[Servo], gain
 
 
 def _error(found: Diagnosis, model: Model, servos: Sequence[Servo], law: str, gain: float) -> Error:
-    refitted = {name: p.refitted.value for name, p in found.nominal_fit.parameters.items()}
+    refitted = {name: p.refitted.value for name, p in found.nominal_fit.parameters.items() if "." not in name}
     known = replace(model, parameters={**model.parameters, **refitted}, uncertainty={})
     rows = [closed_loop_error(_values(m), servos, gain) for m in (model, known)]
     corrected = closed_loop_error(_values(found.corrected), servos, gain) if found.corrected.effects else None

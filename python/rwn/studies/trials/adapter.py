@@ -65,7 +65,7 @@ def diagnose_trial(folder: Path, out: Path) -> None:
     elapsed = time.perf_counter() - begin
     corrected = found.corrected if found.corrected is not None else model
     write_model(corrected, out / "corrected.toml")
-    fitted = {name: row.refitted.value for name, row in found.nominal_fit.parameters.items()}
+    fitted = {name: row.refitted.value for name, row in found.nominal_fit.parameters.items() if "." not in name}
     for path, recording in zip(heldout_files(folder), heldout, strict=True):
         write_speed(simulated_file(out, path), recording.time, simulate(corrected, recording).signals["speed"])
         if found.corrected is not None and fitted:
