@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import join
-from rwn.recording.noise import Noise, rough_noise
+from rwn.recording.noise import Noise, noise_from_differences
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -72,6 +72,6 @@ def _coloured(
 
 
 def _noise(residual: Array) -> float:
-    spread = rough_noise(residual)
+    spread = noise_from_differences(residual)
     rms = float(np.sqrt(np.nanmean(residual**2)))
     return min(spread, rms) if spread > 0.0 else rms

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.model.model import Model
-from rwn.recording.noise import rough_noise
+from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
 
 Array = NDArray[np.float64]
@@ -69,7 +69,7 @@ def start_of(
 
 def resolution(signal: Array, first: int) -> float:
     """Standard deviation of one of the first samples: of their noise, or a step of the signal's values."""
-    return max(rough_noise(signal[:first]), quantum(signal))
+    return max(noise_from_differences(signal[:first]), quantum(signal))
 
 
 def _first_current(signals: Mapping[str, Array]) -> float:
