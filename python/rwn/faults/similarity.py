@@ -15,7 +15,7 @@ ONE_SIDED = 0.02  # of a signal's largest value: as much of the other sign is no
 
 
 @dataclass(frozen=True)
-class Likeness:
+class Similarity:
     """Of a signal and its simulation: the ratio of their sizes, and their correlation, beside a level."""
 
     ratio: float
@@ -23,7 +23,7 @@ class Likeness:
     whole: tuple[float, float]  # the same of the signals as they are, with their level
 
     @classmethod
-    def of(cls, pairs: Sequence[tuple[Array, Array]], *, levelled: bool = False) -> Likeness:
+    def of(cls, pairs: Sequence[tuple[Array, Array]], *, levelled: bool = False) -> Similarity:
         """From recorded and simulated samples of every recording; where no direction is shown, of the magnitudes.
 
         `levelled`: beside a level that dry friction may have taken from the recorded ones.
