@@ -68,7 +68,7 @@ def stating(model: Model, law: str) -> Model:
 def _log_likelihoods(problem: Problem, this: Fit) -> Mapping[str, float]:
     """Of a fit repeated under every law that says something else than "held" of these recordings."""
     under = {law: _under(problem, law) for law in INTERSAMPLE}
-    told = {law: p for law, p in under.items() if law == HELD or any(r.acting is not None for r in p.runs)}
+    told = {law: p for law, p in under.items() if law == HELD or any(r.applied_input is not None for r in p.runs)}
     found = side_by_side(lambda p: log_likelihood(p, refit(this, p, iterations=ITERATIONS)), told.values())
     return dict(zip(told, found, strict=True))
 

@@ -13,7 +13,7 @@ from rwn.model.model import Model
 from rwn.model.start import start_of
 from rwn.recording.delays import in_time
 from rwn.recording.filters import after_missing, before_filter, unfiltered
-from rwn.recording.intersample import AUTO, INTERSAMPLE, Acting
+from rwn.recording.intersample import AUTO, INTERSAMPLE, PiecewiseInput
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -47,7 +47,7 @@ class Run:
     in_motion: bool = False  # it does not start at rest
     own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
     input_before: float = 0.0
-    acting: Acting | None = None  # the input as it acted; None: each row's own, from its time on
+    applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
     angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
     follows: bool = True  # angle-dependent effects follow `angle`, else the simulated position
@@ -118,7 +118,7 @@ class Run:
 
     def with_intersample(self, law: str) -> Run:
         """The same with the input acting between the rows by a law of `rwn.recording.intersample`."""
-        return replace(self, acting=INTERSAMPLE[law].acting(self.time, self.input))
+        return replace(self, applied_input=INTERSAMPLE[law].applied(self.time, self.input))
 
     def unfiltered(self, signal: str, time_constant: float) -> Run:
         """The same with the speed or the current as it was before a first-order filter of its samples [s]."""
@@ -184,8 +184,8 @@ def run_of(recording: Recording, model: Model) -> Run:
         angle_from_speed=position.size == 0,
     )
     law = model.recording.intersample
-    if recording.acting is not None:
-        return replace(run, acting=recording.acting)
+    if recording.applied_input is not None:
+        return replace(run, applied_input=recording.applied_input)
     return run if law == AUTO else run.with_intersample(law)
 
 

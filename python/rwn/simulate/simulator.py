@@ -74,7 +74,7 @@ class Simulator:
 
     def task(self, run: Run) -> _core.Task:
         """A run under these equations, as the core takes it."""
-        given = (run.input, ()) if run.acting is None else (run.acting.values, run.acting.instants)
+        given = (run.input, ()) if run.applied_input is None else (run.applied_input.values, run.applied_input.instants)
         return _core.Task(
             self.kind, time=run.time, input=given[0], input_time=given[1], angle_per_position=self.angle_per_position,
             input_before=run.input_before, angle=run.followed, angle_from_speed=run.angle_from_speed,
