@@ -29,7 +29,7 @@ def unrounded_fits(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Pro
     model could follow.
     """
     best = min([nominal, *fits], key=lambda f: f.cost)
-    shown = as_shown(problem)
+    shown = as_recorded(problem)
     residuals = shown.residuals(best.vector, best.active)
     steps = coarse_steps(shown, residuals)
     if not steps:
@@ -44,18 +44,18 @@ def unrounded_fits(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Pro
     def on_average(pair: tuple[Fit, float]) -> tuple[Fit, Problem]:
         return _to_the_mean(pair[0], shown, steps, noises, share=pair[1])
 
-    settled = side_by_side(on_average, zip(these, shares, strict=True))
-    _, on = min(settled, key=lambda pair: pair[0].cost)
-    return on, settled[0][0], sorted((f for f, _ in settled[1:]), key=lambda f: f.cost)
+    refitted = side_by_side(on_average, zip(these, shares, strict=True))
+    _, on = min(refitted, key=lambda pair: pair[0].cost)
+    return on, refitted[0][0], sorted((f for f, _ in refitted[1:]), key=lambda f: f.cost)
 
 
-def steps_shown(problem: Problem, best: Fit) -> tuple[float, ...]:
+def recorded_steps(problem: Problem, best: Fit) -> tuple[float, ...]:
     """The step of the speed of each run; empty where the speed is not coarse in all of them."""
-    raw = as_shown(problem)
+    raw = as_recorded(problem)
     return tuple(coarse_steps(raw, raw.residuals(best.vector, best.active)))
 
 
-def as_shown(problem: Problem) -> Problem:
+def as_recorded(problem: Problem) -> Problem:
     """`problem` with the speeds as they were recorded."""
     speeds = (r.speed for r in problem.whole)
     runs = tuple(replace(r, speed=s) for r, s in zip(problem.runs, speeds, strict=True))
