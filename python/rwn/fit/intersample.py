@@ -11,8 +11,8 @@ from rwn.fit.fit import Fit, refit
 from rwn.fit.likelihood import DECISIVE, log_likelihood
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
+from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
-from rwn.model.start import CERTAIN
 from rwn.parallel import side_by_side
 from rwn.recording.clock import clock_of
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE

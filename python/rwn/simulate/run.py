@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
-from rwn.model.start import start_of
 from rwn.recording.delays import in_time
 from rwn.recording.filters import after_missing, before_filter, unfiltered
 from rwn.recording.intersample import AUTO, INTERSAMPLE, PiecewiseInput
@@ -162,7 +162,7 @@ def run_of(recording: Recording, model: Model) -> Run:
     given = signals[drive.input]
     time = recording.time - recording.time[0]
     speed, position = signals.get("speed", _NONE), signals.get("position", _NONE)
-    start = start_of(time, signals, model, missing=recording.missing)
+    start = initial_state_of(time, signals, model, missing=recording.missing)
     way = INSTANTANEOUS
     if not drive.coefficients:
         new = {s: ~recording.missing.get(s, np.zeros(time.size, dtype=bool)) for s in ("speed", "position")}

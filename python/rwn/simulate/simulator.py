@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
+from rwn.model.initial_state import STATE
 from rwn.model.model import Model
-from rwn.model.start import STATE
 from rwn.model.vocabulary import motor_index
 from rwn.recording.noise import WHITE, Noise
 from rwn.recording.signals import MEASURED
