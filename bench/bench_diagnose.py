@@ -19,9 +19,9 @@ import numpy as np
 import rwn
 from rwn.studies.trials import scene
 from rwn.studies.trials.adapter import train_files
-from rwn.studies.trials.dossier import write_trial
 from rwn.studies.trials.plan import Plan, plans
 from rwn.studies.trials.trial import make_trial
+from rwn.studies.trials.trial_files import write_trial
 
 SEED, COUNT, RUNS = 77, 20, 1
 SAMPLES = (19_500, 20_500)

@@ -44,7 +44,7 @@ class Evidence:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Witnesses:
+class Validation:
     """What halves and recordings kept back say of an explanation."""
 
     evidence: dict[str, Evidence]  # of each of its effects
@@ -61,7 +61,7 @@ class _Half:
 
 def evidence(
     ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model, *, rivals: Mapping[str, Collection[str]]
-) -> Witnesses:
+) -> Validation:
     """Features of every effect of the leading explanation; `rivals`: names by effect that may act in its place."""
     problem, this = ranking.weighted, leading.final
     after, nothing = variances(problem, this), variances(problem, ranking.nothing_missing.final)
@@ -86,7 +86,7 @@ def evidence(
             curve=curve_instead(ranking.problem, leading.fit, name, model),
         )
 
-    return Witnesses(evidence={name: one(name) for name in leading.added}, birge=_birge(seen))
+    return Validation(evidence={name: one(name) for name in leading.added}, birge=_birge(seen))
 
 
 def _share(

@@ -36,7 +36,7 @@ def fitted_model(this: Fit, model: Model) -> Model:
     return replace(model, parameters=parameters, effects=effects, uncertainty=uncertainty)
 
 
-def with_doubt(model: Model, found: Mapping[str, Estimate]) -> Model:
+def with_uncertainty(model: Model, found: Mapping[str, Estimate]) -> Model:
     """`model` with what the intervals say of the parameters of effects of which nothing was declared.
 
     Deviations are relative, of angles in radians; infinite where an interval leaves open as much as the value.
