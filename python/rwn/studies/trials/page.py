@@ -14,7 +14,7 @@ from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.run import out_of, trial_folders
 from rwn.studies.trials.seal import HASH
 
-COMMAND = "trials score"
+COMMAND = "rwn trials score"
 UNKNOWN = "a code that was not written down"
 
 
