@@ -67,6 +67,7 @@ def asked_for(name: str, usage: str, *counts: str) -> Bench:
         parser.add_argument(count, nargs="?", type=int)
     parser.add_argument("--page", type=Path, help="page whose section of this bench is written anew")
     given = vars(parser.parse_args())
+    made()  # kept from here on: the code as it is loaded, whatever is committed meanwhile
     if given["page"] is not None:
         check_sections(given["page"], COMMAND, [name])
     return Bench(name=name, page=given["page"], counts=[given[c] for c in counts if given[c] is not None])
