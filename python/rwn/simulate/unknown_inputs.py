@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
+from rwn.model.drives.dc import resting_current
 from rwn.model.drives.drive import Drive
 from rwn.model.vocabulary import motor_index
 from rwn.recording.smoothing import smooth
@@ -56,8 +57,8 @@ def unknown_inputs(
         speed=speed, acceleration=acceleration, current=current,
     )  # fmt: skip
     if drive.winding and not current.size:
-        emf = float(vector[motor_index("back_emf_constant")]) * speed
-        current = (given - emf) / float(vector[motor_index("resistance")])
+        known = {name: float(vector[motor_index(name)]) for name in ("resistance", "back_emf_constant")}
+        current = resting_current(speed, given, **known)
     return UnknownInputs(
         time=run.time,
         speed=speed,

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
+from rwn.model.drives.dc import resting_current
 from rwn.model.vocabulary import Effect, motor_index
 from rwn.name.initial_guesses.guess import Guess
 from rwn.recording.speed_measurement import integral
@@ -180,8 +181,8 @@ def current_of(problem: Problem, motor: Array, run: Run) -> Array:
         return run.input
     if run.current.size:
         return run.current
-    emf: Array = motor[motor_index("back_emf_constant")] * run.speed
-    return (run.input - emf) / float(motor[motor_index("resistance")])
+    known = {name: float(motor[motor_index(name)]) for name in ("resistance", "back_emf_constant")}
+    return resting_current(run.speed, run.input, **known)
 
 
 def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
