@@ -24,7 +24,7 @@ class Similarity:
 
     @classmethod
     def of(cls, pairs: Sequence[tuple[Array, Array]], *, levelled: bool = False) -> Similarity:
-        """From recorded and simulated samples of every recording; where no direction is shown, of the magnitudes.
+        """From recorded and simulated samples (n,) of every recording; where no direction is shown, of the magnitudes.
 
         `levelled`: beside a level that dry friction may have taken from the recorded ones.
         """
@@ -39,6 +39,7 @@ class Similarity:
 
     @property
     def far(self) -> bool:
+        """Whether sign or size is so far off that the scale of the signal is doubted."""
         return self.correlation < 0.0 or abs(np.log(self.ratio)) > np.log(FAR)
 
     def misfit(self, factor: float) -> float:

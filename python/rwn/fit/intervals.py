@@ -27,7 +27,7 @@ class Estimate:
 
 
 def deviations(this: Fit, left: Statistics) -> Array:
-    """Standard deviations (p) of the unknowns: white-noise covariance widened by the residual's variance and colour."""
+    """Standard deviations (p,) of the unknowns: white-noise covariance widened by the residual's size and colour."""
     minimum = this.minimum
     information = minimum.data_information / (max(left.variance, 1.0) * left.correlation_time)
     information = information + (minimum.information - minimum.data_information)

@@ -171,7 +171,7 @@ def minimise(
     doubt: int = 1,
     enough: Callable[[], bool] | None = None,
 ) -> Minimum:
-    """Levenberg-Marquardt (Nielsen's damping) from `start` (p values) within the unknowns' bounds.
+    """Levenberg-Marquardt (Nielsen's damping) from `start` (p,) within the unknowns' bounds.
 
     Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: what
     priors are multiplied by: the independent samples that a coloured residual is short of. `probe` gives the error

@@ -93,7 +93,10 @@ def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
 
 
 def coloured_signals(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[SensorFilter]:
-    """The signals whose noise looks as if it had passed a filter, with the filter that would have done it."""
+    """The signals whose noise looks as if it had passed a filter, with the filter that would have done it.
+
+    `residuals`: (n,) of each run, by signal.
+    """
     found = []
     for signal, lag in LAGS.items():
         parts = [(run, left[signal]) for run, left in zip(problem.runs, residuals, strict=True) if signal in left]

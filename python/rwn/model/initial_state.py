@@ -69,7 +69,7 @@ def initial_state_of(
 
 
 def resolution(signal: Array, first: int) -> float:
-    """Standard deviation of one of the first samples: of their noise, or a step of the signal's values."""
+    """Standard deviation of one of the first samples of a signal (n,): of their noise, or a step of its values."""
     return max(noise_from_differences(signal[:first]), quantum(signal))
 
 

@@ -159,7 +159,7 @@ def write_csv(
     path: str | Path, time: Array, signals: Mapping[str, Array], *, linear: bool = False,
     units: Mapping[str, str] | None = None,
 ) -> None:  # fmt: skip
-    """Write signals (SI) as a CSV that `read_recording` reads back; in SI, but for those that `units` names.
+    """Write signals (n,) (SI) as a CSV that `read_recording` reads back; in SI, but for those that `units` names.
 
     Raises InputError for a unit that is none of its signal.
     """

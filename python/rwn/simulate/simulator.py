@@ -63,7 +63,7 @@ class Simulator:
 
     @staticmethod
     def started(run: Run, vector: Array) -> Array:
-        """The parameter vector of one run: what is fitted of all, with its start and what is unknown of it alone."""
+        """The parameter vector (all,) of one run: that of all runs, its start, and what is unknown of it alone."""
         own = _of_core(vector).copy()
         for place, parameter in run.own:
             if place < vector.size:  # else it was fitted to recordings of which nothing was unknown
@@ -98,7 +98,7 @@ class Simulator:
     def normal_equations(
         self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int], *, noise: Mapping[str, Noise],
     ) -> NormalEquations:  # fmt: skip
-        """Squared error of a run under the `noise` of each signal with its normal equations.
+        """Squared error of a run under the `noise` of each signal with its normal equations (p, p), (p,).
 
         An error counts as what is new in it.
         """

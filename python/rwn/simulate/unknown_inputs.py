@@ -35,7 +35,7 @@ class UnknownInputs:
 def unknown_inputs(
     drive: Drive, simulator: Simulator, run: Run, vector: Array, active: Sequence[int] = ()
 ) -> UnknownInputs:
-    """Inverse dynamics along the recorded motion, under the effects that are `active`.
+    """Inverse dynamics along the recorded motion (n,), under the effects that are `active`.
 
     torque = J dw/dt + B w + friction - Kt i (or minus the driving torque); voltage = v - R i - L di/dt - Ke w. With
     voltage and speed alone the current is at rest with the speed, so both carry the mismatch. A transfer function has
