@@ -37,7 +37,7 @@ class Evidence:
     """Features of one effect of an explanation."""
 
     share: float  # of what the nominal model leaves above the noise, that goes without the effect; mean of signals
-    unseen: float  # the same on the halves that were not fitted, and on recordings kept back
+    unseen: float  # that share on the halves that were not fitted, and on recordings kept back
     part: float  # of what the other effects leave above the noise, that goes with it; mean of signals but the position
     odds: float  # logarithm of the evidence for its explanation against the best without it and its rivals
     curve: float  # squared error with the best curve over one state in its place, in units of that with it; at most 1

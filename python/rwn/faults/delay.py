@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 LITTLE = 0.1  # squared error above the noise, in units of it, below which nothing is suspected
 SUSPECT = 0.3  # share of what the refitted model leaves, that undoing a fault has to remove to be suspected
-REMOVED = 0.85  # the same to be accepted, with what is found beneath it
+REMOVED = 0.85  # share of what the refitted model leaves, that a fault with what is beneath it has to remove
 CLEAR = 0.01  # share that is left where a fault and one effect explain all: more pairs of effects need not be tried
 SLIGHT = 0.02  # squared error in units of the noise, by which a fault has to be better than such a pair
 BETTER = 0.75  # share of what physics alone leaves, that may be left with the fault undone
@@ -49,7 +49,7 @@ class SuspectedFault:
     fault: Fault
     noise: Mapping[str, Noise]
     before: float  # squared error above the noise, in units of it, of the refitted model
-    after: float  # the same with the fault undone
+    after: float  # squared error above the noise with the fault undone
 
     @property
     def little(self) -> float:

@@ -25,9 +25,9 @@ from rwn.simulate.run import Run
 Array = NDArray[np.float64]
 
 REMOVED = {UNIT: 0.85, SIGN: 0.85, GEAR: 0.95}  # share of the misfit that undoing has to remove; a gear bends nothing
-LEFT = 0.3  # misfit that it may leave; 0.3 is a correlation of 0.85
+LEFT = 0.3  # misfit that undoing may leave; 0.3 is a correlation of 0.85
 SAME = 0.05  # relative difference between a size and a unit's factor that nothing has to account for
-WIDEST = 0.3  # the same where the data sheet is poor and physics is missing
+WIDEST = 0.3  # relative difference from a unit's factor that a poor data sheet and missing physics make
 PLAIN = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
 GEARED = 2.0  # size from which a gear is believed: what slows a motor by so much does not leave its transients alike
 GEAR_LIKE = 1.5  # size from which a gear is tried beside physics

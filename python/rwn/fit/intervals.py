@@ -14,7 +14,7 @@ from rwn.fit.secant import nonsmooth_unknowns
 Array = NDArray[np.float64]
 
 AGREEMENT = 1e-3  # relative standard deviation that stays when the noise is averaged out
-IDEALISED = 4e-3  # the same for effects whose law idealises a contact
+IDEALISED = 4e-3  # relative standard deviation that stays for effects whose law idealises a contact
 
 
 @dataclass(frozen=True, kw_only=True)

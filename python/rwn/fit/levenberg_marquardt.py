@@ -72,11 +72,11 @@ class Minimum:
     values: Array  # (p)
     chi2: float  # sum of squared weighted errors, priors aside
     cost: float  # chi2 and priors
-    first: float  # the same at the start
+    first: float  # cost at the start
     information: (
         Array  # (p, p) J'J and priors by value: the inverse covariance for white residuals of variance 1
     )
-    data_information: Array  # (p, p) the same without priors
+    data_information: Array  # (p, p) J'J without priors
     status: FitStatus
     iterations: int
     damping: float = DAMPING  # of the last step, or that the next one wants
