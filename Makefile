@@ -78,13 +78,12 @@ test-python: install-test
 mutants: install-test
 	$(PY) tools/mutants.py --page docs/mutants.md
 
+# Speed, with the answers checked; writes docs/speed.md.
 bench:
 	@./tools/setup.sh
 	@$(PIP) '.[bench]'
-	$(PY) bench/bench_simulate.py
-	$(PY) bench/bench_structured_network.py
-	$(PY) bench/bench_recurrent_network.py
-	$(PY) bench/bench_diagnose.py
+	for bench in simulate structured_network recurrent_network diagnose; do \
+	  $(PY) bench/bench_$$bench.py --page docs/speed.md || exit 1; done
 
 lint: install-test
 	@$(MAKE) --no-print-directory lint-only
@@ -92,6 +91,7 @@ lint: install-test
 lint-only:
 	$(PY) -m ruff check python tests bench tools
 	$(PY) -m mypy
+	$(PY) -m mypy bench
 	PYTHONPATH=python .venv/bin/lint-imports
 
 clean:

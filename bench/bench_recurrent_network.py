@@ -4,7 +4,7 @@ beside numba, JAX and NumPy in one run.
     python bench/bench_recurrent_network.py
 
 As bench_structured_network.py: every variant must end at the same parameters, variants take turns, the shortest
-of many short runs counts, and RWN_ISA chooses lesser kernels.
+of many short runs counts, RWN_ISA chooses lesser kernels, and --page docs/speed.md writes the page.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy as np
 
 import rwn
 from bench_structured_network import SAMPLES, Calls, T, machine, time_all
+from page import Table, asked_for
 from recurrent_rivals import jax_cycle, numba_cycle
 from rwn import _core
 from rwn.networks.arrays import Array
@@ -97,17 +98,18 @@ def times(wavelets: int, x: Array, y: Array) -> dict[str, float]:
 
 
 def main() -> None:
+    bench = asked_for("recurrent", __doc__)
     t = np.arange(SAMPLES) * T
     x = np.sin(2 * np.pi * 5 * t)
     y = np.tanh(3 * x)
-    print(machine())
-    print("recurrent network, one input, forward, V1-V3, update; ns per sample\n")
-    for wavelets, asked in ASKED.items():
-        ns = times(wavelets, x, y)
-        held = ns["rates held"]
-        print(f"{wavelets} wavelets, asked at most {asked:.0f} ns, all answers agree with the NumPy reference")
-        for name, time in ns.items():
-            print(f"    {name:14s} {time:10.1f} ns   {time / held:8.2f} x held")
+    found = {wavelets: times(wavelets, x, y) for wavelets in ASKED}
+    rows = [
+        (name, *(f"{ns[name]:.1f}, {ns[name] / ns['rates held']:.2f} x" for ns in found.values()))
+        for name in found[max(found)]
+    ]
+    asked = ("asked at most", *(f"{most:.0f}" for most in ASKED.values()))
+    title = "Recurrent network, one input: forward, V1-V3, update; ns a step, in units of held rates (answers agree):"
+    bench.show(Table(title, ("", *(f"{count} wavelets" for count in ASKED)), [*rows, asked]), f"{machine()}.")
 
 
 if __name__ == "__main__":

@@ -5,22 +5,24 @@ Steps per second on one core, value only and with derivatives, for the axis mode
 equations of a fit with every effect by itself (its parameters beside those of the motor). Beside the rows
 with friction stands how often the motion comes to rest. Results go to memory that is already mapped, as in a fit; the
 row "fresh memory" shows what the operating system adds the first time. numba, where installed, runs the plain
-time-stepping loop that one would write by hand (it stops at the sample, rwn at the instant).
+time-stepping loop that one would write by hand (it stops at the sample, rwn at the instant). The variants take turns
+and the shortest of many runs counts, so that their ratios hold on a busy machine too. --page docs/speed.md writes them.
 """
 
 from __future__ import annotations
 
 import os
-import platform
 import sys
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import rwn
+from page import Table, asked_for
 from rwn import _core
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
@@ -36,15 +38,18 @@ DC = {"resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf
       "viscous_friction": 7e-5}  # fmt: skip
 
 
-def best_of(run: Callable[[], object], repeats: int = 25) -> float:
-    """Shortest of some runs [s]; the last result is kept, so that its memory stays mapped."""
-    kept, times = run(), []
+Row = tuple[str, float, str, int]  # name, shortest time [s], remark, samples
+
+
+def best_of_each(runs: Sequence[Callable[[], object]], repeats: int = 25) -> list[float]:
+    """Shortest of some runs of each [s], in turns; the last result of each is kept, so that its memory stays mapped."""
+    kept, times = [run() for run in runs], [np.inf] * len(runs)
     for _ in range(repeats):
-        begin = time.perf_counter()
-        kept = run()
-        times.append(time.perf_counter() - begin)
-    del kept
-    return min(times)
+        for k, run in enumerate(runs):
+            begin = time.perf_counter()
+            kept[k] = run()
+            times[k] = min(times[k], time.perf_counter() - begin)
+    return times
 
 
 def stops(speed: np.ndarray) -> float:
@@ -69,11 +74,10 @@ def reference_axis(force: np.ndarray, friction: float) -> np.ndarray:
 
 
 def main() -> None:
-    t = STEP * np.arange(N)
+    bench = asked_for("simulate", __doc__)
+    t = np.arange(N, dtype=np.float64) * STEP
     reversing = 120.0 * np.sin(2.0 * np.pi * 0.8 * t) + 25.0 * np.sin(2.0 * np.pi * 3.1 * t)
     resting = 0.3 * reversing
-    machine = platform.processor() or platform.machine()
-    print(f"{machine}, {_core.isa()}, {os.cpu_count()} processors, rwn {rwn.__version__}")
     coulomb = table()["coulomb-friction"]
     plain = parameter_vector(AXIS, {})
     dry = parameter_vector(AXIS, {"coulomb-friction": {"coulomb_torque": COULOMB}})
@@ -83,7 +87,7 @@ def main() -> None:
     got = _core.simulate(_core.Task("axis", time=t, input=resting), dry, [coulomb.index], [])[2]
     check("axis, Coulomb friction", got, reference_axis(resting, COULOMB), 2e-2)  # the reference stops at samples
     by = [motor_index("inertia"), motor_index("viscous_friction"), coulomb.first]
-    rows = (
+    rows: tuple[tuple[str, str, np.ndarray, np.ndarray, list[int], list[int]], ...] = (
         ("axis, no effects", "axis", reversing, plain, [], []),
         ("axis, no effects, 2 derivatives", "axis", reversing, plain, [], by[:2]),
         ("axis, Coulomb friction, reversing", "axis", reversing, dry, [coulomb.index], []),
@@ -94,25 +98,42 @@ def main() -> None:
     )
     begin = time.perf_counter()
     _core.simulate(_core.Task("axis", time=t, input=reversing), plain, [], [])
-    line("axis, no effects, fresh memory", time.perf_counter() - begin)
-    for name, kind, force, vector, active, wanted in rows:
-        run = partial(_core.simulate, _core.Task(kind, time=t, input=force), vector, active, wanted)
-        line(name, best_of(run), f"{stops(np.array(run()[2])):.2f} stops per 1000 steps" if active else "")
-    effects()
-    in_numba(reversing)
-    emps()
+    fresh = time.perf_counter() - begin
+    runs: dict[str, Callable[[], Any]] = {
+        name: partial(_core.simulate, _core.Task(kind, time=t, input=force), vector, active, wanted)
+        for name, kind, force, vector, active, wanted in rows
+    }
+    halts = {
+        name: f"{stops(np.array(runs[name]()[2])):.2f} stops per 1000 steps" for name, *_, active, _ in rows if active
+    }
+    runs |= in_numba(reversing)
+    found = [(name, s, halts.get(name, ""), N) for name, s in zip(runs, best_of_each(list(runs.values())), strict=True)]
+    found += [("axis, no effects, fresh memory", fresh, "", N), *effects()]
+    bench.show(table_of(found), emps())
 
 
-def effects() -> None:
+def table_of(rows: Sequence[Row]) -> Table:
+    """Times by step, and in units of the first row."""
+    unit = rows[0][1] / rows[0][3]
+    cells = [
+        (name, f"{1e9 * s / n:.1f}", f"{1e-6 * n / s:.1f}", f"{s / n / unit:.2f} x", remark)
+        for name, s, remark, n in rows
+    ]
+    return Table("Simulation, one core:", ("", "ns a step", "M steps/s", f"of {rows[0][0]}", ""), cells)
+
+
+def effects() -> list[Row]:
     """Normal equations of the demonstration motor with each effect at its first guess, by all that would be fitted."""
     demo = Path(rwn.__file__).parent / "demo"
     model = rwn.read_model(demo / "model.toml")
     problem = prepare([rwn.read_recording(demo / "train.csv", layout=model.recording)], model)
     samples = sum(r.time.size for r in problem.runs)
-    for name in table():
-        this = hypothesis(problem.prior, (name,), problem.scales)
-        seconds = best_of(partial(problem.normal, this.vector, this.active, this.by), repeats=5)
-        line(f"dc, {name}, {len(this.by)} derivatives", seconds, samples=samples)
+    these = {name: hypothesis(problem.prior, (name,), problem.scales) for name in table()}
+    times = best_of_each([partial(problem.normal, h.vector, h.active, h.by) for h in these.values()], repeats=5)
+    return [
+        (f"dc, {name}, {len(h.by)} derivatives", s, "", samples)
+        for (name, h), s in zip(these.items(), times, strict=True)
+    ]
 
 
 def check(name: str, got: Sequence[float], want: np.ndarray, limit: float) -> None:
@@ -123,36 +144,37 @@ def check(name: str, got: Sequence[float], want: np.ndarray, limit: float) -> No
         sys.exit(f"{name} gives another answer than the reference")
 
 
-def line(name: str, seconds: float, remark: str = "", *, samples: int = N) -> None:
-    print(f"{name:44s} {1e9 * seconds / samples:7.1f} ns/step  {1e-6 * samples / seconds:6.1f} M steps/s  {remark}")
-
-
-def in_numba(force: np.ndarray) -> None:
+def in_numba(force: np.ndarray) -> dict[str, Callable[[], Any]]:
+    """The plain loop compiled, by name; none where numba is not installed."""
     try:
         import numba
     except ImportError:
-        return
+        return {}
     compiled = numba.njit(reference_axis)
-    line("numba: axis, no effects", best_of(lambda: compiled(force, 0.0)))
-    line("numba: axis, Coulomb friction, reversing", best_of(lambda: compiled(force, COULOMB)))
+    return {
+        "numba: axis, no effects": partial(compiled, force, 0.0),
+        "numba: axis, Coulomb friction, reversing": partial(compiled, force, COULOMB),
+    }
 
 
-def emps() -> None:
+def emps() -> str:
     """Free-run fit of Coulomb friction and offset to DATA_EMPS (24 841 samples), from the linear nominal model."""
     shared = Path(os.environ.get("RWN_SHARED", Path(__file__).resolve().parents[2] / "shared"))
     file = shared / "data/nonlinear_benchmarks/EMPS/DATA_EMPS.mat"
     if not file.is_file():
-        print("EMPS fit: the recording is not here")
-        return
+        return "EMPS fit: the recording is not here"
     model = rwn.read_model(Path(rwn.__file__).parent / "demo/emps.toml")
     problem = prepare([rwn.read_recording(file, layout=model.recording)], model)
     prior = Prior(motor=problem.prior.motor, uncertainty=problem.prior.uncertainty, effects={}, free={})
     this = hypothesis(prior, ("coulomb-friction", "constant-load"), problem.scales)
     free = problem.in_free_run()
-    seconds = best_of(lambda: fit(free, this), repeats=3)
+    seconds = best_of_each([lambda: fit(free, this)], repeats=3)[0]
     found = fit(free, this).minimum
-    rms = 1e3 * free.noise["position"] * np.sqrt(found.chi2 / free.runs[0].time.size)
-    print(f"EMPS free-run fit: {seconds:.3f} s, {found.iterations} iterations, {found.status.name}, {rms:.2f} mm")
+    rms = 1e3 * free.noise["position"].level * np.sqrt(found.chi2 / free.runs[0].time.size)
+    size, ended = free.runs[0].time.size, found.status.name
+    return (
+        f"Free-run fit of EMPS ({size} samples): {seconds:.3f} s, {found.iterations} iterations, {ended}, {rms:.2f} mm."
+    )
 
 
 if __name__ == "__main__":

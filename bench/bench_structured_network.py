@@ -4,7 +4,8 @@
 
 Every variant trains the same network on the same recording and must end at the same parameters. RWN_ISA
 (baseline, avx2, avx512) chooses lesser kernels than the processor's best. The variants take turns and the
-shortest of many short runs counts, so that a busy machine costs repeats, not truth.
+shortest of many short runs counts, so that a busy machine costs repeats, not truth. --page docs/speed.md writes
+the page.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from time import perf_counter
 import numpy as np
 
 import rwn
+from page import Bench, Table, asked_for
 from rwn import _core
 from rwn.networks.arrays import Array
 from rwn.networks.rates import Fixed, Thesis
@@ -96,7 +98,7 @@ def clock_ghz() -> float:
     """Clock rate now, from a loop of two dependent integer operations in numba (1 cycle each)."""
     import numba
 
-    @numba.njit
+    @numba.njit  # type: ignore[untyped-decorator]
     def spin(n: int, step: int) -> int:
         state = 1
         for _ in range(n):
@@ -156,6 +158,7 @@ def check_side_by_side(networks: list[rwn.StructuredNetwork], u: Array, y: Array
 
 
 def main() -> None:
+    bench = asked_for("structured", __doc__)
     u, y = recording()
     span = float(np.abs(y).max())
     networks = [network(seed, span) for seed in range(SEEDS)]
@@ -187,7 +190,7 @@ def main() -> None:
     times = time_all(calls, ROUNDS)
     times |= time_all({"eigen": (lambda n: core_theta(net, u, y, adaptive["eigen"], n), 1)}, 20)
     times |= time_all({"numpy": (lambda n: reference.train(net, u, y, rates=rates, cycles=n), 1)}, 5)
-    report(times)
+    report(times, bench)
 
 
 def bounds(width: int, ghz: float) -> tuple[float, float]:
@@ -204,12 +207,10 @@ def machine() -> str:
     return f"{cpu.split(':')[1].strip()}, {clock_ghz():.2f} GHz now, {_core.isa()}; {compiler.stdout.splitlines()[0]}"
 
 
-def report(ns: dict[str, float]) -> None:
+def report(ns: dict[str, float], bench: Bench) -> None:
     isa, ghz = _core.isa(), clock_ghz()
     alone, side = bounds({"baseline": 2, "avx2": 4, "avx512": 8}[isa], ghz)
     held = ns["held"]
-    print(f"\n{machine()}")
-    print(f"N_w = {WAVELETS}: forward, V1-V3, P and Q of v1..v3 and 4 x {WAVELETS}, update; rates held\n")
     rows = [
         ("rwn, rates held", held, "", ""),
         ("rwn, thesis rule at every sample", ns["thesis"], f"{ns['thesis'] / held:.2f} x held", "at most 2"),
@@ -224,16 +225,17 @@ def report(ns: dict[str, float]) -> None:
         ("JAX (jit, lax.scan, float64)", ns["jax"], f"{ns['jax'] / held:.1f} x", "at least 15"),
         ("NumPy reference", ns["numpy"], f"{ns['numpy'] / held:.0f} x", "at least 450"),
     ]
-    for name, time, ratio, target in rows:
-        print(f"{name:42s} {time:10.1f} ns/sample   {ratio:18s} {target}")
     flops = WAVELETS * PER_WAVELET + LINEAR
-    print(f"\nhand count: {flops} operations per sample, {flops / held:.1f} per ns with held rates")
-    print(
-        f"throughput bound ({PORTS} multipliers): {alone:.1f} ns alone, {side:.1f} ns side by side; measured "
-        f"{held / alone:.2f} x and {ns['side'] / side:.2f} x of it"
-    )
     chain = " + ".join(f"{name} {cycles}" for name, cycles in CHAIN)
-    print(f"latency bound: {chain} cycles = {sum(cycles for _, cycles in CHAIN) / ghz:.1f} ns")
+    title = f"Structured network, {WAVELETS} wavelets, one step: forward, V1-V3, P and Q, update (answers agree):"
+    bench.show(
+        Table(title, ("", "ns a step", "ratio", "asked"), [(n, f"{time:.1f}", *rest) for n, time, *rest in rows]),
+        f"{machine()}.",
+        f"By hand: {flops} operations a step, {flops / held:.1f} per ns with held rates. The multipliers ({PORTS}) "
+        f"allow {alone:.1f} ns alone and {side:.1f} ns side by side; measured {held / alone:.2f} x and "
+        f"{ns['side'] / side:.2f} x of that. The longest chain of results: {chain} cycles, "
+        f"{sum(cycles for _, cycles in CHAIN) / ghz:.1f} ns.",
+    )
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from rwn.studies.trials.adapter import heldout_files, simulated_file
-from rwn.studies.trials.dossier import read_columns
 from rwn.studies.trials.grade import clean_speed, load_answers
+from rwn.studies.trials.trial_files import read_columns
 
 RESULT = "diagnosis.json"
 

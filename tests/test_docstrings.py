@@ -1,9 +1,14 @@
-"""The docstrings of what `import rwn` gives: there, with the shapes and units of arrays, and with what is raised."""
+"""Docstrings: there, with the shapes of arrays and with what is raised; of what `import rwn` gives with units too.
+
+The studies are left out, which nothing imports, and the command line, whose docstrings are its help.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import inspect
+import pkgutil
 import re
 import textwrap
 from collections.abc import Callable, Iterator
@@ -32,6 +37,26 @@ def public() -> Iterator[tuple[str, Any, str]]:
 
 
 THINGS = list(public())
+LEFT_OUT = ("rwn.studies", "rwn.reference", "rwn.cli", "rwn.__main__")
+
+
+def of_modules() -> Iterator[tuple[str, Any, str]]:
+    """The same of every module, whatever is not private there."""
+    for module in pkgutil.walk_packages(rwn.__path__, "rwn."):
+        if module.name.startswith(LEFT_OUT) or "._" in module.name:
+            continue
+        for name, thing in vars(importlib.import_module(module.name)).items():
+            own = getattr(thing, "__module__", "") == module.name and not name.startswith("_")
+            if not own or not (inspect.isclass(thing) or inspect.isfunction(thing)):
+                continue
+            yield f"{module.name}.{name}", thing, ""
+            for member, value in vars(thing).items() if inspect.isclass(thing) else ():
+                function = value.fget if isinstance(value, property) else getattr(value, "__func__", value)
+                if not member.startswith("_") and inspect.isfunction(function) and function.__name__ != "<lambda>":
+                    yield f"{module.name}.{name}.{member}", function, inspect.getdoc(thing) or ""
+
+
+MODULES = {name: (thing, of_class) for name, thing, of_class in of_modules()}
 
 
 @pytest.mark.parametrize(("name", "thing", "of_class"), THINGS, ids=[name for name, _, _ in THINGS])
@@ -44,6 +69,23 @@ def test_a_docstring_says_what_is_needed(name: str, thing: Any, of_class: str) -
         assert re.search(SHAPE, text), f"{name} gives no shape for '{array}' ({annotation})"
         if array in UNITS:
             assert UNITS[array] in text, f"{name} gives no unit for '{array}': expected {UNITS[array]}"
+    if "raise " in checks(thing):
+        assert re.search(r"\b[Rr]aises\b", own), f"{name} does not say what it raises"
+
+
+def test_the_modules_are_looked_at() -> None:
+    assert len(MODULES) > 500
+    assert "rwn.fit.fit.refit" in MODULES
+    assert "rwn.name.starts.Attempt.cost" in MODULES
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_a_docstring_of_a_module_says_what_is_needed(name: str) -> None:
+    thing, of_class = MODULES[name]
+    own = inspect.getdoc(thing) or ""
+    assert own, f"{name} has no docstring"
+    if inspect.isfunction(thing) and any(True for _ in arrays(thing)):
+        assert re.search(SHAPE, f"{own}\n{of_class}"), f"{name} gives no shape of its arrays"
     if "raise " in checks(thing):
         assert re.search(r"\b[Rr]aises\b", own), f"{name} does not say what it raises"
 

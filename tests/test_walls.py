@@ -33,3 +33,9 @@ def test_from_the_top_stages_take_the_extension_alone() -> None:
 
 def test_few_modules_stand_at_the_top() -> None:
     assert len(list(Path(rwn.__file__).parent.glob("*.py"))) <= 12
+
+
+def test_the_tests_mirror_the_rooms() -> None:
+    """The reference implementations are what other tests compare with."""
+    rooms = {path.parent.name for path in Path(rwn.__file__).parent.glob("*/__init__.py")} - {"reference"}
+    assert {path.parent.name for path in (ROOT / "tests").glob("*/test_*.py")} == rooms

@@ -11,7 +11,8 @@ void bind_structured_trainers(py::module_& m) {
     py::dict all;
     all["recursive-gauss-newton"] = defaults_of<RecursiveGaussNewton>(
         std::pair{"noise", &RecursiveGaussNewton::noise}, std::pair{"forgetting", &RecursiveGaussNewton::forgetting},
-        std::pair{"settle", &RecursiveGaussNewton::settle}, std::pair{"caution", &RecursiveGaussNewton::caution},
+        std::pair{"forgetting_decay", &RecursiveGaussNewton::forgetting_decay},
+        std::pair{"underweighting", &RecursiveGaussNewton::underweighting},
         std::pair{"follow_state", &RecursiveGaussNewton::follow_state},
         std::pair{"cycles", &RecursiveGaussNewton::cycles},
         std::pair{"frozen_every", &RecursiveGaussNewton::frozen_every});
@@ -26,14 +27,15 @@ void bind_structured_trainers(py::module_& m) {
   });
   m.def("recursive_gauss_newton",
         [](const StructuredNetwork& network, const VectorRef& input, const VectorRef& speed, const Eigen::Vector2d& start,
-           const VectorRef& spread, double noise, double forgetting, double settle, double caution, bool follow_state, int cycles,
-           int frozen_every) {
-          const RecursiveGaussNewton trainer{noise, forgetting, settle, caution, follow_state, cycles, frozen_every};
+           const VectorRef& spread, double noise, double forgetting, double forgetting_decay, double underweighting,
+           bool follow_state, int cycles, int frozen_every) {
+          const RecursiveGaussNewton trainer{noise,        forgetting, forgetting_decay, underweighting,
+                                             follow_state, cycles,     frozen_every};
           auto r = trainer.train(network, {input, speed, start}, spread);
           return std::make_tuple(Vector(r.network.theta()), std::move(r.history), std::move(r.deviation));
         },
         "network"_a, "input"_a.noconvert(), "speed"_a.noconvert(), "start"_a, py::kw_only(), "spread"_a.noconvert(), "noise"_a,
-        "forgetting"_a, "settle"_a, "caution"_a, "follow_state"_a, "cycles"_a, "frozen_every"_a, release);
+        "forgetting"_a, "forgetting_decay"_a, "underweighting"_a, "follow_state"_a, "cycles"_a, "frozen_every"_a, release);
 
   using Fit = StructuredLevenbergMarquardt::Result;
   py::class_<Fit>(m, "StructuredFit")

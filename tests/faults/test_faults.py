@@ -10,7 +10,7 @@ import pytest
 
 import rwn
 from rwn.decide.next_experiment import separated_by
-from rwn.faults.delay import Suspicion, believed, first_effects, rivals, suspected
+from rwn.faults.delay import SuspectedFault, accepted, first_effects, rivals, suspected
 from rwn.faults.fault import SHIFT, Fault
 from rwn.faults.fault import without as undone
 from rwn.faults.resolve import resolved
@@ -199,9 +199,9 @@ def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model
 
 def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rwn.Recording) -> None:
     assert suspected([right], model) is None
-    doubt = suspected([altered(right, ("current",), delay=6)], model)
-    assert doubt is not None
-    assert (doubt.fault.name, doubt.fault.delay) == ("time-shift", 6)
+    suspect = suspected([altered(right, ("current",), delay=6)], model)
+    assert suspect is not None
+    assert (suspect.fault.name, suspect.fault.delay) == ("time-shift", 6)
     friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     assert suspected([friction], model) is None, "missing physics is none"
 
@@ -267,9 +267,9 @@ def test_what_fits_best_alone_is_a_rival_though_its_law_is_on_a_limit(model: rwn
 def test_a_delay_that_leaves_noise_alone_beats_an_effect_that_leaves_more(physics: float, told: bool) -> None:
     """An early speed looks much like that of a motor before its shaft, but for a tenth of the noise."""
     fault = Fault(name=SHIFT, signals=("speed",), delay=-7, step=5e-4, meaning="")
-    doubt = Suspicion(fault=fault, noise={}, before=8.0, after=0.012)
-    assert not believed(doubt, left=doubt.after, physics=physics)
-    assert believed(doubt, left=doubt.after, physics=physics, little=doubt.little) == told
+    suspect = SuspectedFault(fault=fault, noise={}, before=8.0, after=0.012)
+    assert not accepted(suspect, left=suspect.after, physics=physics)
+    assert accepted(suspect, left=suspect.after, physics=physics, little=suspect.little) == told
 
 
 @pytest.mark.slow

@@ -11,7 +11,7 @@ import pytest
 
 import rwn
 from rwn.errors import InputError
-from rwn.fit.fitted_model import with_doubt
+from rwn.fit.fitted_model import with_uncertainty
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intervals import Estimate
 from rwn.fit.prior import Prior
@@ -159,7 +159,7 @@ def test_the_farther_end_of_an_interval_says_how_far_a_value_is_believed() -> No
         "cogging-torque.periods_per_rev": Estimate(value=14.0, unit="1", interval=(1.0, 140.0)),
         "cogging-torque.phase": Estimate(value=0.0, unit="rad", interval=(-0.392, 0.392)),
     }
-    assert with_doubt(model, found).uncertainty == {
+    assert with_uncertainty(model, found).uncertainty == {
         "cogging-torque.amplitude": 0.1, "cogging-torque.periods_per_rev": math.inf, "cogging-torque.phase": 0.2,
     }  # fmt: skip
 

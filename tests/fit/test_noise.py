@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rwn.fit.noise import CLOCK, noise_of
-from rwn.recording.noise import Noise, rough_noise
+from rwn.recording.noise import Noise, noise_from_differences
 from rwn.recording.speed_measurement import CENTRAL
 from rwn.simulate.run import Run
 
@@ -31,13 +31,13 @@ def test_only_the_speed_is_as_exact_as_encoder_counts() -> None:
     assert levels["speed"].level < 1e-3
 
 
-def test_rough_noise_passes_over_a_motion_sharp_instants_and_what_is_missing() -> None:
+def test_noise_from_differences_passes_over_a_motion_sharp_instants_and_what_is_missing() -> None:
     rng, time = np.random.default_rng(4), np.linspace(0.0, 1.0, 4000)
     signal = 50.0 * np.sin(6.0 * time) + 0.02 * rng.standard_normal(time.size)
     signal[::400] += 3.0
     signal[100:150] = np.nan
-    assert rough_noise(signal) == pytest.approx(0.02, rel=0.1)
-    assert rough_noise(np.zeros(2)) == 0.0
+    assert noise_from_differences(signal) == pytest.approx(0.02, rel=0.1)
+    assert noise_from_differences(np.zeros(2)) == 0.0
 
 
 def test_the_innovations_of_filtered_noise_are_white() -> None:

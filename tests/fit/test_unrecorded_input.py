@@ -27,11 +27,11 @@ def test_the_motion_tells_when_a_voltage_stepped_between_two_rows(friction: floa
     speed = rwn.simulate(truth, bare).signals["speed"] + 0.05 * rng.standard_normal(time.size)
     kept = replace(bare, time=time[::2], signals={"voltage": voltage[::2], "speed": speed[::2]})
     (found,) = with_unrecorded_input([kept], stating(MODEL, "halves"))
-    assert found.acting is not None
-    unknown = found.acting.spread > 0.3
-    true = voltage[np.rint(found.acting.instants[unknown] / 1e-3).astype(int)]
-    between = np.interp(found.acting.instants[unknown], kept.time, voltage[::2])
-    assert np.std(found.acting.values[unknown] - true) < 0.3 * np.std(between - true)
+    assert found.applied_input is not None
+    unknown = found.applied_input.spread > 0.3
+    true = voltage[np.rint(found.applied_input.instants[unknown] / 1e-3).astype(int)]
+    between = np.interp(found.applied_input.instants[unknown], kept.time, voltage[::2])
+    assert np.std(found.applied_input.values[unknown] - true) < 0.3 * np.std(between - true)
 
 
 def test_a_held_input_is_known_from_its_rows() -> None:

@@ -69,7 +69,7 @@ def test_without_a_free_run_of_a_recorded_speed_there_is_none_to_read_off() -> N
 
 
 def test_a_shaft_that_rings_long_is_found_from_its_resonance() -> None:
-    """Its minimum is narrow: from half the rate or twice it a fit goes astray."""
+    """Its minimum is narrow: from half the rate or twice it a fit ends in another minimum."""
     shaft = Resonance(200.0, 0.01, 0.35)
     problem = _seen(shaft)
     found = screen(problem, fit_nominal(problem), ["shaft-compliance"])[0]

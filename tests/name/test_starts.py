@@ -1,4 +1,4 @@
-"""Starts that race for the same end."""
+"""Starts of one effect, and which of them go on."""
 
 from __future__ import annotations
 

@@ -135,7 +135,7 @@ def test_recursive_gauss_newton_agrees_with_the_reference(wavelets: int) -> None
     groups = {"v1": 0.0012, "v2": 0.011, "v3": 0.0011, "w": 0.01, "m": 0.02, "d": 0.02, "c": 0.01}
     sizes = [1] * 5 + [wavelets] * 4
     spread = np.repeat([groups.get(g, 0.0) for g in network.groups], sizes)
-    trainer = RecursiveGaussNewton(noise=0.1, forgetting=0.999, caution=0.0, cycles=1, spread=groups)
+    trainer = RecursiveGaussNewton(noise=0.1, forgetting=0.999, underweighting=0.0, cycles=1, spread=groups)
     got = trainer.train(network, u, y, learn=tuple(groups))
     wanted, _ = reference.train(network, u, y, spread=spread, noise=0.1, forgetting=0.999)
     # The reference carries the covariance, the core its square root: 1200 updates agree to 1e-10. The next test
@@ -146,7 +146,7 @@ def test_recursive_gauss_newton_agrees_with_the_reference(wavelets: int) -> None
 def test_one_recursive_gauss_newton_update_is_the_references_at_1000_samples() -> None:
     u, y = drive(1002, frequency=10)
     groups = {"v1": 0.0012, "v2": 0.011, "v3": 0.0011, "w": 0.01, "m": 0.02, "d": 0.02, "c": 0.01}
-    trainer = RecursiveGaussNewton(noise=0.1, forgetting=0.999, caution=0.0, cycles=1, spread=groups)
+    trainer = RecursiveGaussNewton(noise=0.1, forgetting=0.999, underweighting=0.0, cycles=1, spread=groups)
     network = structured(4, 3)
     spread = np.repeat([groups.get(g, 0.0) for g in network.groups], [1] * 5 + [4] * 4)
     for k in range(1000):

@@ -13,7 +13,7 @@ from rwn.faults.fault import SHIFT, Fault
 from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
-from rwn.recording.delays import as_shown, in_time
+from rwn.recording.delays import delayed, in_time
 
 MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
          "viscous_friction": 2e-5}  # fmt: skip
@@ -23,7 +23,7 @@ RUN = rwn.Recording(name="run", time=TIME, signals={"voltage": np.sin(30.0 * TIM
 
 @pytest.mark.parametrize("delay", [4e-3, -3e-3])
 def test_a_late_signal_is_put_in_time_and_shown_late_again(delay: float) -> None:
-    shown = replace(RUN, signals={**RUN.signals, "speed": as_shown(TIME, RUN.signals["speed"], delay)})
+    shown = replace(RUN, signals={**RUN.signals, "speed": delayed(TIME, RUN.signals["speed"], delay)})
     made = in_time(shown, {"speed": delay})
     lost = made.missing["speed"]
     assert lost.sum() == round(abs(delay) / 1e-3)

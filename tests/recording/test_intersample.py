@@ -60,4 +60,4 @@ def test_rows_beside_the_ticks_of_a_clock_show_the_voltage_of_the_last_tick() ->
 def test_without_gaps_or_jitter_a_clock_says_what_rows_say() -> None:
     voltage = np.sin(20.0 * TIME)
     for law in ("bridged", "ticks"):
-        assert INTERSAMPLE[law].acting(TIME, voltage) is None
+        assert INTERSAMPLE[law].applied(TIME, voltage) is None

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.recording.noise import rough_noise
+from rwn.recording.noise import noise_from_differences
 
 MOTOR = {
     "resistance": 1.1, "inductance": 4.5e-4, "torque_constant": 0.037, "back_emf_constant": 0.037, "inertia": 2.9e-5,
@@ -31,7 +31,7 @@ def test_it_is_the_noise_of_the_signal_and_at_most_the_error() -> None:
     (row,) = [r for r in found.heldout if (r.region, r.signal) == ("all", "speed")]
     assert row.noise_floor == pytest.approx(NOISE, rel=0.05)
     assert row.noise_floor <= row.refitted
-    assert row.noise_floor <= max(rough_noise(np.asarray(kept.signals["speed"])), row.refitted)
+    assert row.noise_floor <= max(noise_from_differences(np.asarray(kept.signals["speed"])), row.refitted)
 
 
 def test_every_number_of_the_proof_is_described_in_the_schema() -> None:

@@ -29,13 +29,13 @@ from rwn.studies.trials.bench_trials.plan import (
 )
 from rwn.studies.trials.bench_trials.trial import make_bench_trial
 from rwn.studies.trials.cli import app
-from rwn.studies.trials.dossier import read_columns, write_trial
 from rwn.studies.trials.effects import BACKGROUND, NAMED
 from rwn.studies.trials.grade import clean_speed
 from rwn.studies.trials.judges import JUDGES
 from rwn.studies.trials.make import make_bench
 from rwn.studies.trials.seal import unseal
 from rwn.studies.trials.trial import Trial
+from rwn.studies.trials.trial_files import read_columns, write_trial
 
 SEED = 224  # of a first trial that is soon made
 PLAN = BenchPlan(seed=3, index=2, mode=NAMED_ABOVE, effects=("quadratic-drag",), visibilities=(10.0,),

@@ -174,8 +174,8 @@ def test_a_section_of_the_page_is_written_anew_and_the_rest_kept(tmp_path: Path)
     page = tmp_path / "page.md"
     page.write_text("above\n<!-- rwn evidence emps -->\nold\n<!-- end -->\nby hand\n", encoding="utf-8")
     with pytest.raises(InputError, match="there is no section for 'ced'"):
-        check_sections(page, "evidence", ["emps", "ced"])
-    write_section(page, "evidence", "emps", "| new |")
+        check_sections(page, "rwn evidence", ["emps", "ced"])
+    write_section(page, "rwn evidence", "emps", "| new |")
     text = page.read_text(encoding="utf-8")
     assert text.startswith("above\n<!-- rwn evidence emps -->\n| new |\n")
     assert text.endswith("<!-- end -->\nby hand\n")

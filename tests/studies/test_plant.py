@@ -12,9 +12,9 @@ import pytest
 import plant_reference as judge
 from plant_machine import BOTH_WAYS, FORWARD, NOMINAL, RATE, TIME, built
 from plant_reference import Machine
-from rwn.studies.trials.dossier import read_columns
 from rwn.studies.trials.motors import plant_of
 from rwn.studies.trials.plant import Trace, simulate
+from rwn.studies.trials.trial_files import read_columns
 
 
 @pytest.fixture(scope="module")

@@ -12,11 +12,11 @@ from typer.testing import CliRunner
 
 from rwn.studies.trials.bench import Recording
 from rwn.studies.trials.cli import app
-from rwn.studies.trials.dossier import read_columns, write_recording
 from rwn.studies.trials.grade import Grade, grade_folder
 from rwn.studies.trials.score import mistakes
 from rwn.studies.trials.seal import seal, unseal
 from rwn.studies.trials.spoil import KINDS, Spoilt, spoil
+from rwn.studies.trials.trial_files import read_columns, write_recording
 
 EFFECT = {"name": "coulomb-friction", "equation": "mechanical", "parameters": {}}
 ANSWER: dict[str, Any] = {

@@ -22,7 +22,6 @@ from rwn.studies.trials import score, tables
 from rwn.studies.trials.adapter import heldout_files, train_files
 from rwn.studies.trials.cli import app
 from rwn.studies.trials.conceal import SINGLE
-from rwn.studies.trials.dossier import read_columns, write_trial
 from rwn.studies.trials.grade import grade_folder, grade_folders, load_answers
 from rwn.studies.trials.make import make
 from rwn.studies.trials.motors import plant_of
@@ -31,6 +30,7 @@ from rwn.studies.trials.plant import simulate
 from rwn.studies.trials.run import run
 from rwn.studies.trials.seal import ANSWERS, SealBrokenError, seal, unseal
 from rwn.studies.trials.trial import make_trial
+from rwn.studies.trials.trial_files import read_columns, write_trial
 
 SEED, COUNT = 661, 6  # one trial of every mode, of those that are soon made
 

@@ -70,7 +70,7 @@ def diagnosis(data: bytes) -> None:
 
 
 def simulation(data: bytes) -> None:
-    """Whatever numbers as motor, effect and input: what the checks let pass goes through the bindings to the kernels."""
+    """Whatever numbers as motor, effect and input: what the checks let pass goes through the bindings to kernels."""
     import numpy as np
 
     import rwn

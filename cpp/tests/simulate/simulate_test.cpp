@@ -198,13 +198,13 @@ TEST(Simulate, AnIntegratedSpeedIsFollowedWithoutWhatItsSensorAdds) {
   Case c = cogged_motor_without_a_position();
   Case free = c;
   free.angle.clear();
-  const std::vector<double> truth = speed_of(free), astray = speed_of(c);
+  const std::vector<double> truth = speed_of(free), wrong = speed_of(c);
   c.angle_from_speed = true;
   const std::vector<double> found = speed_of(c);
   double off = 0.0;
   for (std::size_t k = 0; k < truth.size(); ++k) {
     EXPECT_NEAR(found[k], truth[k], 1e-9);
-    off = std::max(off, std::abs(astray[k] - truth[k]));
+    off = std::max(off, std::abs(wrong[k] - truth[k]));
   }
   EXPECT_GT(off, 0.1);
 }

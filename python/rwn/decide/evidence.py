@@ -37,14 +37,14 @@ class Evidence:
     """Features of one effect of an explanation."""
 
     share: float  # of what the nominal model leaves above the noise, that goes without the effect; mean of signals
-    unseen: float  # the same on the halves that were not fitted, and on recordings kept back
+    unseen: float  # that share on the halves that were not fitted, and on recordings kept back
     part: float  # of what the other effects leave above the noise, that goes with it; mean of signals but the position
     odds: float  # logarithm of the evidence for its explanation against the best without it and its rivals
     curve: float  # squared error with the best curve over one state in its place, in units of that with it; at most 1
 
 
 @dataclass(frozen=True, kw_only=True)
-class Witnesses:
+class Validation:
     """What halves and recordings kept back say of an explanation."""
 
     evidence: dict[str, Evidence]  # of each of its effects
@@ -61,7 +61,7 @@ class _Half:
 
 def evidence(
     ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model, *, rivals: Mapping[str, Collection[str]]
-) -> Witnesses:
+) -> Validation:
     """Features of every effect of the leading explanation; `rivals`: names by effect that may act in its place."""
     problem, this = ranking.weighted, leading.final
     after, nothing = variances(problem, this), variances(problem, ranking.nothing_missing.final)
@@ -86,7 +86,7 @@ def evidence(
             curve=curve_instead(ranking.problem, leading.fit, without, name, model),
         )
 
-    return Witnesses(evidence={name: one(name) for name in leading.added}, birge=_birge(seen))
+    return Validation(evidence={name: one(name) for name in leading.added}, birge=_birge(seen))
 
 
 def _share(

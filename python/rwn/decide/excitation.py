@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.hypothesis import Hypothesis
-from rwn.recording.noise import rough_noise
+from rwn.recording.noise import noise_from_differences
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -17,7 +17,10 @@ LEARNED = 0.7  # standard deviation after the fit against that of the data sheet
 
 
 def learns_nothing(this: Hypothesis, deviations: Array, values: Array) -> bool:
-    """Whether the recordings say no more of any uncertain parameter of the motor than the data sheet does."""
+    """Whether the recordings say no more of any uncertain parameter of the motor than the data sheet does.
+
+    `deviations`, `values`: (p,) of its unknowns.
+    """
     shares = [
         std / (u.prior_std * (abs(value) if u.logarithmic else abs(u.prior)))
         for u, std, value in zip(this.unknowns, deviations, values, strict=True)
@@ -38,7 +41,7 @@ def missing(runs: Sequence[Run]) -> list[str]:
     speeds = [r.motion()[0] for r in runs]
     peak = max((float(np.percentile(np.abs(w), 99.5)) for w in speeds if w.size), default=0.0)
     together = np.concatenate(speeds) if speeds else np.zeros(1)
-    noise = max((rough_noise(r.speed) for r in runs if r.speed.size), default=0.0)
+    noise = max((noise_from_differences(r.speed) for r in runs if r.speed.size), default=0.0)
     if peak <= 3.0 * noise:
         return ["no motion"]
     lacks = []

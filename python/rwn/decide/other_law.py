@@ -36,7 +36,7 @@ class Curve:
 
     place: Place
     gained: float  # squared error per sample, in units of the noise
-    seen: float  # the same as log-likelihood, in independent samples
+    seen: float  # log-likelihood gained, in independent samples
     left: float  # squared error before
 
     @property

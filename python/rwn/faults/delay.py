@@ -1,6 +1,6 @@
 """Channels out of step, and gears that physics might explain as well: what undoing a fault leaves, refitted.
 
-Such a fault is suspected where undoing it removes a good part of what the refitted model leaves. It is believed if
+Such a fault is suspected where undoing it removes a good part of what the refitted model leaves. It is accepted if
 the recordings without it are explained by fewer effects, and better, than as they are.
 """
 
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 LITTLE = 0.1  # squared error above the noise, in units of it, below which nothing is suspected
 SUSPECT = 0.3  # share of what the refitted model leaves, that undoing a fault has to remove to be suspected
-REMOVED = 0.85  # the same to be believed, with what is found beneath it
+REMOVED = 0.85  # share of what the refitted model leaves, that a fault with what is beneath it has to remove
 CLEAR = 0.01  # share that is left where a fault and one effect explain all: more pairs of effects need not be tried
 SLIGHT = 0.02  # squared error in units of the noise, by which a fault has to be better than such a pair
 BETTER = 0.75  # share of what physics alone leaves, that may be left with the fault undone
@@ -43,13 +43,13 @@ NEAR = (-3, -2, -1, 1, 2, 3)  # samples by which a delay may be off, seen throug
 
 
 @dataclass(frozen=True, kw_only=True)
-class Suspicion:
+class SuspectedFault:
     """The fault that removes most of what the refitted model leaves."""
 
     fault: Fault
     noise: Mapping[str, Noise]
     before: float  # squared error above the noise, in units of it, of the refitted model
-    after: float  # the same with the fault undone
+    after: float  # squared error above the noise with the fault undone
 
     @property
     def little(self) -> float:
@@ -57,7 +57,7 @@ class Suspicion:
         return min(LITTLE, self.after + SLIGHT)
 
 
-def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None:
+def suspected(recordings: Sequence[Recording], model: Model) -> SuspectedFault | None:
     """A shift or a gear that explains a good part of what the refitted model leaves; physics may yet do better."""
     recordings = beginnings(recordings)
     problem = prepare(recordings, model)
@@ -73,18 +73,18 @@ def suspected(recordings: Sequence[Recording], model: Model) -> Suspicion | None
         own = fault.noise_without(noise)
         after = _left(undone, _refitted(undone, own), own)
         if after < (best.after if best else (1.0 - SUSPECT) * before):
-            best = Suspicion(fault=fault, noise=noise, before=before, after=after)
+            best = SuspectedFault(fault=fault, noise=noise, before=before, after=after)
     return best
 
 
-def unexplained(doubt: Suspicion, found: Ranking) -> float:
+def unexplained(suspect: SuspectedFault, found: Ranking) -> float:
     """Mean squared error above the noise, in units of it, that physics leaves of the recordings, shifted or not."""
-    return _left(found.problem, found.closest, doubt.noise)
+    return _left(found.problem, found.closest, suspect.noise)
 
 
-def removing(fault: Fault, doubt: Suspicion, *, left: float, physics: float) -> Fault:
+def removing(fault: Fault, suspect: SuspectedFault, *, left: float, physics: float) -> Fault:
     """The fault with what it removes: `left` above the noise with it undone, `physics` without."""
-    shares = (1.0 - left / max(total, left, 1e-300) for total in (doubt.before, physics))
+    shares = (1.0 - left / max(total, left, 1e-300) for total in (suspect.before, physics))
     return replace(fault, removes=Removes(*shares)) if fault.name == SHIFT else fault
 
 
@@ -105,19 +105,19 @@ def first_effects(*rankings: Ranking) -> list[str]:
     return list(dict.fromkeys(name for f in (*first, *least) for name in f.added))
 
 
-def believed(doubt: Suspicion, *, left: float, physics: float, little: float = LITTLE) -> bool:
+def accepted(suspect: SuspectedFault, *, left: float, physics: float, little: float = LITTLE) -> bool:
     """Whether the fault, which leaves `left` by itself or with what is beneath it, explains more than physics.
 
     `little`: what physics may leave so that nothing is left to explain.
     """
-    return left < BETTER * physics and left < (1.0 - REMOVED) * doubt.before and physics > little
+    return left < BETTER * physics and left < (1.0 - REMOVED) * suspect.before and physics > little
 
 
-def sharpened(
-    doubt: Suspicion, recordings: Sequence[Recording], model: Model, beneath: Ranking
+def refined(
+    suspect: SuspectedFault, recordings: Sequence[Recording], model: Model, beneath: Ranking
 ) -> tuple[Fault, float]:
     """The fault with the delay at which what was found beneath it fits best, and what that leaves."""
-    noise, base = doubt.fault.noise_without(doubt.noise), beneath.closest
+    noise, base = suspect.fault.noise_without(suspect.noise), beneath.closest
 
     def undone(fault: Fault) -> Problem:
         return replace(prepare(without(recordings, fault), model), noise=noise)
@@ -127,17 +127,17 @@ def sharpened(
         return variance(on, refit(base, on, iterations=FURTHER))
 
     left = _left(beneath.problem, base, noise)
-    near = [doubt.fault.delay + off for off in NEAR] if doubt.fault.delay else []
-    tried = [_shift(doubt.fault.signals, delay, doubt.fault.step) for delay in near if delay]
+    near = [suspect.fault.delay + off for off in NEAR] if suspect.fault.delay else []
+    tried = [_shift(suspect.fault.signals, delay, suspect.fault.step) for delay in near if delay]
     if not tried:
-        return doubt.fault, left
-    as_doubted, *soon = side_by_side(briefly, [doubt.fault, *tried])
-    if min(soon) >= as_doubted:
-        return doubt.fault, left
+        return suspect.fault, left
+    as_suspected, *soon = side_by_side(briefly, [suspect.fault, *tried])
+    if min(soon) >= as_suspected:
+        return suspect.fault, left
     best = tried[int(np.argmin(soon))]
     on = undone(best)
-    sharper = variance(on, refit(base, on)) - 1.0
-    return (best, sharper) if sharper < left else (doubt.fault, left)
+    finer = variance(on, refit(base, on)) - 1.0
+    return (best, finer) if finer < left else (suspect.fault, left)
 
 
 def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:

@@ -65,8 +65,9 @@ class Fault:
             lost = _moved(recording.missing.get(name, np.zeros(len(recording), dtype=bool)), self.delay)[:n]
             if lost.any():
                 missing[name] = lost
-        acting = recording.acting if set(moved) <= set(MEASURED) else None  # what was read off the input as it stood
-        return replace(recording, time=recording.time[:n], signals=signals, missing=missing, acting=acting)
+        # what was read off the input as it stood holds no longer where the input is moved
+        applied = recording.applied_input if set(moved) <= set(MEASURED) else None
+        return replace(recording, time=recording.time[:n], signals=signals, missing=missing, applied_input=applied)
 
     def in_layout(self, layout: Layout) -> Layout:
         """The layout of recordings that have it, where it is a delay."""

@@ -11,12 +11,12 @@ from rwn.faults.delay import (
     CLEAR,
     LITTLE,
     SLIGHT,
-    Suspicion,
-    believed,
+    SuspectedFault,
+    accepted,
     first_effects,
+    refined,
     removing,
     rivals,
-    sharpened,
     suspected,
     unexplained,
 )
@@ -31,7 +31,7 @@ from rwn.name.ranking import Ranking
 from rwn.recording.recording import Recording
 
 MOST_SCALES = 2  # wrong at a time
-MOST_SHARPENED = 3  # times that a delay is told more exactly, with what was found beneath it
+MOST_REFINEMENTS = 3  # times that a delay is told more exactly, with what was found beneath it
 WRONG = 0.01  # relative error of a gear ratio, from which what is beneath it is explained anew
 
 
@@ -44,7 +44,7 @@ class Rank(Protocol):
     ) -> Ranking: ...  # fmt: skip
 
 
-class Settled(NamedTuple):
+class FaultDecision(NamedTuple):
     """What came of a suspicion, with what was found on the way of the recordings without the fault, or as they are."""
 
     fault: Fault | None
@@ -52,11 +52,11 @@ class Settled(NamedTuple):
     physics: float = 0.0  # squared error above the noise that physics leaves with the fault in the recordings
 
 
-NO_FAULT = Settled(None, None)
+NO_FAULT = FaultDecision(None, None)
 
 
-class Followed(NamedTuple):
-    """A delay, what was found beneath it, and the squared error that is left (see `sharpened`)."""
+class RefinedDelay(NamedTuple):
+    """A delay, what was found beneath it, and the squared error that is left (see `refined`)."""
 
     fault: Fault
     beneath: Ranking
@@ -81,14 +81,14 @@ def resolved(
         return [], ranking(recordings)
     say("looking for faults in the recordings", 0.0)
     made, right = _scaled(recordings, model)
-    doubt = suspected(right, model)
+    suspect = suspected(right, model)
     say("refitting the nominal model", 0.05)
-    fault, singly, physics = _settled(doubt, right, model, ranking) if doubt else NO_FAULT
+    fault, singly, physics = _decided(suspect, right, model, ranking) if suspect else NO_FAULT
     if fault:
         right = without(right, fault)
     found = singly if singly and singly.complete else ranking(right, after=singly)
-    if doubt and fault:
-        made = [*made, removing(fault, doubt, left=unexplained(doubt, found), physics=physics)]
+    if suspect and fault:
+        made = [*made, removing(fault, suspect, left=unexplained(suspect, found), physics=physics)]
     gear = next((m for m in made if m.name == GEAR), None)
     if gear:
         return _geared(gear, made, recordings, model, found, ranking)
@@ -116,9 +116,9 @@ def _geared(
     return [*others, fitted], ranking(without(recordings, fitted))
 
 
-def _settled(
-    doubt: Suspicion, right: Sequence[Recording], model: Model, ranking: Rank
-) -> Settled:
+def _decided(
+    suspect: SuspectedFault, right: Sequence[Recording], model: Model, ranking: Rank
+) -> FaultDecision:
     """The suspected fault if it explains more, alone or beside one effect, than as many effects do by themselves.
 
     Or if all there is is explained beneath it, by however many. Where two effects explain all without it, only theirs
@@ -126,44 +126,44 @@ def _settled(
     or as they are; None where that is not known.
     """
     alone = ranking(right, 1)
-    physics = unexplained(doubt, alone)
-    if physics <= doubt.little:
-        return Settled(None, alone)
-    if doubt.after <= LITTLE:
-        told = believed(doubt, left=doubt.after, physics=physics, little=doubt.little)
-        return Settled(doubt.fault, None, physics) if told else Settled(None, alone)
+    physics = unexplained(suspect, alone)
+    if physics <= suspect.little:
+        return FaultDecision(None, alone)
+    if suspect.after <= LITTLE:
+        told = accepted(suspect, left=suspect.after, physics=physics, little=suspect.little)
+        return FaultDecision(suspect.fault, None, physics) if told else FaultDecision(None, alone)
     pairs = ranking(right, 2, names=rivals(alone), after=alone)
-    enough = unexplained(doubt, pairs) <= LITTLE
+    enough = unexplained(suspect, pairs) <= LITTLE
     names = first_effects(alone, pairs) if enough else None
-    fault, beneath, left, exact = _followed(doubt, right, model, ranking, names)
-    if not believed(doubt, left=left, physics=physics):
+    fault, beneath, left, exact = _refined(suspect, right, model, ranking, names)
+    if not accepted(suspect, left=left, physics=physics):
         if enough or not exact or left > BETTER * physics:
-            return Settled(None, pairs)
+            return FaultDecision(None, pairs)
         beneath = ranking(without(right, fault), after=beneath)
-        told = unexplained(doubt, beneath) <= LITTLE
-        return Settled(fault, beneath, unexplained(doubt, pairs)) if told else Settled(None, pairs)
-    if left > CLEAR * doubt.before:
+        told = unexplained(suspect, beneath) <= LITTLE
+        return FaultDecision(fault, beneath, unexplained(suspect, pairs)) if told else FaultDecision(None, pairs)
+    if left > CLEAR * suspect.before:
         if not enough:
             pairs = ranking(right, 2, names=rivals(alone, beneath), after=pairs)
-        if not believed(doubt, left=left, physics=unexplained(doubt, pairs)):
-            return Settled(None, pairs)
-    elif unexplained(doubt, pairs) < left + SLIGHT:
-        return Settled(None, pairs)
-    return Settled(fault, beneath if exact and not enough else None, unexplained(doubt, pairs))
+        if not accepted(suspect, left=left, physics=unexplained(suspect, pairs)):
+            return FaultDecision(None, pairs)
+    elif unexplained(suspect, pairs) < left + SLIGHT:
+        return FaultDecision(None, pairs)
+    return FaultDecision(fault, beneath if exact and not enough else None, unexplained(suspect, pairs))
 
 
-def _followed(
-    doubt: Suspicion, right: Sequence[Recording], model: Model, ranking: Rank, names: Sequence[str] | None
-) -> Followed:
+def _refined(
+    suspect: SuspectedFault, right: Sequence[Recording], model: Model, ranking: Rank, names: Sequence[str] | None
+) -> RefinedDelay:
     """The suspected delay, told again by what is found beneath it until that tells the same."""
-    fault = doubt.fault
-    for _ in range(MOST_SHARPENED):
+    fault = suspect.fault
+    for _ in range(MOST_REFINEMENTS):
         undone = fault
         beneath = ranking(without(right, undone), 1, names=names)
-        fault, left = sharpened(replace(doubt, fault=undone), right, model, beneath)
+        fault, left = refined(replace(suspect, fault=undone), right, model, beneath)
         if fault is undone or not affords_more(beneath.problem.work):
             break
-    return Followed(fault, beneath, left, fault is undone)
+    return RefinedDelay(fault, beneath, left, fault is undone)
 
 
 def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Fault], list[Recording]]:

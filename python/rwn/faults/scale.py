@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Fault, without
-from rwn.faults.likeness import FAR, Likeness
+from rwn.faults.similarity import FAR, Similarity
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
@@ -26,9 +26,9 @@ from rwn.simulate.run import Run
 Array = NDArray[np.float64]
 
 REMOVED = {UNIT: 0.85, SIGN: 0.85, GEAR: 0.95}  # share of the misfit that undoing has to remove; a gear bends nothing
-LEFT = 0.3  # misfit that it may leave; 0.3 is a correlation of 0.85
+LEFT = 0.3  # misfit that undoing may leave; 0.3 is a correlation of 0.85
 SAME = 0.05  # relative difference between a size and a unit's factor that nothing has to account for
-WIDEST = 0.3  # the same where the data sheet is poor and physics is missing
+WIDEST = 0.3  # relative difference from a unit's factor that a poor data sheet and missing physics make
 PLAIN = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
 GEARED = 2.0  # size from which a gear is believed: what slows a motor by so much does not leave its transients alike
 MOST_GEARED = 1e4  # four stages of ten to one: small motors have no gear beyond
@@ -60,11 +60,11 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
         return certain
     if model.drive.force:
         return _of_axis(recordings, model)
-    seen = _likeness(recordings, model)
+    seen = _similarity(recordings, model)
     if not any(one.far for one in seen.values()):
         return None
     best, least = None, np.inf
-    for fault in _doubted(seen, model):
+    for fault in _suspected(seen, model):
         if not all(seen[s].bettered(fault.factor) for s in fault.signals if s in seen):
             continue
         undone = _undone(fault, seen, recordings, model)
@@ -98,7 +98,7 @@ def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
     """Gear ratios too small to be plain, which physics might explain as well; of a motor alone."""
     if not model.drive.winding:
         return
-    seen = _likeness(recordings, model)
+    seen = _similarity(recordings, model)
     moving = tuple(s for s in MOTION if s in seen)
     ratio = _mean([seen[s] for s in moving]).ratio if moving else 1.0
     if abs(np.log(ratio)) > np.log(GEAR_LIKE):
@@ -106,15 +106,15 @@ def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
 
 
 def _undone(
-    fault: Fault, seen: Mapping[str, Likeness], recordings: Sequence[Recording], model: Model
+    fault: Fault, seen: Mapping[str, Similarity], recordings: Sequence[Recording], model: Model
 ) -> dict[str, float]:
     """Misfit of every signal without the fault."""
     if fault.signals == ("voltage",):
-        return {s: one.misfit(1.0) for s, one in _likeness(without(recordings, fault), model).items()}
+        return {s: one.misfit(1.0) for s, one in _similarity(without(recordings, fault), model).items()}
     return {s: one.misfit(fault.factor if s in fault.signals else 1.0) for s, one in seen.items()}
 
 
-def _likeness(recordings: Sequence[Recording], model: Model) -> dict[str, Likeness]:
+def _similarity(recordings: Sequence[Recording], model: Model) -> dict[str, Similarity]:
     """Of each recorded signal to its free run from the model as given; of a position by its slope, free of drift."""
     problem = prepare(recordings, model)
     given = problem.as_given()
@@ -124,14 +124,14 @@ def _likeness(recordings: Sequence[Recording], model: Model) -> dict[str, Likene
         for s in run.recorded:
             alike = (_slope(run), simulated["speed"]) if s == "position" else (run.signal(s), simulated[s])
             pairs.setdefault(s, []).append(alike)
-    return {s: Likeness.of(of, levelled=s in MOTION) for s, of in pairs.items()}
+    return {s: Similarity.of(of, levelled=s in MOTION) for s, of in pairs.items()}
 
 
 def _slope(run: Run) -> Array:
     return smooth(run.position, run.smoothing_length(), derivative=1, step=run.sample_time)
 
 
-def _doubted(seen: Mapping[str, Likeness], model: Model) -> Iterator[Fault]:
+def _suspected(seen: Mapping[str, Similarity], model: Model) -> Iterator[Fault]:
     """What may be wrong: each signal by itself, the motion as a whole, and the voltage, which all depend on."""
     moving = tuple(s for s in MOTION if s in seen)
     groups = dict.fromkeys([*((s,) for s in seen), moving])
@@ -142,15 +142,15 @@ def _doubted(seen: Mapping[str, Likeness], model: Model) -> Iterator[Fault]:
     yield from _in_units(("voltage",), THOUSANDS)
 
 
-def _mean(of: Sequence[Likeness]) -> Likeness:
+def _mean(of: Sequence[Similarity]) -> Similarity:
     """Geometric mean of the sizes."""
     sizes = np.log([(one.ratio, one.whole[0]) for one in of])
     ratio, whole = np.exp(np.mean(sizes, axis=0))
     alike, as_whole = np.mean([(one.correlation, one.whole[1]) for one in of], axis=0)
-    return Likeness(float(ratio), float(alike), (float(whole), float(as_whole)))
+    return Similarity(float(ratio), float(alike), (float(whole), float(as_whole)))
 
 
-def _scales(group: tuple[str, ...], seen: Likeness, model: Model, *, whole: bool) -> Iterator[Fault]:
+def _scales(group: tuple[str, ...], seen: Similarity, model: Model, *, whole: bool) -> Iterator[Fault]:
     """Sign and units of a group of signals that its size allows, and a gear ratio where it is all of the motion."""
     yield _turned(group)
     units = {f: text for f, text in _units(group, model).items() if _allowed(f, group, seen, model)}
@@ -205,7 +205,7 @@ def _units(group: tuple[str, ...], model: Model) -> dict[float, str]:
     return THOUSANDS
 
 
-def _allowed(factor: float, group: tuple[str, ...], seen: Likeness, model: Model) -> bool:
+def _allowed(factor: float, group: tuple[str, ...], seen: Similarity, model: Model) -> bool:
     """Whether what the data sheet and missing physics leave open makes a signal's size of a unit's factor.
 
     Missing physics slows a motor: where numbers are too large, it may be slower than its model by more than faster.
@@ -227,7 +227,7 @@ def _spread(model: Model) -> float:
     return float(model.uncertainty.get("back_emf_constant", 0.0))
 
 
-def _leeway(seen: Likeness, model: Model) -> float:
+def _leeway(seen: Similarity, model: Model) -> float:
     """Relative difference from a unit's factor that the data sheet and missing physics, by what it bends, may make."""
     missing = max(1.0 - seen.correlation**2, 0.0)
     return float(np.clip(2.0 * np.sqrt(_spread(model) ** 2 + missing), SAME, WIDEST))
@@ -238,7 +238,7 @@ def _leeway(seen: Likeness, model: Model) -> float:
 
 def _of_axis(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """The same from the driving force against what the motion takes."""
-    seen = _force_likeness(recordings, model)
+    seen = _force_similarity(recordings, model)
     if abs(seen.correlation) < LEAST_FORCE or (seen.correlation > 0.0 and abs(np.log(seen.ratio)) < np.log(2.0 * FAR)):
         return None
     before = relative_error(recordings, model)
@@ -257,7 +257,7 @@ def _any_scale(group: tuple[str, ...], model: Model) -> Iterator[Fault]:
     yield from _in_units(group, _units(group, model))
 
 
-def _force_likeness(recordings: Sequence[Recording], model: Model) -> Likeness:
+def _force_similarity(recordings: Sequence[Recording], model: Model) -> Similarity:
     problem = prepare(recordings, model)
     vector = problem.as_given().vector
     pairs = []
@@ -265,7 +265,7 @@ def _force_likeness(recordings: Sequence[Recording], model: Model) -> Likeness:
         speed, acceleration = run.motion()
         takes = vector[motor_index("inertia")] * acceleration + vector[motor_index("viscous_friction")] * speed
         pairs.append((run.input, takes))
-    return Likeness.of(pairs)
+    return Similarity.of(pairs)
 
 
 def relative_error(recordings: Sequence[Recording], model: Model) -> float:

@@ -29,7 +29,7 @@ def unrounded_fits(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Pro
     model could follow.
     """
     best = min([nominal, *fits], key=lambda f: f.cost)
-    shown = as_shown(problem)
+    shown = as_recorded(problem)
     residuals = shown.residuals(best.vector, best.active)
     steps = coarse_steps(shown, residuals)
     if not steps:
@@ -44,18 +44,18 @@ def unrounded_fits(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Pro
     def on_average(pair: tuple[Fit, float]) -> tuple[Fit, Problem]:
         return _to_the_mean(pair[0], shown, steps, noises, share=pair[1])
 
-    settled = side_by_side(on_average, zip(these, shares, strict=True))
-    _, on = min(settled, key=lambda pair: pair[0].cost)
-    return on, settled[0][0], sorted((f for f, _ in settled[1:]), key=lambda f: f.cost)
+    refitted = side_by_side(on_average, zip(these, shares, strict=True))
+    _, on = min(refitted, key=lambda pair: pair[0].cost)
+    return on, refitted[0][0], sorted((f for f, _ in refitted[1:]), key=lambda f: f.cost)
 
 
-def steps_shown(problem: Problem, best: Fit) -> tuple[float, ...]:
+def recorded_steps(problem: Problem, best: Fit) -> tuple[float, ...]:
     """The step of the speed of each run; empty where the speed is not coarse in all of them."""
-    raw = as_shown(problem)
+    raw = as_recorded(problem)
     return tuple(coarse_steps(raw, raw.residuals(best.vector, best.active)))
 
 
-def as_shown(problem: Problem) -> Problem:
+def as_recorded(problem: Problem) -> Problem:
     """`problem` with the speeds as they were recorded."""
     speeds = (r.speed for r in problem.whole)
     runs = tuple(replace(r, speed=s) for r, s in zip(problem.runs, speeds, strict=True))
@@ -63,7 +63,10 @@ def as_shown(problem: Problem) -> Problem:
 
 
 def coarse_steps(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[float]:
-    """The step of the speed signal of each run; empty where it is not coarse in all of them."""
+    """The step of the speed signal of each run; empty where it is not coarse in all of them.
+
+    `residuals`: of each run, by signal, (n,).
+    """
     steps = [
         speed_resolution(r, left["speed"]) if "speed" in left else 0.0
         for r, left in zip(problem.runs, residuals, strict=True)
@@ -72,14 +75,14 @@ def coarse_steps(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> 
 
 
 def speed_resolution(run: Run, residual: Array) -> float:
-    """The step of a speed signal that a coarse converter rounds, where that is much of the residual; else 0."""
+    """The step of a speed signal that a coarse converter rounds, where that is much of the residual (n,); else 0."""
     step = 0.0 if run.speed_measured.is_difference else quantum(run.measured("speed"))
     share = step**2 / 12.0 / max(float(np.nanmean(residual**2)), 1e-300)
     return step if share > COARSE else 0.0
 
 
 def noise_before_rounding(run: Run, residual: Array, step: float) -> float:
-    """The noise before the rounding of a coarse speed, in steps: the one that leaves least of a residual."""
+    """The noise before the rounding of a coarse speed, in steps: the one that leaves least of a residual (n,)."""
     left = [float(np.nanmean((residual - _mean_error(run, residual, step, n)) ** 2)) for n in NOISES]
     return NOISES[int(np.argmin(left))]
 
@@ -91,7 +94,7 @@ def unrounded(run: Run, residual: Array, step: float, noise: float) -> Run:
 
     Args:
         run: one whose speed is coarse.
-        residual: shape (n), shown minus simulated speed, rad/s.
+        residual: (n,), shown minus simulated speed, rad/s.
         step: of the shown speed, rad/s.
         noise: standard deviation before the rounding, in steps.
     """

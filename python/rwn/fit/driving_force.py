@@ -96,7 +96,7 @@ class DrivingForceProblem(Problem):
         return replace(self, runs=tuple(map(balanced, runs)))
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
-        """Recorded minus needed driving force per run; 0 where it is not compared."""
+        """Recorded minus needed driving force (n,) per run; 0 where it is not compared."""
 
         def one(run: Run) -> dict[str, Array]:
             assert isinstance(run, BalancedRun)
@@ -107,7 +107,7 @@ class DrivingForceProblem(Problem):
         return side_by_side(one, self.runs)
 
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
-        """Normal equations of one run, its derivatives by central differences: the balance is algebraic."""
+        """Normal equations (p,) of one run, derivatives by central differences: the balance is algebraic."""
         assert isinstance(run, BalancedRun)
         compared = ~run.not_compared(DRIVING_FORCE)
         with np.errstate(over="ignore", invalid="ignore"):  # a law that leaves the range of numbers is not finite

@@ -44,7 +44,7 @@ class Fit:
 
     @property
     def vector(self) -> Array:
-        """The whole parameter vector at the minimum."""
+        """The whole parameter vector (all,) at the minimum."""
         return self.hypothesis.with_values(self.minimum.values)
 
     @property

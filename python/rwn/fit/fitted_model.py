@@ -12,6 +12,8 @@ from rwn.fit.intervals import Estimate
 from rwn.model.model import Model
 from rwn.model.vocabulary import Parameter, motor_index
 
+VAGUE = 1.0  # relative standard deviation above which an interval leaves open as much as the value
+
 
 def fitted_model(this: Fit, model: Model) -> Model:
     """`model` with the fitted parameters and effects: what corrected.toml holds."""
@@ -36,7 +38,7 @@ def fitted_model(this: Fit, model: Model) -> Model:
     return replace(model, parameters=parameters, effects=effects, uncertainty=uncertainty)
 
 
-def with_doubt(model: Model, found: Mapping[str, Estimate]) -> Model:
+def with_uncertainty(model: Model, found: Mapping[str, Estimate]) -> Model:
     """`model` with what the intervals say of the parameters of effects of which nothing was declared.
 
     Deviations are relative, of angles in radians; infinite where an interval leaves open as much as the value.
@@ -61,4 +63,4 @@ def _deviation(p: Parameter, value: float, interval: tuple[float, float] | None)
         std = float(np.log(max(high / value, value / low))) / 1.96
     else:
         std = max(high - value, value - low) / (1.96 * abs(value))
-    return std if std <= 1.0 else np.inf
+    return std if std <= VAGUE else np.inf

@@ -41,17 +41,17 @@ class Hypothesis:
 
     @property
     def start(self) -> Array:
-        """Starting values of the unknowns."""
+        """Starting values (p,) of the unknowns."""
         return self.vector[self.by]
 
     def with_values(self, values: Array) -> Array:
-        """The whole parameter vector with the unknowns at `values`."""
+        """The whole parameter vector (all,) with the unknowns at `values` (p,)."""
         vector = self.vector.copy()
         vector[self.by] = values
         return vector
 
     def starting_at(self, values: Array) -> Hypothesis:
-        """The same hypothesis from another start."""
+        """The same hypothesis from another start (p,)."""
         return replace(self, vector=self.with_values(values))
 
 

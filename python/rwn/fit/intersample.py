@@ -13,8 +13,8 @@ from rwn.fit.likelihood import DECISIVE, log_likelihood
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import LEVEL, accuracy_lost
+from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
-from rwn.model.start import CERTAIN
 from rwn.parallel import side_by_side
 from rwn.recording.clock import clock_of
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
@@ -43,7 +43,7 @@ def likeliest(problem: Problem, this: Fit) -> str:
     so one that simulates the recordings certainly worse, from their input alone, is not taken.
     """
     under = {law: _under(problem, law) for law in INTERSAMPLE}
-    told = {law: p for law, p in under.items() if law == HELD or any(r.acting is not None for r in p.runs)}
+    told = {law: p for law, p in under.items() if law == HELD or any(r.applied_input is not None for r in p.runs)}
     fits = side_by_side(lambda p: refit(this, p, iterations=ITERATIONS), told.values())
     refitted = dict(zip(told, fits, strict=True))
     scores = {law: log_likelihood(told[law], refitted[law]) for law in told}

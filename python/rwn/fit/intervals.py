@@ -14,7 +14,7 @@ from rwn.fit.secant import nonsmooth_unknowns
 Array = NDArray[np.float64]
 
 AGREEMENT = 1e-3  # relative standard deviation that stays when the noise is averaged out
-IDEALISED = 4e-3  # the same for effects whose law idealises a contact
+IDEALISED = 4e-3  # relative standard deviation that stays for effects whose law idealises a contact
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +27,7 @@ class Estimate:
 
 
 def deviations(this: Fit, left: Statistics) -> Array:
-    """Standard deviations (p) of the unknowns: white-noise covariance widened by the residual's variance and colour."""
+    """Standard deviations (p,) of the unknowns: white-noise covariance widened by the residual's size and colour."""
     minimum = this.minimum
     information = minimum.data_information / (max(left.variance, 1.0) * left.correlation_time)
     information = information + (minimum.information - minimum.data_information)

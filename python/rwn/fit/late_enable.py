@@ -18,8 +18,8 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import nominal_of
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.model.initial_state import CERTAIN, resolution
 from rwn.model.model import Model
-from rwn.model.start import CERTAIN, resolution
 from rwn.recording.recording import Recording
 from rwn.simulate.run import Run, run_of
 

@@ -72,11 +72,11 @@ class Minimum:
     values: Array  # (p)
     chi2: float  # sum of squared weighted errors, priors aside
     cost: float  # chi2 and priors
-    first: float  # the same at the start
+    first: float  # cost at the start
     information: (
         Array  # (p, p) J'J and priors by value: the inverse covariance for white residuals of variance 1
     )
-    data_information: Array  # (p, p) the same without priors
+    data_information: Array  # (p, p) J'J without priors
     status: FitStatus
     iterations: int
     damping: float = DAMPING  # of the last step, or that the next one wants
@@ -171,7 +171,7 @@ def minimise(
     doubt: int = 1,
     enough: Callable[[], bool] | None = None,
 ) -> Minimum:
-    """Levenberg-Marquardt (Nielsen's damping) from `start` (p values) within the unknowns' bounds.
+    """Levenberg-Marquardt (Nielsen's damping) from `start` (p,) within the unknowns' bounds.
 
     Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: what
     priors are multiplied by: the independent samples that a coloured residual is short of. `probe` gives the error

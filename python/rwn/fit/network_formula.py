@@ -101,7 +101,10 @@ def _scale_of(problem: Problem, place: Place) -> tuple[OwnParameter, ...]:
 
 
 def nominal_share(problem: Problem, model: Model, place: Place, weights: Array) -> float:
-    """What of the network the nominal term of the same state could do, per unit of the state; 0: that term is exact."""
+    """What of the network the nominal term of the same state could do, per unit of the state; 0: that term is exact.
+
+    `weights`: (wavelets,).
+    """
     if model.uncertainty.get(place.nominal, 0.0) == 0.0:
         return 0.0
     states = states_of(problem, place)
@@ -109,7 +112,7 @@ def nominal_share(problem: Problem, model: Model, place: Place, weights: Array) 
 
 
 def as_effect(problem: Problem, model: Model, place: Place, weights: Array, *, share: float) -> OwnEffect:
-    """Amplitude times a sum of wavelets or harmonics, without `share` times the state."""
+    """Amplitude times a sum of wavelets of `weights` (wavelets,), without `share` times the state."""
     states, scale = states_of(problem, place), _scale_of(problem, place)
     curve = _curve(problem, place, weights, states) - share * states
     size = max(float(np.sqrt(2.0 * np.mean(curve**2))), 1e-9 * size_of(problem, place))

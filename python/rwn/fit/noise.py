@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import join
-from rwn.recording.noise import Noise, rough_noise
+from rwn.recording.noise import Noise, noise_from_differences
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -21,7 +21,7 @@ DRIFT = 1.0  # most that the error of a drifting position may weigh against that
 
 
 def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> dict[str, Noise]:
-    """The measurement noise of each signal.
+    """The measurement noise of each signal; `residuals`: (n,) of each run, by signal.
 
     Encoder counts, and a speed that is their difference: of their quantisation. Else what is left of second
     differences, robustly: a model error is smooth against the sample time, so it falls out, and a few sharp instants
@@ -72,6 +72,6 @@ def _coloured(
 
 
 def _noise(residual: Array) -> float:
-    spread = rough_noise(residual)
+    spread = noise_from_differences(residual)
     rms = float(np.sqrt(np.nanmean(residual**2)))
     return min(spread, rms) if spread > 0.0 else rms

@@ -69,15 +69,15 @@ class Problem:
         return hypothesis(self.prior, (), self.scales)
 
     def started(self, run: Run, vector: Array, active: Sequence[int]) -> Array:  # noqa: ARG002
-        """The parameter vector with the start of this run filled in."""
+        """The parameter vector (all,) with the start of this run filled in."""
         return self.simulator.started(run, vector)
 
     def simulate(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:
-        """One run, with derivatives by the parameters `by`."""
+        """One run: signals (n,), with derivatives (n, p) by the parameters `by`."""
         return self.simulator.simulate(run, self.started(run, vector, active), active, by)
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
-        """Recorded minus simulated per run and signal, unweighted; 0 where they are not compared."""
+        """Recorded minus simulated (n,) per run and signal, unweighted; 0 where they are not compared."""
 
         def one(run: Run) -> dict[str, Array]:
             out = self.simulate(run, vector, active).signals
@@ -89,11 +89,11 @@ class Problem:
         return side_by_side(one, self.runs)
 
     def error(self, vector: Array, active: Sequence[int]) -> float:
-        """Weighted squared error; infinite where a run diverged."""
+        """Weighted squared error at a parameter vector (all,); infinite where a run diverged."""
         return self.normal(vector, active, ()).chi2
 
     def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
-        """Normal equations by the parameters `by`, summed over the runs."""
+        """Normal equations (p, p), (p,) by the parameters `by`, summed over the runs."""
         chi2, count, gradient, curvature = 0.0, 0, np.zeros(len(by)), np.zeros((len(by), len(by)))
         for one in side_by_side(lambda r: self.normal_of(r, vector, active, by), self.runs):
             if not one.finite or not np.isfinite(one.curvature).all():
@@ -105,7 +105,7 @@ class Problem:
         return CountedNormal(chi2=chi2, gradient=gradient, curvature=curvature, count=count)
 
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
-        """Normal equations of one run, of what is unknown of it alone at its place in `by`."""
+        """Normal equations (p, p), (p,) of one run, of what is unknown of it alone at its place in `by`."""
         core = _core.parameter_count()
         adds_to = dict(run.own)
         here = [adds_to.get(k, k) for k in by]  # what is unknown of other runs changes nothing here
@@ -123,7 +123,7 @@ class Problem:
         )
 
     def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
-        """Normal equations of one run whose start is part of `vector`."""
+        """Normal equations (p, p), (p,) of one run whose start is part of `vector` (all,)."""
         found = self.simulator.normal_equations(run, vector, active, by, noise=self.noise)
         return CountedNormal(
             chi2=found.chi2, gradient=found.gradient, curvature=found.curvature, count=found.count,

@@ -44,7 +44,7 @@ class Statistics:
 
 
 def correlation_time(x: Array) -> float:
-    """Integrated autocorrelation time 1 + 2 sum rho_k in samples (Sokal's window of 5 times itself), at least 1."""
+    """Integrated autocorrelation time 1 + 2 sum rho_k of x (n,), in samples, at least 1 (Sokal's window)."""
     x = x[np.isfinite(x)] - np.nanmean(x)
     n = x.size
     if n < 8 or not np.any(x):
@@ -57,7 +57,7 @@ def correlation_time(x: Array) -> float:
 
 
 def coloured_share(x: Array, blocks: Sequence[int] = (8, 32, 128)) -> float:
-    """Largest of m var(mean of m samples) / var(x) over block lengths m: 1 for white noise."""
+    """Largest of m var(mean of m samples) / var(x) of x (n,) over block lengths m: 1 for white noise."""
     x = x[np.isfinite(x)]
     variance = float(np.mean(x**2))
     found = [1.0]
@@ -69,7 +69,7 @@ def coloured_share(x: Array, blocks: Sequence[int] = (8, 32, 128)) -> float:
 
 
 def ringing_share(x: Array, length: int = 32) -> float:
-    """Largest density of the spectrum (Welch, segments of `length` samples) against its mean: 1 for white noise.
+    """Largest spectral density of x (n,) (Welch, segments of `length` samples) against its mean: 1 for white noise.
 
     A shaft that swings leaves means of zero, which `coloured_share` takes for noise.
     """
@@ -85,7 +85,7 @@ def ringing_share(x: Array, length: int = 32) -> float:
 def structured(joined: Mapping[str, Array]) -> tuple[str, ...]:
     """The signals whose errors are not white: Bartlett's test of the cumulative periodogram at LEVEL, over all of them.
 
-    White noise is found to have structure in one case of 1 / LEVEL, whatever the number of samples.
+    White noise is found to have structure in one case of 1 / LEVEL, whatever the number of samples (n,).
     """
     limit = np.sqrt(-0.5 * np.log(0.5 * LEVEL / max(len(joined), 1)))  # Kolmogorov, Smirnov
     return tuple(s for s, errors in joined.items() if _distance_from_white(errors) > limit)
@@ -152,7 +152,7 @@ def _losses(problem: Problem, this: Fit) -> Array:
 
 
 def statistics_of(joined: Mapping[str, Array]) -> Statistics:
-    """Statistics of weighted residuals by signal."""
+    """Statistics of weighted residuals (n,) by signal."""
     energies, count = _energies(joined), _count(joined)
     whole = sum(energies.values())
     correlated = sum(energies[s] * correlation_time(r) for s, r in joined.items())
@@ -174,7 +174,7 @@ def _count(joined: Mapping[str, Array]) -> int:
 
 
 def join(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> dict[str, Array]:
-    """What is new in the residuals of each signal, in units of its noise, recordings end to end.
+    """What is new in the residuals (n,) of each signal, in units of its noise, recordings end to end.
 
     NaN where nothing is compared.
     """

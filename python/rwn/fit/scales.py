@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 def scales(
     drive: Drive, motor: Array, runs: Sequence[Run], outputs: Sequence[dict[str, Array]]
 ) -> dict[str, float]:
-    """Value (SI) of each quantity of `Scale`: from the motor's parameter vector, the runs, their nominal simulation."""
+    """Value (SI) of each quantity of `Scale`: from the motor's parameters (all,), runs and nominal outputs (n,)."""
     inertia = motor[motor_index("inertia")]
     step = float(np.median(np.concatenate([np.diff(r.time) for r in runs])))
     given = max(_peak(r.input) for r in runs)

@@ -22,7 +22,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
-from rwn.recording.noise import Noise, rough_noise
+from rwn.recording.noise import Noise, noise_from_differences
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -93,7 +93,10 @@ def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
 
 
 def coloured_signals(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[SensorFilter]:
-    """The signals whose noise looks as if it had passed a filter, with the filter that would have done it."""
+    """The signals whose noise looks as if it had passed a filter, with the filter that would have done it.
+
+    `residuals`: (n,) of each run, by signal.
+    """
     found = []
     for signal, lag in LAGS.items():
         parts = [(run, left[signal]) for run, left in zip(problem.runs, residuals, strict=True) if signal in left]
@@ -221,7 +224,7 @@ def _tells(run: Run, signal: str, residual: Array) -> bool:
     """Whether its noise is a sensor's: not that of counts or their difference, and larger than its steps."""
     if signal == "speed" and run.speed_measured.is_difference:
         return False
-    return rough_noise(residual) > 2.0 * run.quantisation(signal)
+    return noise_from_differences(residual) > 2.0 * run.quantisation(signal)
 
 
 def _share(residuals: Sequence[Array]) -> float:
@@ -242,7 +245,7 @@ def _nothing_else(problem: Problem, residuals: Sequence[Mapping[str, Array]], se
     parts = [run.masked(seen.signal, r[seen.signal]) for run, r in zip(problem.runs, residuals, strict=True)
              if seen.signal in r]  # fmt: skip
     fresh = [x[1:] - seen.share * x[:-1] for x in parts]
-    loud = max(float(np.nanmean(x**2)) / max(rough_noise(x) ** 2, 1e-300) for x in fresh)
+    loud = max(float(np.nanmean(x**2)) / max(noise_from_differences(x) ** 2, 1e-300) for x in fresh)
     return loud < NOTHING_ELSE
 
 

@@ -39,7 +39,7 @@ class TransferFunctionProblem(Problem):
         return self.simulator.order
 
     def started(self, run: Run, vector: Array, active: Sequence[int]) -> Array:
-        """The parameter vector with the initial state of this run filled in."""
+        """The parameter vector (all,) with the initial state of this run filled in."""
         if self.at_rest:
             return vector
         starts, prior = None, None
@@ -50,7 +50,7 @@ class TransferFunctionProblem(Problem):
         )
 
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
-        """Normal equations of one run, its initial state eliminated (Schur complement at its optimum)."""
+        """Normal equations (p, p), (p,) of one run, its initial state eliminated (Schur complement at its optimum)."""
         if self.at_rest:
             return self.normal_at(run, vector, active, by)
         own = self.started(run, vector, active)

@@ -19,7 +19,7 @@ from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
-from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE, Acting
+from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE, PiecewiseInput
 from rwn.recording.recording import Recording
 from rwn.recording.speed_measurement import SpeedMeasurement
 from rwn.simulate.run import Run
@@ -43,18 +43,19 @@ def with_unrecorded_input(recordings: Sequence[Recording], model: Model) -> list
     law = model.recording.intersample
     if law in (AUTO, HELD) or model.drive.coefficients:
         return list(recordings)
-    acting = [INTERSAMPLE[law].acting(r.time - r.time[0], np.asarray(r.signals[model.drive.input])) for r in recordings]
-    made = [replace(r, acting=a) for r, a in zip(recordings, acting, strict=True)]
+    between = INTERSAMPLE[law].applied
+    applied = [between(r.time - r.time[0], np.asarray(r.signals[model.drive.input])) for r in recordings]
+    made = [replace(r, applied_input=a) for r, a in zip(recordings, applied, strict=True)]
     for _ in range(ROUNDS):
         problem, this = nominal_of(made, model)
         left = problem.residuals(this.vector, this.active)
-        for k, (run, given) in enumerate(zip(problem.runs, acting, strict=True)):
+        for k, (run, given) in enumerate(zip(problem.runs, applied, strict=True)):
             if given is not None and given.spread.any() and not run.restart_every:
-                made[k] = replace(made[k], acting=_told(problem, this, run, left[k], given))
+                made[k] = replace(made[k], applied_input=_told(problem, this, run, left[k], given))
     return made
 
 
-def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], given: Acting) -> Acting:
+def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], given: PiecewiseInput) -> PiecewiseInput:
     """`given` with its unknown values as the errors `left` of a simulation under those of `run` tell."""
     from scipy.signal import lfilter  # late: the command line starts without it
     from scipy.sparse import diags_array, vstack
@@ -64,7 +65,7 @@ def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], give
     first = np.flatnonzero(unknown & ~np.concatenate([[False], unknown[:-1]]))
     after = np.flatnonzero(~unknown & np.concatenate([[False], unknown[:-1]]))
     ends = np.append(given.instants[after], run.time[-1])[: first.size]
-    assumed = given if run.acting is None else run.acting
+    assumed = given if run.applied_input is None else run.applied_input
     before = (assumed.values - given.values)[first]  # what the errors have been told already
     responses, errors = [], []
     for signal, error in left.items():

@@ -81,12 +81,15 @@ def _error(problem: Problem, this: Fit, unknown: Sequence[UnknownInputs]) -> _Er
             parts.append(lfilter([0.0, b], [1.0, -a], part, axis=0))
         return np.concatenate(parts)
 
-    value = states["torque"]
+    value, current = states["torque"], states["current"]
     if by_filter:
         residuals = problem.residuals(this.vector, this.active)
         value = np.concatenate([_means(r["speed"], thin) for r in residuals])
+        # the recorded current drives the unknown torque too: beside it nothing of that would be left
+        simulated = (problem.simulate(r, this.vector, this.active).signals["current"] for r in problem.runs)
+        current = np.concatenate([_means(i, thin) for i in simulated])
     speed = states["speed"]
-    regressors = [speed, np.sign(speed), states["acceleration"], states["current"], np.ones(speed.size)]
+    regressors = [speed, np.sign(speed), states["acceleration"], current, np.ones(speed.size)]
     return _Error(states=states, value=value, answer=answer, nominal=answer(np.stack(regressors, axis=1)))
 
 

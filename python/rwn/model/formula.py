@@ -169,7 +169,7 @@ def _call(
 
 
 def check_units(expression: Expression, names: Mapping[str, str], unit: str, *, where: object) -> None:
-    """Refuse a formula whose units do not work out to `unit`: metres plus seconds, a sine of volts."""
+    """Raises InputError where a formula is not in `unit`, or its units clash: metres plus seconds, a sine of volts."""
     values = {name: units.sample(names[name], 1.1 + 0.3 * k) for k, name in enumerate(expression.names)}
     try:
         result = expression.evaluate(values)

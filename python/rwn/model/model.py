@@ -33,18 +33,22 @@ class EffectParameter(Protocol):
     """What is read of one parameter of an effect."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Its name."""
     @property
-    def unit(self) -> str: ...
+    def unit(self) -> str:
+        """Its SI unit."""
     @property
-    def fixed(self) -> bool: ...
+    def fixed(self) -> bool:
+        """Whether it is a constant, never fitted."""
 
 
 class EffectEntry(Protocol):
     """What is read of one effect of the table."""
 
     @property
-    def parameters(self) -> tuple[Any, ...]: ...  # of EffectParameter
+    def parameters(self) -> tuple[Any, ...]:
+        """Each an EffectParameter."""
 
 
 EffectTable = Mapping[str, EffectEntry]

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from rwn.errors import InputError
+from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
-from rwn.model.start import start_of
 from rwn.recording.check import MIN_SAMPLES, SMALLEST, check_samples
 from rwn.recording.copies import is_piece
 from rwn.recording.recording import Recording, read_recording
@@ -69,7 +69,7 @@ def _check_movement(recording: Recording, model: Model, where: str) -> tuple[str
     values = recording.signals[drive.input]
     if np.ptp(values) > 0.0:
         return ()
-    if abs(values[0]) < SMALLEST and not start_of(recording.time, recording.signals, model).in_motion:
+    if abs(values[0]) < SMALLEST and not initial_state_of(recording.time, recording.signals, model).in_motion:
         raise InputError(
             f"'{drive.input}' is zero throughout, from rest",
             where=where,

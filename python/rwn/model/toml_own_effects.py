@@ -12,6 +12,8 @@ from rwn.model.own_effects import OwnEffect, OwnParameter
 
 
 class ParameterEntry(msgspec.Struct, forbid_unknown_fields=True):
+    """A table under `effects.NAME.parameters`."""
+
     unit: str
     lower: float
     upper: float

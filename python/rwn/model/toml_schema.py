@@ -17,12 +17,16 @@ Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 
 
 class ColumnEntry(msgspec.Struct, forbid_unknown_fields=True):
+    """A table under `recording.columns`."""
+
     source: str | None = None  # the column of the signal's name
     unit: str | None = None
     scale: Number = 1.0
 
 
 class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
+    """The table `[recording]`."""
+
     columns: dict[str, ColumnEntry] = {}
     sample_time: Number | None = None
     initial: Initial = "auto"
@@ -38,10 +42,14 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class LoadTable(msgspec.Struct, forbid_unknown_fields=True):
+    """The table `[load]`."""
+
     pendulum: dict[str, Number] | None = None
 
 
 class File(msgspec.Struct, forbid_unknown_fields=True):
+    """A model file."""
+
     motor: dict[str, Any]
     uncertainty: dict[str, Number | dict[str, Number]] = {}  # of the motor, and of its effects by name
     effects: dict[str, dict[str, Number]] = {}
@@ -51,6 +59,7 @@ class File(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def decode(text: str, where: str) -> File:
+    """The tables of a model file. Raises InputError where it is no TOML or has others."""
     try:
         plain = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

@@ -10,7 +10,7 @@ import numpy as np
 
 from rwn.fit.angle import along_the_simulated_angle
 from rwn.fit.budget import affords_more, one_stage
-from rwn.fit.coarse_speed import as_shown, steps_shown, unrounded_fits
+from rwn.fit.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
 from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
 from rwn.fit.noise import with_noise_of
@@ -97,7 +97,7 @@ def rank(
         counted=counted,
         alone=alone,
         pairs=grown.pairs,
-        speed_steps=steps_shown(problem, best),
+        speed_steps=recorded_steps(problem, best),
         complete=names is None and (grown.complete or at_once >= MOST_EFFECTS),
         cut_short=0 if left.at_the_floor else grown.cut_short,
         at_a_limit=tuple(f for f in at_a_limit if f.cost < best.cost),
@@ -172,7 +172,7 @@ def _made_of(this: Fit, wanted: Sequence[str]) -> bool:
 
 def _under_own_noise(problem: Problem, nominal: Fit, fits: list[Fit]) -> SameNoise:
     """The fits under the noise, along the angle and to the speed that the best of them makes probable."""
-    problem, nominal, fits = _reweighted(as_shown(problem), nominal, fits)
+    problem, nominal, fits = _reweighted(as_recorded(problem), nominal, fits)
     problem, nominal, fits = along_the_simulated_angle(problem, nominal, fits)
     fits = all_down_secants(problem, nominal, fits)
     return SameNoise(*unrounded_fits(problem, nominal, fits))

@@ -18,8 +18,8 @@ from rwn.name.initial_guesses.guesses import initial_guesses
 KEPT_UNFITTED = 4  # starts kept of an effect whose derivatives mislead far from the minimum
 KEPT_OF_AN_ORDER = 2  # starts kept of each order of a periodic effect
 SAME_END = 1.0  # two starts have reached the same minimum within this squared distance, in units of its variance
-LIGHTER = 1.0 / 3.0  # of the inertia, in a start beside which a delay or a lag may take the place of the rest
-BENT = 0.5  # declared deviations by which a parameter may move while the motor counts as the one given
+REDUCED_INERTIA = 1.0 / 3.0  # of the inertia, in a start beside which a delay or a lag may take the place of the rest
+MOVED = 0.5  # declared deviations by which a parameter may move while the motor counts as the one given
 
 
 class Start(NamedTuple):
@@ -61,9 +61,9 @@ def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start
     effect = problem.prior.table[name]
     periodic = next((p.name for p in effect.parameters if p.order), "")
     known = base.starts(base.added)
-    motors = [base.motor, *([{}] if _bent(base) else []), *problem.prior.starts]
+    motors = [base.motor, *([{}] if _moved(base) else []), *problem.prior.starts]
     if effect.at_an_end:
-        motors += _lighter(base)
+        motors += _with_less_inertia(base)
     return [
         Start(
             name,
@@ -76,20 +76,20 @@ def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start
     ]
 
 
-def _bent(base: Fit) -> bool:
+def _moved(base: Fit) -> bool:
     """Whether a fit has moved the motor so far that what is missing may have bent it: then its start is worth a try."""
     return any(
-        u.prior is not None and u.prior > 0.0 and abs(v - u.prior) > BENT * u.prior_std * u.prior
+        u.prior is not None and u.prior > 0.0 and abs(v - u.prior) > MOVED * u.prior_std * u.prior
         for u, v in zip(base.hypothesis.unknowns, base.minimum.values, strict=True)
     )
 
 
-def _lighter(base: Fit) -> list[dict[str, float]]:
+def _with_less_inertia(base: Fit) -> list[dict[str, float]]:
     """The motor with less inertia: what is late at its ends may be in it, and beside that no delay fits."""
     uncertain = {u.name for u in base.hypothesis.unknowns}
     if "inertia" not in uncertain:
         return []
-    return [{**base.motor, "inertia": LIGHTER * base.motor["inertia"]}]
+    return [{**base.motor, "inertia": REDUCED_INERTIA * base.motor["inertia"]}]
 
 
 def derivatives_mislead(start: Start) -> bool:

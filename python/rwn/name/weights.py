@@ -11,7 +11,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 
 MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it counts for
-EXACT = 1000.0  # the same of one that is noise alone: a simulation is exact to about 0.1 % of the squared error
+EXACT = 1000.0  # most that noise alone counts for: a simulation is exact to about 0.1 % of the squared error
 
 
 @dataclass(frozen=True, kw_only=True)

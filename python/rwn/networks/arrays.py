@@ -11,7 +11,7 @@ Array: TypeAlias = NDArray[np.float64]
 
 
 def as_float_array(name: str, values: ArrayLike, ndim: int) -> Array:
-    """Contiguous float64 copy or view of `values`.
+    """Contiguous float64 copy or view of `values`, elementwise the same.
 
     Raises ValueError, naming `name`, if they are not real numbers, not finite, or not of `ndim` dimensions.
     """
@@ -34,7 +34,10 @@ def as_patterns(name: str, values: ArrayLike) -> Array:
 
 
 def as_pairs(x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
-    """Inputs (patterns, inputs) and wanted outputs (patterns, outputs) of the same number of patterns."""
+    """Inputs (patterns, inputs) and wanted outputs (patterns, outputs) of the same number of patterns.
+
+    Raises ValueError where the numbers of patterns differ.
+    """
     xs, ys = as_patterns("x", x), as_patterns("y", y)
     if len(xs) != len(ys) or len(xs) == 0:
         raise ValueError(
@@ -44,6 +47,6 @@ def as_pairs(x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
 
 
 def read_only(array: Array) -> Array:
-    """The same array, protected against writing."""
+    """The same array, elementwise, protected against writing."""
     array.flags.writeable = False
     return array

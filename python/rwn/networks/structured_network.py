@@ -163,7 +163,7 @@ class StructuredNetwork:
 
 
 def as_signals(voltage: ArrayLike, speed: ArrayLike) -> tuple[Array, Array]:
-    """Voltage and speed of one recording, checked to be of one length of at least 2 samples."""
+    """Voltage (n,) [V] and speed (n,) [rad/s] of one recording. Raises ValueError unless n is one and at least 2."""
     u, y = as_float_array("voltage", voltage, 1), as_float_array("speed", speed, 1)
     if len(u) != len(y) or len(y) < 2:
         raise ValueError(
@@ -173,7 +173,7 @@ def as_signals(voltage: ArrayLike, speed: ArrayLike) -> tuple[Array, Array]:
 
 
 def as_start(start: ArrayLike) -> Array:
-    """State [speed, current] at the first sample."""
+    """State (2,) at the first sample: speed [rad/s], current [A]. Raises ValueError for another shape."""
     state = as_float_array("start", start, 1)
     if len(state) != 2:
         raise ValueError(f"start must be [speed, current], got {len(state)} entries")

@@ -63,10 +63,10 @@ def heldout_rows(
     The hypotheses are simulated at their own values. Samples before `first` are simulated but not judged: they were
     fitted.
     """
-    contenders = [h for h in (nominal, refitted, corrected) if h is not None]
+    compared = [h for h in (nominal, refitted, corrected) if h is not None]
     rows = []
     for run in runs:
-        errors = [_errors(problem, run, h) for h in contenders]
+        errors = [_errors(problem, run, h) for h in compared]
         begin = max(first, run.judged_from)
         late = np.arange(run.time.size) >= begin
         slow = _slow(run) & late
@@ -79,13 +79,13 @@ def heldout_rows(
                 parts = [error[signal][judged] for error in errors]
                 rows.append(_row(run, region, signal, units, parts, floor[signal], corrected is not None, seed))
         if problem.drive.force and first == 0:
-            rows += _force_row(problem, run, contenders, seed)
+            rows += _force_row(problem, run, compared, seed)
     return tuple(rows)
 
 
-def _force_row(problem: Problem, run: Run, contenders: Sequence[Hypothesis], seed: int) -> list[HeldoutRow]:
+def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed: int) -> list[HeldoutRow]:
     """Error of the inverse dynamics relative to the driving force, in percent of its norm."""
-    parts = [force_error(problem.simulator, run, h.vector, h.active) for h in contenders]
+    parts = [force_error(problem.simulator, run, h.vector, h.active) for h in compared]
     errors, force = [e for e, _ in parts], parts[0][1]
     if not force.size:
         return []

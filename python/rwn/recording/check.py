@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 def check_samples(
     time: Array, signals: Mapping[str, Array], *, where: str, row: Row, fewest: int = MIN_SAMPLES
 ) -> tuple[str, ...]:
-    """Finite values, time that runs forward without gaps, one length, enough samples. Returns warnings.
+    """Finite values (n,), time that runs forward without gaps, one length, enough samples. Returns warnings.
 
     A step in time above 20 median steps is refused (the input in between is unknown), above 3 warned of.
     `row` words the place of sample k. Raises InputError.
@@ -39,7 +39,7 @@ def check_samples(
 
 
 def check_lengths(time: Array, signals: Mapping[str, Array], *, where: str) -> None:
-    """Every signal has one value per instant. Raises InputError."""
+    """Every signal (n,) has one value per instant of `time` (n,). Raises InputError."""
     for name, values in signals.items():
         if len(values) != len(time):
             raise InputError(

@@ -172,7 +172,7 @@ def is_linear(table: Table, mapping: Mapping[str, Column]) -> bool:
 
 
 def in_si(table: Table, name: str, column: Column, *, linear: bool) -> Array:
-    """The values of signal `name` in SI."""
+    """The values (n,) of signal `name` in SI."""
     signal = COLUMNS[name]
     unit = _unit(table, name, column)
     scale = units.factor(unit, si_unit(signal, linear), where=f"{table.where}, column '{column.source}'")

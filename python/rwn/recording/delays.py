@@ -29,7 +29,7 @@ def in_time(recording: Recording, delays: Mapping[str, float]) -> Recording:
     return replace(recording, signals=signals, missing=missing)
 
 
-def as_shown(time: Array, values: Array, delay: float) -> Array:
+def delayed(time: Array, values: Array, delay: float) -> Array:
     """Values (n,) at `time` (n,) [s] as a logger shows them that is late by `delay` [s]."""
     return np.interp(time - delay, time, values) if delay else values
 

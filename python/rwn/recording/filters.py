@@ -45,7 +45,7 @@ def as_filtered(time: Array, values: Array, time_constant: float) -> Array:
 
 
 def after_missing(missing: Flags) -> Flags:
-    """The samples that are missing, and those after them."""
+    """The samples (n,) that are missing, and those after them."""
     after: Flags = missing | np.concatenate([[False], missing[:-1]])
     return after
 

@@ -27,7 +27,7 @@ HELD = "held"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Acting(Values):
+class PiecewiseInput(Values):
     """An input as it acted: from `instants` (m,) [s] it had `values` (m,), each known but for `spread` (m,).
 
     What no row shows lies anywhere between its neighbours: a standard deviation of their distance over sqrt(12).
@@ -37,18 +37,18 @@ class Acting(Values):
     values: Array
     spread: Array
 
-    def since(self, begin: float) -> Acting:
+    def since(self, begin: float) -> PiecewiseInput:
         """The same of a recording that begins at `begin` [s], in its time."""
         first = max(int(np.searchsorted(self.instants, begin, side="right")) - 1, 0)
         instants = np.maximum(self.instants[first:], begin) - begin
-        return Acting(instants=instants, values=self.values[first:], spread=self.spread[first:])
+        return PiecewiseInput(instants=instants, values=self.values[first:], spread=self.spread[first:])
 
 
 @dataclass(frozen=True, kw_only=True)
-class Law:
+class IntersampleLaw:
     """How an input acts between rows, and how that is said."""
 
-    acting: Callable[[Array, Array], Acting | None]
+    applied: Callable[[Array, Array], PiecewiseInput | None]
     words: str
 
 
@@ -63,20 +63,20 @@ def _held(time: Array, values: Array) -> None:
     """From its row to the next."""
 
 
-def _bridged(time: Array, values: Array) -> Acting | None:
+def _bridged(time: Array, values: Array) -> PiecewiseInput | None:
     """As held; where rows were lost it changed at their ticks, on the line between its neighbours."""
     clock = clock_of(time)
     return _on_lines(time, values, np.diff(clock.ticks)) if 0 < clock.lost < time.size else None
 
 
-def _in_parts(time: Array, values: Array, *, parts: int) -> Acting | None:
+def _in_parts(time: Array, values: Array, *, parts: int) -> PiecewiseInput | None:
     """It changed that often from row to row, on the line between its neighbours: a logger kept every so many rows."""
     clock = clock_of(time)
     ticks = np.diff(clock.ticks) if clock.lost < time.size else np.ones(time.size - 1, dtype=np.int64)
     return _on_lines(time, values, parts * ticks)
 
 
-def _at_ticks(time: Array, values: Array) -> Acting | None:
+def _at_ticks(time: Array, values: Array) -> PiecewiseInput | None:
     """It changed at the ticks of a clock beside which the rows were taken: a row shows that of the last tick."""
     clock = clock_of(time)
     if not JITTER < clock.jitter < 0.5 or clock.lost >= time.size:
@@ -90,36 +90,39 @@ def _at_ticks(time: Array, values: Array) -> Acting | None:
     instants = clock.start + clock.period * ticks
     instants[0] = time[0]
     late = np.concatenate([[True], instants[1:] > time[0]])
-    return Acting(
+    return PiecewiseInput(
         instants=instants[late],
         values=np.interp(ticks, shown, seen)[late],
         spread=np.where(shown[after] == ticks, 0.0, step / np.sqrt(12.0))[late],
     )
 
 
-def _on_lines(time: Array, values: Array, parts: NDArray[np.int64]) -> Acting:
+def _on_lines(time: Array, values: Array, parts: NDArray[np.int64]) -> PiecewiseInput:
     """Each step from row to row in as many parts, on a line."""
     row = np.repeat(np.arange(parts.size), parts)
     done = (np.arange(row.size) - np.repeat(np.cumsum(parts) - parts, parts)) / parts[row]
     instants = time[row] + done * np.diff(time)[row]
     step = np.diff(values)[row]
-    return Acting(
+    return PiecewiseInput(
         instants=np.append(instants, time[-1]),
         values=np.append(values[row] + done * step, values[-1]),
         spread=np.append(np.where(done > 0.0, np.abs(step) / np.sqrt(12.0), 0.0), 0.0),
     )
 
 
-INTERSAMPLE: dict[str, Law] = {
-    HELD: Law(acting=_held, words="each row's own, until the next"),
-    "bridged": Law(acting=_bridged, words="it went on changing over the rows that are missing"),
-    "halves": Law(
-        acting=partial(_in_parts, parts=2), words="it changed twice from row to row, as where every second row was kept"
+INTERSAMPLE: dict[str, IntersampleLaw] = {
+    HELD: IntersampleLaw(applied=_held, words="each row's own, until the next"),
+    "bridged": IntersampleLaw(applied=_bridged, words="it went on changing over the rows that are missing"),
+    "halves": IntersampleLaw(
+        applied=partial(_in_parts, parts=2),
+        words="it changed twice from row to row, as where every second row was kept",
     ),
-    "thirds": Law(
-        acting=partial(_in_parts, parts=3),
+    "thirds": IntersampleLaw(
+        applied=partial(_in_parts, parts=3),
         words="it changed three times from row to row, as where every third row was kept",
     ),
-    "line": Law(acting=partial(_in_parts, parts=FINE), words="it moved on a line from row to row"),
-    "ticks": Law(acting=_at_ticks, words="it changed at the ticks of a clock beside which the rows were taken"),
+    "line": IntersampleLaw(applied=partial(_in_parts, parts=FINE), words="it moved on a line from row to row"),
+    "ticks": IntersampleLaw(
+        applied=_at_ticks, words="it changed at the ticks of a clock beside which the rows were taken"
+    ),
 }

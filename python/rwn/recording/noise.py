@@ -44,7 +44,7 @@ class Noise:
 WHITE = Noise(level=1.0)
 
 
-def rough_noise(signal: Array) -> float:
+def noise_from_differences(signal: Array) -> float:
     """Standard deviation of white noise on a smooth signal (n,), from its second differences.
 
     By their median, so that a few sharp instants do not count; NaN is passed over.

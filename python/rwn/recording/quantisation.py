@@ -11,7 +11,7 @@ HARMONICS = 40  # of the mean rounding error
 
 
 def quantum(signal: Array) -> float:
-    """The step that all values are multiples of, as encoder counts and their differences are; 0: none.
+    """The step that all values (n,) are multiples of, as encoder counts and their differences are; 0: none.
 
     A step of 1, 2 or 5 in some decimal is how numbers are written; it counts only where the values repeat.
     """
@@ -47,7 +47,7 @@ def _decimal(step: float) -> bool:
 
 
 def mean_rounding_error(cells: Array, noise: float) -> Array:
-    """Mean of round(x + n) - x for Gaussian noise n, both in steps (Widrow, Kollar 2008, ch. 4)."""
+    """Mean (n,) of round(x + e) - x for Gaussian noise e, both in steps (Widrow, Kollar 2008, ch. 4)."""
     k = np.arange(1, HARMONICS + 1)
     weights = (-1.0) ** k / (np.pi * k) * np.exp(-2.0 * (np.pi * k * noise) ** 2)
     error: Array = np.sin(2.0 * np.pi * np.multiply.outer(cells, k)) @ weights

@@ -17,7 +17,7 @@ from rwn.recording.columns import Layout, column_map, in_si, is_linear, no_unit,
 from rwn.recording.formats import Table, read_table
 from rwn.recording.formats.frame import table_of_object
 from rwn.recording.formats.part import name_of
-from rwn.recording.intersample import Acting
+from rwn.recording.intersample import PiecewiseInput
 from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
 from rwn.recording.units import factor
@@ -35,8 +35,8 @@ class Recording(Values):
 
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
     stands there is a guess that nothing is compared with. `units`: that its source has time and signals in, where it
-    says so; what is written beside it is written in these. `acting`: the input as it acted, where more is known of it
-    than its samples. Arrays are made float64, contiguous and read-only.
+    says so; what is written beside it is written in these. `applied_input`: the input as it acted, where more is known
+    of it than its samples. Arrays are made float64, contiguous and read-only.
 
     Raises InputError when lengths differ, an array is not a real vector or a signal's name is unknown.
     """
@@ -48,7 +48,7 @@ class Recording(Values):
     linear: bool = False
     warnings: tuple[str, ...] = ()
     missing: Mapping[str, Flags] = field(default_factory=dict)
-    acting: Acting | None = None
+    applied_input: PiecewiseInput | None = None
     units: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -159,7 +159,7 @@ def write_csv(
     path: str | Path, time: Array, signals: Mapping[str, Array], *, linear: bool = False,
     units: Mapping[str, str] | None = None,
 ) -> None:  # fmt: skip
-    """Write signals (SI) as a CSV that `read_recording` reads back; in SI, but for those that `units` names.
+    """Write signals (n,) (SI) as a CSV that `read_recording` reads back; in SI, but for those that `units` names.
 
     Raises InputError for a unit that is none of its signal.
     """

@@ -96,7 +96,7 @@ def factor(unit: str, si_unit: str, *, where: object, strict_angle: bool = True)
 
 
 def split(text: str, *, where: object, example: str = "0.4 N/V") -> tuple[float, str]:
-    """A number and the unit after it ("" without one)."""
+    """A number and the unit after it ("" without one). Raises InputError where there is no number."""
     match = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", text)
     if match is None:
         raise InputError(

@@ -15,7 +15,7 @@ from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.verdict import Verdict
 from rwn.faults.fault import SURE, Fault
-from rwn.fit.fitted_model import with_doubt
+from rwn.fit.fitted_model import with_uncertainty
 from rwn.fit.intervals import Doubt, estimates
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.mismatch_map.dependence import laws
@@ -97,7 +97,7 @@ def assemble(
         version=__version__,
         elapsed=elapsed,
         stand_in=correction.stands_in,
-        corrected=with_doubt(correction.model, estimates(known, ranking.counted, doubt=doubt)),
+        corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, doubt=doubt)),
     )
 
 

@@ -51,7 +51,7 @@ def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path]
 
 @contextmanager
 def output_file(path: Path, *, overwrite: bool = False, inputs: Sequence[Path] = ()) -> Iterator[Path]:
-    """As `output_folder`, for one file. Nothing appears where the block writes none."""
+    """As `output_folder`, for one file. Nothing appears where the block writes none. Raises InputError."""
     path = _without_detours(path)
     check_file(path)
     _refuse_input(path, inputs)

@@ -47,7 +47,7 @@ def thin_cloud(y: Array, *, most: int = MOST_POINTS) -> Places:
 
 
 def worth_seeing(points: Array, line: Array) -> tuple[float, float] | None:
-    """The range of y that shows a law and the bulk of its points; None where that is all of them.
+    """The range of y that shows a law (m,) and the bulk of its points (n,); None where that is all of them.
 
     One outlier far above must not press the rest into a flat line: the ends are those of 98 of 100 points and of the
     line, with a margin of a sixth.

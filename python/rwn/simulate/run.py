@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
-from rwn.model.start import start_of
 from rwn.recording.delays import in_time
 from rwn.recording.filters import after_missing, before_filter, unfiltered
-from rwn.recording.intersample import AUTO, INTERSAMPLE, Acting
+from rwn.recording.intersample import AUTO, INTERSAMPLE, PiecewiseInput
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -47,7 +47,7 @@ class Run:
     in_motion: bool = False  # it does not start at rest
     own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
     input_before: float = 0.0
-    acting: Acting | None = None  # the input as it acted; None: each row's own, from its time on
+    applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
     angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
     follows: bool = True  # angle-dependent effects follow `angle`, else the simulated position
@@ -120,7 +120,8 @@ class Run:
         first = float(self.time[begin])
         return replace(
             self, **cut, time=self.time[begin:] - first, start=(0.0, speed, position), start_spread={}, own=(),
-            in_motion=True, input_before=float(self.input[begin - 1]), acting=self.acting and self.acting.since(first),
+            in_motion=True, input_before=float(self.input[begin - 1]),
+            applied_input=self.applied_input and self.applied_input.since(first),
             missing={s: lost[begin:] for s, lost in self.missing.items()},
         )  # fmt: skip
 
@@ -130,7 +131,7 @@ class Run:
 
     def with_intersample(self, law: str) -> Run:
         """The same with the input acting between the rows by a law of `rwn.recording.intersample`."""
-        return replace(self, acting=INTERSAMPLE[law].acting(self.time, self.input))
+        return replace(self, applied_input=INTERSAMPLE[law].applied(self.time, self.input))
 
     def unfiltered(self, signal: str, time_constant: float) -> Run:
         """The same with the speed or the current as it was before a first-order filter of its samples [s]."""
@@ -174,7 +175,7 @@ def run_of(recording: Recording, model: Model) -> Run:
     given = signals[drive.input]
     time = recording.time - recording.time[0]
     speed, position = signals.get("speed", _NONE), signals.get("position", _NONE)
-    start = start_of(time, signals, model, missing=recording.missing)
+    start = initial_state_of(time, signals, model, missing=recording.missing)
     way = INSTANTANEOUS
     if not drive.coefficients:
         new = {s: ~recording.missing.get(s, np.zeros(time.size, dtype=bool)) for s in ("speed", "position")}
@@ -196,8 +197,8 @@ def run_of(recording: Recording, model: Model) -> Run:
         angle_from_speed=position.size == 0,
     )
     law = model.recording.intersample
-    if recording.acting is not None:
-        return replace(run, acting=recording.acting)
+    if recording.applied_input is not None:
+        return replace(run, applied_input=recording.applied_input)
     return run if law == AUTO else run.with_intersample(law)
 
 

@@ -16,7 +16,7 @@ from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
 from rwn.recording.columns import Layout
-from rwn.recording.delays import as_shown
+from rwn.recording.delays import delayed
 from rwn.recording.filters import as_filtered
 from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_state import nearest_state
@@ -85,4 +85,4 @@ def _held(values: Array) -> Array:
 def _as_logged(name: str, time: Array, values: Array, layout: Layout) -> Array:
     """A signal (n,) as the files of this layout show it."""
     tau = layout.filters.get(name, 0.0)
-    return as_shown(time, as_filtered(time, values, tau) if tau else values, layout.delays.get(name, 0.0))
+    return delayed(time, as_filtered(time, values, tau) if tau else values, layout.delays.get(name, 0.0))

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
+from rwn.model.initial_state import STATE
 from rwn.model.model import Model
-from rwn.model.start import STATE
 from rwn.model.vocabulary import motor_index
 from rwn.recording.noise import WHITE, Noise
 from rwn.recording.signals import MEASURED
@@ -63,7 +63,7 @@ class Simulator:
 
     @staticmethod
     def started(run: Run, vector: Array) -> Array:
-        """The parameter vector of one run: what is fitted of all, with its start and what is unknown of it alone."""
+        """The parameter vector (all,) of one run: that of all runs, its start, and what is unknown of it alone."""
         own = _of_core(vector).copy()
         for place, parameter in run.own:
             if place < vector.size:  # else it was fitted to recordings of which nothing was unknown
@@ -74,7 +74,7 @@ class Simulator:
 
     def task(self, run: Run) -> _core.Task:
         """A run under these equations, as the core takes it."""
-        given = (run.input, ()) if run.acting is None else (run.acting.values, run.acting.instants)
+        given = (run.input, ()) if run.applied_input is None else (run.applied_input.values, run.applied_input.instants)
         return _core.Task(
             self.kind, time=run.time, input=given[0], input_time=given[1], angle_per_position=self.angle_per_position,
             input_before=run.input_before, angle=run.followed, angle_from_speed=run.angle_from_speed,
@@ -98,7 +98,7 @@ class Simulator:
     def normal_equations(
         self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int], *, noise: Mapping[str, Noise],
     ) -> NormalEquations:  # fmt: skip
-        """Squared error of a run under the `noise` of each signal with its normal equations.
+        """Squared error of a run under the `noise` of each signal with its normal equations (p, p), (p,).
 
         An error counts as what is new in it.
         """

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
+from rwn.model.drives.dc import resting_current
 from rwn.model.drives.drive import Drive
 from rwn.model.vocabulary import motor_index
 from rwn.recording.smoothing import smooth
@@ -34,7 +35,7 @@ class UnknownInputs:
 def unknown_inputs(
     drive: Drive, simulator: Simulator, run: Run, vector: Array, active: Sequence[int] = ()
 ) -> UnknownInputs:
-    """Inverse dynamics along the recorded motion, under the effects that are `active`.
+    """Inverse dynamics along the recorded motion (n,), under the effects that are `active`.
 
     torque = J dw/dt + B w + friction - Kt i (or minus the driving torque); voltage = v - R i - L di/dt - Ke w. With
     voltage and speed alone the current is at rest with the speed, so both carry the mismatch. A transfer function has
@@ -56,8 +57,8 @@ def unknown_inputs(
         speed=speed, acceleration=acceleration, current=current,
     )  # fmt: skip
     if drive.winding and not current.size:
-        emf = float(vector[motor_index("back_emf_constant")]) * speed
-        current = (given - emf) / float(vector[motor_index("resistance")])
+        known = {name: float(vector[motor_index(name)]) for name in ("resistance", "back_emf_constant")}
+        current = resting_current(speed, given, **known)
     return UnknownInputs(
         time=run.time,
         speed=speed,

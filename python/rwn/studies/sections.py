@@ -11,8 +11,8 @@ END = "<!-- end -->"
 
 
 def begin_of(command: str, name: str) -> str:
-    """The comment above a section: `<!-- rwn evidence emps -->`."""
-    return f"<!-- rwn {command} {name} -->"
+    """The comment above a section, by the command that writes it: `<!-- rwn evidence emps -->`."""
+    return f"<!-- {command} {name} -->"
 
 
 def check_sections(page: Path, command: str, names: Sequence[str]) -> None:

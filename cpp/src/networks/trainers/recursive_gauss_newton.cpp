@@ -35,14 +35,14 @@ class SquareRoot {
   }
 
   /// The change of all parameters for an error, limited; S is updated.
-  const Vector& correct(StructuredRun& run, const Vector& theta, double error, double r, double caution,
+  const Vector& correct(StructuredRun& run, const Vector& theta, double error, double r, double underweighting,
                         double lambda) {
     run.speed_sensitivity(all_.data());
     for (std::size_t i = 0; i < which_.size(); ++i) {
       phi_[static_cast<Eigen::Index>(i)] = all_[which_[i]];
     }
     f_.noalias() = S_.transpose() * phi_;
-    const double trusted = lambda * r + caution * f_.squaredNorm();
+    const double trusted = lambda * r + underweighting * f_.squaredNorm();
     const double alpha = trusted + f_.squaredNorm();
     gain_.noalias() = S_ * f_;
     if (spread_change(theta, error / alpha)) {
@@ -109,9 +109,11 @@ RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork
   if (spread.size() != network.theta().size() || !(spread.array() >= 0.0).all() || !(spread.maxCoeff() > 0.0)) {
     throw std::invalid_argument("spread: expected one standard deviation >= 0 per parameter, at least one above 0");
   }
-  if (!(noise > 0.0) || !(caution >= 0.0) || !(forgetting > 0.0 && forgetting <= 1.0) ||
-      !(settle >= 0.0 && settle <= 1.0) || cycles < 1) {
-    throw std::invalid_argument("noise must be positive, caution at least 0, forgetting in (0, 1], settle in [0, 1] and cycles at least 1");
+  if (!(noise > 0.0) || !(underweighting >= 0.0) || !(forgetting > 0.0 && forgetting <= 1.0) ||
+      !(forgetting_decay >= 0.0 && forgetting_decay <= 1.0) || cycles < 1) {
+    throw std::invalid_argument(
+        "noise must be positive, underweighting at least 0, forgetting in (0, 1], forgetting_decay in [0, 1] and cycles at "
+        "least 1");
   }
   Result out{network, {}, {}};
   OnlineHistory& history = out.history;
@@ -129,7 +131,7 @@ RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork
   };
   bool improved = false;
   Vector theta = network.theta();
-  double frozen = history.mse_frozen[0], wary = caution, forget = 1.0 - forgetting;
+  double frozen = history.mse_frozen[0], wary = underweighting, forget = 1.0 - forgetting;
   for (int done = 1; done <= cycles; ++done) {
     run.restart(signals.start);
     double squares = std::pow(signals.speed[0] - run.speed(), 2);
@@ -147,8 +149,8 @@ RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork
       out.network = StructuredNetwork(theta, network.wavelet());
       improved = true;
       frozen = mse;
-      wary *= settle;
-      forget *= settle;
+      wary *= forgetting_decay;
+      forget *= forgetting_decay;
     } else {  // the frozen error grew: undo the cycle and try again with smaller corrections
       theta = out.network.theta();
       run.load(out.network);

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
 from rwn.model.drives.drive import MECHANICS, Drive, nominal
+
+Numbers = TypeVar("Numbers", float, NDArray[np.float64])
 
 DC = Drive(
     kind="dc",
@@ -17,3 +24,11 @@ DC = Drive(
     ),
     winding=True,
 )
+
+
+def resting_current(speed: Numbers, voltage: Numbers, *, resistance: float, back_emf_constant: float) -> Numbers:
+    """The current [A] at which the winding is at rest with a speed [rad/s] under a voltage [V]; numbers or (n,) each.
+
+    As `resting_current` of the core's drive (cpp/include/rwn/model/drives/dc.hpp), without effects.
+    """
+    return (voltage - back_emf_constant * speed) / resistance

@@ -25,7 +25,10 @@ class TransferFunction(Drive):
         )
 
     def read(self, motor: Mapping[str, Any], *, where: str) -> tuple[dict[str, Any], int]:
-        """The coefficients from numerator and denominator, highest power first; none where `order` stands alone."""
+        """The coefficients from numerator and denominator, highest power first; none where `order` stands alone.
+
+        Raises InputError where one is missing, no number, or not proper.
+        """
         order = motor.get("order", 0)
         if "order" not in motor and isinstance(motor.get("denominator"), list):
             order = len(motor["denominator"]) - 1

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
+from rwn.model.drives.dc import resting_current
 from rwn.model.vocabulary import Effect, motor_index
 from rwn.name.initial_guesses.guess import Guess
 from rwn.recording.speed_measurement import integral
@@ -51,7 +52,10 @@ def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess]
 
 
 def along_the_shaft(problem: Problem, vector: Array, active: Sequence[int]) -> Problem:
-    """`problem` with the angles that effects act along: without what a simulated sensor adds to the speed."""
+    """`problem` with the angles that effects act along, at a parameter vector (all,).
+
+    They are without what a simulated sensor adds to the speed.
+    """
     runs = []
     for run in problem.runs:
         if run.follows and run.angle_from_speed and run.speed.size:
@@ -99,6 +103,8 @@ def angle_spectrum(
 
 def flux_spectrum(problem: Problem, motor: Array, orders: Array) -> Array:
     """Share of the winding's voltage error that a back-EMF w cos(N theta), w sin(N theta) explains, per order N.
+
+    `motor`: (all,), `orders` and result: (k,).
 
     The voltage that R, L and Ke leave along the recorded current and speed holds a ripple of Ke at once, whatever the
     free run has lost; what another R, L and Ke could take is taken out first. Of recordings that have a current.
@@ -148,7 +154,7 @@ def _beside(basis: Array, x: Array) -> Array:
 
 
 def torque_spectrum(problem: Problem, vector: Array, active: Sequence[int], orders: Array) -> Array:
-    """As `angle_spectrum`, of the torque lacking along the recorded motion: where speed is not recorded."""
+    """As `angle_spectrum` (k,), of the torque lacking along the recorded motion: where speed is not recorded."""
     grams, loads, energy = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2)), 1e-300
     for run in problem.runs:
         lacking = _lacking_torque(problem, vector, active, run)
@@ -175,17 +181,17 @@ def _lacking_torque(problem: Problem, vector: Array, active: Sequence[int], run:
 
 
 def current_of(problem: Problem, motor: Array, run: Run) -> Array:
-    """What drives: the force of an axis, the recorded current, or what voltage and speed make of it."""
+    """What drives (n,): the force of an axis, the recorded current, or what voltage and speed make of it."""
     if not problem.drive.winding:
         return run.input
     if run.current.size:
         return run.current
-    emf: Array = motor[motor_index("back_emf_constant")] * run.speed
-    return (run.input - emf) / float(motor[motor_index("resistance")])
+    known = {name: float(motor[motor_index(name)]) for name in ("resistance", "back_emf_constant")}
+    return resting_current(run.speed, run.input, **known)
 
 
 def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
-    """The orders that explain most, neighbours left out."""
+    """Of `orders` (k,) those that explain most, neighbours left out."""
     found: list[float] = []
     for k in np.argsort(spectrum)[::-1]:
         if all(abs(orders[k] - o) > 1.5 * (orders[1] - orders[0]) for o in found):
@@ -196,7 +202,7 @@ def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
 
 
 def order_grid(problem: Problem) -> Array:
-    """Orders worth looking at: whole numbers per revolution; as fine as the travel allows on a linear axis."""
+    """Orders (k,) worth looking at: whole numbers per revolution; as fine as the travel allows on a linear axis."""
     if problem.simulator.angle_per_position == 1.0:
         return np.arange(1.0, 121.0)
     travel = max(float(np.ptp(r.angle)) for r in problem.runs if r.angle.size)

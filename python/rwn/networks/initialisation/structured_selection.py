@@ -69,7 +69,7 @@ class StructuredSelection:
         )
 
     def library(self, low: float, high: float) -> tuple[Array, Array]:
-        """Translations and dilations of all wavelets over the speeds from `low` to `high`."""
+        """Translations and dilations (wavelets,) of all wavelets over the speeds from `low` to `high`."""
         counts = [2 ** (level + 1) + 1 for level in range(self.levels)]
         m = np.concatenate([np.linspace(low, high, count) for count in counts])
         d = np.repeat([self.zeta * (high - low) / 2**level for level in range(self.levels)], counts)

@@ -32,7 +32,7 @@ class Normalised:
         check_fraction("regularisation", self.regularisation)
 
     def core_for(self, groups: tuple[str, ...]) -> _core.NormalisedRates:
-        """The same rule in the C++ core."""
+        """The same rule in the C++ core. Raises ValueError where it does not fit the network's groups."""
         scales = self.scales or {}
         unknown = sorted(set(scales) - set(groups))
         if unknown:

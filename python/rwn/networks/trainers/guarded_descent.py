@@ -53,6 +53,8 @@ class GuardedDescent:
     grow, cut: factor of the fraction after a cycle that was kept, and after one that was not.
     cycles: passes over the recording, kept or not.
     follow_state: as in `train_structured`.
+
+    Raises ValueError for options outside their range.
     """
 
     name: ClassVar[str] = "guarded-descent"

@@ -28,6 +28,8 @@ class PatternGaussNewton:
     iterations: most passes over the patterns.
     target: MSE at which to stop.
     stall: relative change of the MSE over 100 iterations below which to stop; -1 never stops.
+
+    Raises ValueError for options outside their range.
     """
 
     name: ClassVar[str] = "pattern-gauss-newton"

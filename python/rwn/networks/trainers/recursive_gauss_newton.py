@@ -39,9 +39,9 @@ class RecursiveGaussNewton:
 
     noise: standard deviation of the measured speed [rad/s].
     forgetting: weight of the past per sample in the first cycle, in (0, 1]; 0.999 forgets over 1000 samples.
-    settle: 1 - forgetting is multiplied by this after every cycle, so that the estimates come to rest.
-    caution: each correction of the first cycle takes out at most 1/(1 + caution) of its error, since the
-        linearisation cannot be trusted far from the truth; shrinks with `settle`.
+    forgetting_decay: 1 - forgetting is multiplied by this after every cycle, so that the estimates come to rest.
+    underweighting: each correction of the first cycle takes out at most 1/(1 + underweighting) of its error, since the
+        linearisation cannot be trusted far from the truth; shrinks with `forgetting_decay`.
     cycles: passes over the recording.
     follow_state: the state moves with its parameters, x += (dx/dtheta) dtheta; without it a correction acts
         only after 1/(1 - rho) samples.
@@ -53,9 +53,9 @@ class RecursiveGaussNewton:
     name: ClassVar[str] = "recursive-gauss-newton"
     noise: float = _DEFAULTS["noise"]
     forgetting: float = _DEFAULTS["forgetting"]
-    settle: float = _DEFAULTS["settle"]
+    forgetting_decay: float = _DEFAULTS["forgetting_decay"]
     cycles: int = _DEFAULTS["cycles"]
-    caution: float = _DEFAULTS["caution"]
+    underweighting: float = _DEFAULTS["underweighting"]
     follow_state: bool = _DEFAULTS["follow_state"]
     spread: Mapping[str, float] | None = None
     frozen_every: int = _DEFAULTS["frozen_every"]
@@ -82,8 +82,8 @@ class RecursiveGaussNewton:
             spread=self._spread(network, as_mask(learn, network.groups), u),
             noise=self.noise,
             forgetting=self.forgetting,
-            settle=self.settle,
-            caution=self.caution,
+            forgetting_decay=self.forgetting_decay,
+            underweighting=self.underweighting,
             follow_state=self.follow_state,
             cycles=self.cycles,
             frozen_every=self.frozen_every,

@@ -39,7 +39,7 @@ class Dialect:
 
 
 def encoding_of(start: bytes, where: object) -> str:
-    """The encoding that the first bytes of a file speak for; what is no text is refused with an InputError."""
+    """The encoding that the first bytes of a file speak for. Raises InputError for what is no text."""
     if start.startswith(codecs.BOM_UTF8):
         return "utf-8-sig"
     if start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):

@@ -14,7 +14,7 @@ MAX_BYTES = 256 * 2**20  # a spreadsheet is unpacked whole
 
 
 def read_excel(path: Path, wanted: Collection[str] = ()) -> Table:
-    """The `wanted` columns; headers, units and text above them are told as in a CSV."""
+    """The `wanted` columns; headers, units and text above them are told as in a CSV. Raises InputError."""
     calamine = library("python_calamine", "excel", path)
     if path.stat().st_size > MAX_BYTES:
         raise InputError(

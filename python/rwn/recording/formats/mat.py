@@ -22,6 +22,7 @@ def read_mat(path: Path, wanted: Collection[str] = ()) -> Table:
     """The `wanted` variables only, so that a big file with many variables is not loaded whole.
 
     Versions up to 7 are read by scipy; objects (tables, timetables) and version 7.3 by mat-io, an extra.
+    Raises InputError for a file that is none, or that the extra is missing for.
     """
     where = str(path)
     shapes, load = _opened(path)

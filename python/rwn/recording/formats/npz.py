@@ -16,7 +16,10 @@ from rwn.recording.formats.table import Table
 
 
 def read_npz(path: Path, wanted: Collection[str] = ()) -> Table:
-    """The `wanted` arrays; a name may carry its unit, `speed [rpm]`. Pickled objects are not read."""
+    """The `wanted` arrays; a name may carry its unit, `speed [rpm]`. Pickled objects are not read.
+
+    Raises InputError for a file that is none.
+    """
     try:
         with path.open("rb") as file:
             loaded = np.load(file, allow_pickle=False)

@@ -13,7 +13,10 @@ from rwn.recording.formats.table import MAX_SAMPLES, Table, table_of, too_long
 
 
 def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
-    """The `wanted` columns; units from names, `speed [rpm]`, or a field's metadata (`unit` or `units`)."""
+    """The `wanted` columns; units from names, `speed [rpm]`, or a field's metadata (`unit` or `units`).
+
+    Raises InputError for a file that is none.
+    """
     parquet = library("pyarrow.parquet", "parquet", path)
     try:
         file = parquet.ParquetFile(path)

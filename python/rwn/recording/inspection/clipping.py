@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.inspection.finding import Check, Flags
-from rwn.recording.noise import rough_noise
+from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 
@@ -21,7 +21,7 @@ def _clipped(recording: Recording, signal: str) -> Flags:
     x, found = every[new], np.zeros(every.size, dtype=bool)
     flags = np.zeros(x.size, dtype=bool)
     moving = x[np.append(False, np.diff(x) != 0.0)]
-    if moving.size < 20 or not rough_noise(moving) > 2.0 * quantum(x):
+    if moving.size < 20 or not noise_from_differences(moving) > 2.0 * quantum(x):
         return found  # steps as coarse as the noise repeat by themselves
     for end in (float(np.max(x)), float(np.min(x))):
         at = x == end

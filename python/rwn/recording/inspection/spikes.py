@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.inspection.finding import Check, Flags
-from rwn.recording.noise import rough_noise
+from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -51,7 +51,7 @@ def _alone(x: Array, after_steps: Flags, together: int) -> Flags:
     """
     from scipy.stats import norm
 
-    noise = max(rough_noise(x), quantum(x))
+    noise = max(noise_from_differences(x), quantum(x))
     if x.size < 8 or noise == 0.0:
         return np.zeros(x.size, dtype=bool)
     limit = float(norm.isf(0.5 * LEVEL / x.size)) * noise * np.sqrt(1.5)  # a sample against the mean of two

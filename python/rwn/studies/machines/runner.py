@@ -16,7 +16,7 @@ from rwn.studies.machines.table import markdown
 from rwn.studies.made import made
 from rwn.studies.sections import check_sections, write_section
 
-COMMAND = "evidence"
+COMMAND = "rwn evidence"
 
 
 def run_machines(

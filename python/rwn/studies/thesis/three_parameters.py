@@ -31,7 +31,7 @@ CASES = [
 REASON = "J, Kt and B scaled together hardly change the speed: one e-fold along that valley takes 5e6 cycles"
 NOISE = 0.01
 # the valley takes many passes: the trainer must not come to rest early
-SLOW = RecursiveGaussNewton(cycles=50, forgetting=0.9995, settle=0.9)
+SLOW = RecursiveGaussNewton(cycles=50, forgetting=0.9995, forgetting_decay=0.9)
 
 
 def with_noise(label: str, amplitude: float, high: float) -> list[Row]:

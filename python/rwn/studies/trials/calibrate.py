@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import subprocess
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -15,11 +14,13 @@ from numpy.typing import NDArray
 
 from rwn.decide.account import Remainder
 from rwn.decide.calibration import FEATURES, Calibration, calibration, features
+from rwn.errors import InputError
 from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.bench_trials.also_true import also_true
 from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.grade import load_answers
+from rwn.studies.trials.origins import TIMING, codes, results_of, timing_of
 from rwn.studies.trials.run import out_of, trial_folders
 
 Array = NDArray[np.float64]
@@ -54,7 +55,7 @@ class Calibrated:
 def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
     """Every effect of the leading explanations of all trials that have a diagnosis."""
     rows, acts, trials = [], [], []
-    for count, (answer, diagnosis) in enumerate(_diagnosed(folders, results)):
+    for count, (answer, diagnosis, _) in enumerate(_diagnosed(folders, results)):
         true = _true(answer)
         for e in diagnosis.account:
             rows.append(features(e.evidence))
@@ -63,14 +64,20 @@ def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
     return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
 
 
-def _diagnosed(folders: Sequence[Path], results: Path | None) -> Iterator[tuple[Mapping[str, Any], Diagnosis]]:
-    """The answer and the diagnosis of every trial that has both."""
-    for folder in folders:
+def _diagnosed(
+    folders: Sequence[Path], results: Path | None, without: Collection[str] = ()
+) -> Iterator[tuple[Mapping[str, Any], Diagnosis, Path]]:
+    """The answer and the diagnosis of every trial that has both, and the folder of the diagnosis.
+
+    `without`: names of sets that do not count.
+    """
+    for folder in (f for f in folders if f.name not in without):
         _, answers = load_answers(folder)
+        own = results_of(folder, folders, results)
         for trial in trial_folders(folder):
-            found = out_of(trial, results / folder.name if results and len(folders) > 1 else results) / "diagnosis.json"
+            found = out_of(trial, own) / "diagnosis.json"
             if trial.name in answers and found.exists():
-                yield answers[trial.name], Diagnosis.from_json(found.read_bytes())
+                yield answers[trial.name], Diagnosis.from_json(found.read_bytes()), found.parent
 
 
 def _true(answer: Mapping[str, Any]) -> set[str]:
@@ -81,14 +88,14 @@ def _true(answer: Mapping[str, Any]) -> set[str]:
     return set().union(*map(known_as, kinds), answer.get("equivalent", ()), beside)
 
 
-def bias_of(folders: Sequence[Path], *, results: Path | None = None) -> float:
+def bias_of(folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> float:
     """Relative deviation of a parameter over the root of the share of the mismatch that a right name leaves.
 
-    Such that 95 % of all intervals cover; 0 where there are none.
+    Such that 95 % of all intervals cover; 0 where there are none. `check`: names of sets that do not count in it.
     """
     needed = [
-        _bias_needed(estimate, float(answered["value"]), diagnosis.remainder)
-        for answer, diagnosis in _diagnosed(folders, results)
+        _bias_needed(estimate, float(answered["value"]), diagnosis.remainder, _bias_in(place))
+        for answer, diagnosis, place in _diagnosed(folders, results, check)
         for effect in diagnosis.effects
         for true in (e.get("parameters", {}) for e in answer["effects"] if e["name"] == effect.name)
         for name, estimate in effect.parameters.items()
@@ -97,13 +104,29 @@ def bias_of(folders: Sequence[Path], *, results: Path | None = None) -> float:
     return float(np.quantile(needed, COVERED, method="higher")) if needed else 0.0
 
 
-def _bias_needed(estimate: Estimate, true: float, left: Remainder) -> float:
-    """What an interval needs to cover the truth, over the root of what is left; as a logarithm where that is less."""
+def _bias_in(place: Path) -> float:
+    """The bias that the intervals of a diagnosis count with. Raises InputError where timing.json does not say it."""
+    told = timing_of(place)
+    if "bias" not in told:
+        raise InputError(
+            "nothing says which bias these intervals count with",
+            where=place / TIMING,
+            expected=f'a "bias" as `rwn trials run` writes it ({calibration().bias:.3g} with the calibration of today)',
+            fix="diagnose the set anew, or leave it out of the bias by --check",
+        )
+    return float(told["bias"])
+
+
+def _bias_needed(estimate: Estimate, true: float, left: Remainder, bias: float) -> float:
+    """What an interval needs to cover the truth, over the root of what is left; as a logarithm where that is less.
+
+    `bias`: what the interval counts with, which is taken out of it.
+    """
     low, high = estimate.interval or (np.nan, np.nan)
     root = float(np.sqrt(np.clip(left.share, 0.0, 1.0))) if left.signals else 0.0
     ratio = true / estimate.value
     error = min(abs(ratio - 1.0), abs(np.log(ratio)) if ratio > 0.0 else np.inf) / HALF_WIDTH
-    noise = ((high - low) / (2.0 * HALF_WIDTH * estimate.value)) ** 2 - (calibration().bias * root) ** 2
+    noise = ((high - low) / (2.0 * HALF_WIDTH * estimate.value)) ** 2 - (bias * root) ** 2
     more = float(np.sqrt(max(error**2 - noise, 0.0)))
     return more / root if root else (np.inf if more else 0.0)
 
@@ -149,10 +172,15 @@ def write(found: Calibration, path: Path) -> None:
     path.write_bytes(msgspec.json.format(msgspec.json.encode(asdict(found)), indent=1) + b"\n")
 
 
-def commit() -> str:
-    """The commit of the working tree, empty outside of one."""
-    done = subprocess.run(["git", "describe", "--always", "--dirty"], capture_output=True, text=True, check=False)
-    return done.stdout.strip()
+def origin(names: Names, folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> str:
+    """What a calibration was fitted on: names, trials, sets and the codes that diagnosed them.
+
+    `check`: names of the sets that do not count in its bias.
+    """
+    by = dict.fromkeys(code for f in folders for code in codes(f, results_of(f, folders, results)))
+    bias = f"; bias without {', '.join(check)}, which check it" if check else ""
+    sets, trials = ", ".join(f.name for f in folders), np.unique(names.trial).size
+    return f"{names.acts.size} names of {trials} trials: {sets}, diagnosed by {' and '.join(by)}{bias}"
 
 
 def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:

@@ -118,12 +118,22 @@ def calibrate(
     folders: Annotated[list[Path], typer.Argument(help="Development sets whose trials were run.", exists=True)],
     results: Annotated[Path | None, typer.Option(help="As for score.")] = None,
     out: Annotated[Path | None, typer.Option(help="Write calibration.json here (default: print alone).")] = None,
+    check: Annotated[
+        list[str] | None, typer.Option(help="Name of a set whose intervals check the bias and do not count in it.")
+    ] = None,
 ) -> None:
     """Fit the probability that an effect acts to the evidence and answers of development trials."""
-    from rwn.studies.trials.calibrate import bias_of, calibrated, commit, names_of, words, write
+    from rwn.errors import unknown
+    from rwn.studies.trials.calibrate import bias_of, calibrated, names_of, origin, words, write
 
-    what = f"{', '.join(f.name for f in folders)} at {commit()}"
-    found = calibrated(names_of(folders, results=results), what=what, bias=bias_of(folders, results=results))
+    check, known = check or [], [f.name for f in folders]
+    for name in check:
+        if name not in known:
+            raise unknown("set", name, known, where="--check")
+    names = names_of(folders, results=results)
+    what = origin(names, folders, results=results, check=check)
+    bias = bias_of(folders, results=results, check=check)
+    found = calibrated(names, what=what, bias=bias)
     if out is not None:
         write(found.calibration, out)
     typer.echo(words(found))

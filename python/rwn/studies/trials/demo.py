@@ -13,10 +13,10 @@ import numpy as np
 
 from rwn.studies.trials.bench import Experiment, Noise, Setup, measure
 from rwn.studies.trials.conceal import Nominal
-from rwn.studies.trials.dossier import model_toml, write_recording
 from rwn.studies.trials.effects import EFFECTS
 from rwn.studies.trials.motors import MOTORS, plant_of
 from rwn.studies.trials.plant import Values
+from rwn.studies.trials.trial_files import model_toml, write_recording
 
 STREAM = 2013  # the year of the thesis
 RATE = 1000.0

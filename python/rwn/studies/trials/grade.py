@@ -14,11 +14,11 @@ import numpy as np
 from rwn.faults.fault import RECORDING
 from rwn.studies.trials.adapter import heldout_files, simulated_file
 from rwn.studies.trials.damaged import reading
-from rwn.studies.trials.dossier import read_columns
 from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.plant import simulate
 from rwn.studies.trials.run import out_of, trial_folders
 from rwn.studies.trials.seal import ANSWERS, unseal
+from rwn.studies.trials.trial_files import read_columns
 
 NO_RESULT = "no-result"  # the diagnosis failed or was never run
 CONFIDENT = 0.5  # a single name with at least this probability

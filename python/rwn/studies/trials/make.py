@@ -12,11 +12,11 @@ from rwn.studies.trials.bench_trials.plan import JUDGED_BY
 from rwn.studies.trials.bench_trials.plan import plans as bench_plans
 from rwn.studies.trials.bench_trials.trial import make_bench_trial
 from rwn.studies.trials.damaged import reading
-from rwn.studies.trials.dossier import write_trial
 from rwn.studies.trials.judges import JUDGES
 from rwn.studies.trials.plan import FIRST_TEST_SEED, SPLITS, plans, split_of
 from rwn.studies.trials.seal import ANSWERS, seal
 from rwn.studies.trials.trial import Trial, make_trial
+from rwn.studies.trials.trial_files import write_trial
 from rwn.studies.trials.workers import workers
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -10,12 +9,10 @@ from rich.table import Table
 
 from rwn.studies.made import made
 from rwn.studies.sections import check_sections, write_section
-from rwn.studies.trials.damaged import reading
-from rwn.studies.trials.run import out_of, trial_folders
+from rwn.studies.trials.origins import diagnosed_by, results_of
 from rwn.studies.trials.seal import HASH
 
-COMMAND = "trials score"
-UNKNOWN = "a code that was not written down"
+COMMAND = "rwn trials score"
 
 
 def name_of(folders: Sequence[Path]) -> str:
@@ -47,20 +44,8 @@ def _origins(folders: Sequence[Path], results: Path | None) -> list[str]:
     """For each set its seal, and by which code, when and where it was diagnosed."""
     lines = []
     for folder in folders:
-        own = results / folder.name if results is not None and len(folders) > 1 else results
         seal = (folder / HASH).read_text().split()[0] if (folder / HASH).exists() else "none: open answers"
-        by = "; ".join(_diagnosed(folder, own))
+        by = "; ".join(diagnosed_by(folder, results_of(folder, folders, results)))
         lines.append(f"`{folder.name}`: SHA-256 of the answers {seal}; diagnosed by {by}.")
     return lines
 
-
-def _diagnosed(folder: Path, results: Path | None) -> list[str]:
-    """Commit, date and machine of the diagnoses; several where they differ."""
-    said = []
-    for trial in trial_folders(folder):
-        timing = out_of(trial, results) / "timing.json"
-        with reading(timing):
-            told = json.loads(timing.read_text()) if timing.exists() else {}
-        known = "commit" in told
-        said.append(f"{told['commit']} on {told['date']}, {told['machine']}" if known else UNKNOWN)
-    return list(dict.fromkeys(said))

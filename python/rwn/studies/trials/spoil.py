@@ -17,9 +17,9 @@ import numpy as np
 from rwn.studies.trials.adapter import train_files
 from rwn.studies.trials.bench import Recording
 from rwn.studies.trials.damaged import reading
-from rwn.studies.trials.dossier import read_columns, write_recording
 from rwn.studies.trials.plant import Array
 from rwn.studies.trials.seal import ANSWERS, seal, unseal
+from rwn.studies.trials.trial_files import read_columns, write_recording
 
 Columns = dict[str, Array]
 Rng = np.random.Generator

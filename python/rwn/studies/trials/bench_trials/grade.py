@@ -14,7 +14,6 @@ from rwn.studies.trials.adapter import heldout_files, refitted_file, simulated_f
 from rwn.studies.trials.bench_trials.also_true import also_true
 from rwn.studies.trials.bench_trials.plan import BACKGROUND_ALONE, NOTHING
 from rwn.studies.trials.damaged import reading
-from rwn.studies.trials.dossier import read_columns
 from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.grade import (
     LARGEST_SET,
@@ -26,6 +25,7 @@ from rwn.studies.trials.grade import (
     without_mistake,
 )
 from rwn.studies.trials.run import out_of, trial_folders
+from rwn.studies.trials.trial_files import read_columns
 
 WORSE = 1.01  # times the error of the refitted model, noise included
 

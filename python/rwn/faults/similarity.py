@@ -15,7 +15,7 @@ ONE_SIDED = 0.02  # of a signal's largest value: as much of the other sign is no
 
 
 @dataclass(frozen=True)
-class Likeness:
+class Similarity:
     """Of a signal and its simulation: the ratio of their sizes, and their correlation, beside a level."""
 
     ratio: float
@@ -23,8 +23,8 @@ class Likeness:
     whole: tuple[float, float]  # the same of the signals as they are, with their level
 
     @classmethod
-    def of(cls, pairs: Sequence[tuple[Array, Array]], *, levelled: bool = False) -> Likeness:
-        """From recorded and simulated samples of every recording; where no direction is shown, of the magnitudes.
+    def of(cls, pairs: Sequence[tuple[Array, Array]], *, levelled: bool = False) -> Similarity:
+        """From recorded and simulated samples (n,) of every recording; where no direction is shown, of the magnitudes.
 
         `levelled`: beside a level that dry friction may have taken from the recorded ones.
         """
@@ -39,6 +39,7 @@ class Likeness:
 
     @property
     def far(self) -> bool:
+        """Whether sign or size is so far off that the scale of the signal is doubted."""
         return self.correlation < 0.0 or abs(np.log(self.ratio)) > np.log(FAR)
 
     def misfit(self, factor: float) -> float:

@@ -1,4 +1,4 @@
-"""Where a run starts: at rest, or in a motion that its first samples show and that is not known exactly."""
+"""The state in which a run starts: at rest, or in a motion that its first samples show, known within a spread."""
 
 from __future__ import annotations
 
@@ -9,20 +9,21 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.model.drives.dc import resting_current
 from rwn.model.model import Model
-from rwn.recording.noise import rough_noise
+from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
 
 Array = NDArray[np.float64]
 STATE = ("initial_current", "initial_speed", "initial_position")  # the parameters of a start
 _NONE: Mapping[str, NDArray[np.bool_]] = MappingProxyType({})
 
-MOST_BENT = 4  # degree of the curve through the first samples of a position
+MOST_DEGREE = 4  # of the curve through the first samples of a position
 CERTAIN = 5.0  # deviations of a first sample from rest that chance does not explain: 1 in 10^6
 
 
 @dataclass(frozen=True, kw_only=True)
-class Start:
+class InitialState:
     """Current [A], speed [rad/s] and position [rad] at the first sample, and how far each may be off.
 
     `spread`: standard deviation of what is not known exactly, by the parameter of the start; absent: exact.
@@ -33,9 +34,9 @@ class Start:
     spread: Mapping[str, float] = field(default_factory=dict)
 
 
-def start_of(
+def initial_state_of(
     time: Array, signals: Mapping[str, Array], model: Model, *, missing: Mapping[str, NDArray[np.bool_]] = _NONE
-) -> Start:
+) -> InitialState:
     """The start of a recording (n,) each, SI, by what the model's [recording] table says of it or its first samples.
 
     A position that was recorded starts within its noise or its steps of the first sample. `missing`: samples (n,) that
@@ -56,7 +57,7 @@ def start_of(
     flowing = abs(current) > CERTAIN * known_to.get("current", 0.0)
     initial = model.recording.initial
     if initial == "rest" or (initial == "auto" and not (moving or flowing)):
-        return Start(state=(0.0, 0.0, place), spread=spread)
+        return InitialState(state=(0.0, 0.0, place), spread=spread)
     sooner = _first_speed(time, signals, known_to, first // 2)[0]  # a step response is no curve of a few degrees
     known_within = abs(speed) if "speed" in signals else float(np.hypot(off, speed - sooner))
     spread["initial_speed"] = max(known_within, known_to.get("speed", 0.0), 1e-9)
@@ -64,12 +65,12 @@ def start_of(
         if "current" not in signals:
             current = _steady_current(signals, speed, model)
         spread["initial_current"] = max(abs(current), known_to.get("current", 0.0), 1e-9)
-    return Start(in_motion=True, state=(current if model.drive.winding else 0.0, speed, place), spread=spread)
+    return InitialState(in_motion=True, state=(current if model.drive.winding else 0.0, speed, place), spread=spread)
 
 
 def resolution(signal: Array, first: int) -> float:
-    """Standard deviation of one of the first samples: of their noise, or a step of the signal's values."""
-    return max(rough_noise(signal[:first]), quantum(signal))
+    """Standard deviation of one of the first samples of a signal (n,): of their noise, or a step of its values."""
+    return max(noise_from_differences(signal[:first]), quantum(signal))
 
 
 def _first_current(signals: Mapping[str, Array]) -> float:
@@ -94,7 +95,7 @@ def _first_slope(time: Array, position: Array, noise: float) -> tuple[float, flo
     Of a parabola, or of a curve of the next degrees while that moves the slope by more than chance does.
     """
     best = (0.0, np.inf)
-    for degree in range(min(2, time.size - 1), min(MOST_BENT, time.size - 2) + 1):
+    for degree in range(min(2, time.size - 1), min(MOST_DEGREE, time.size - 2) + 1):
         design = np.vander(time, degree + 1)
         found = np.linalg.lstsq(design, position, rcond=None)[0]
         slope, left = float(found[-2]), position - design @ found
@@ -109,5 +110,5 @@ def _first_slope(time: Array, position: Array, noise: float) -> tuple[float, flo
 
 def _steady_current(signals: Mapping[str, Array], speed: float, model: Model) -> float:
     """The current at which the winding is at rest with the speed."""
-    motor = model.motor
-    return (float(signals[model.drive.input][0]) - motor["back_emf_constant"] * speed) / motor["resistance"]
+    known = {name: model.motor[name] for name in ("resistance", "back_emf_constant")}
+    return resting_current(speed, float(signals[model.drive.input][0]), **known)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
-from rwn.model.start import start_of
 
 Array = NDArray[np.float64]
 
@@ -27,13 +27,13 @@ def _signals(speed: Array) -> dict[str, Array]:
 
 
 def test_noise_about_zero_is_rest_however_fast_the_start() -> None:
-    start = start_of(TIME, _signals(80.0 * (1.0 - np.exp(-TIME / 0.01))), MODEL)
+    start = initial_state_of(TIME, _signals(80.0 * (1.0 - np.exp(-TIME / 0.01))), MODEL)
     assert not start.in_motion
     assert start.state == (0.0, 0.0, 0.0)
 
 
 def test_a_first_sample_off_zero_is_motion_with_the_current_that_goes_with_it() -> None:
-    start = start_of(TIME, _signals(np.full(TIME.size, 60.0)), MODEL)
+    start = initial_state_of(TIME, _signals(np.full(TIME.size, 60.0)), MODEL)
     assert start.in_motion
     assert start.state[1] == pytest.approx(60.0, abs=0.3)
     assert start.state[0] == pytest.approx((5.0 - 0.05 * 60.0) / 2.0, abs=0.02)
@@ -42,15 +42,15 @@ def test_a_first_sample_off_zero_is_motion_with_the_current_that_goes_with_it() 
 
 def test_the_model_file_may_say_it() -> None:
     resting = replace(MODEL, recording=replace(MODEL.recording, initial="rest"))
-    assert not start_of(TIME, _signals(np.full(TIME.size, 60.0)), resting).in_motion
+    assert not initial_state_of(TIME, _signals(np.full(TIME.size, 60.0)), resting).in_motion
     moving = replace(MODEL, recording=replace(MODEL.recording, initial="estimate"))
-    assert start_of(TIME, _signals(np.zeros(TIME.size)), moving).in_motion
+    assert initial_state_of(TIME, _signals(np.zeros(TIME.size)), moving).in_motion
 
 
 def test_a_position_starts_within_its_steps_of_the_first_sample() -> None:
     count = 2.0 * np.pi / 2000.0
     position = np.round(40.0 * TIME**2 / count) * count + 0.7
-    start = start_of(TIME, {"voltage": np.ones(TIME.size), "position": position}, MODEL)
+    start = initial_state_of(TIME, {"voltage": np.ones(TIME.size), "position": position}, MODEL)
     assert not start.in_motion
     assert start.state[2] == pytest.approx(0.7)
     assert start.spread["initial_position"] == pytest.approx(count, rel=0.01)
@@ -60,7 +60,7 @@ def test_the_speed_of_a_position_is_known_to_the_bend_of_its_first_samples() -> 
     """An axis that gathers speed; steps of 1e-8 m."""
     position = np.round((0.006 * TIME + 0.5 * TIME**2 - 2.0 * TIME**3) / 1e-8) * 1e-8
     axis = Model(kind="axis", parameters={"inertia": 95.0, "viscous_friction": 200.0}, linear=True)
-    start = start_of(TIME, {"force": np.ones(TIME.size), "position": position}, axis)
+    start = initial_state_of(TIME, {"force": np.ones(TIME.size), "position": position}, axis)
     assert start.in_motion
     assert start.state[1] == pytest.approx(0.006, abs=4.0 * start.spread["initial_speed"])
     assert start.spread["initial_speed"] < 0.1 * 0.006

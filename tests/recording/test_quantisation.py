@@ -1,4 +1,4 @@
-"""The lattice of encoder counts and coarse converters, and what is none."""
+"""The steps of encoder counts and of coarse converters, and signals without steps."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def test_the_steps_of_a_coarse_converter_are_found() -> None:
     assert quantum(coarse) == pytest.approx(2.337)
 
 
-def test_the_decimals_of_a_file_are_no_lattice() -> None:
+def test_the_decimals_of_a_file_are_no_steps() -> None:
     rng = np.random.default_rng(0)
     assert quantum(np.round(100.0 * rng.standard_normal(4000), 3)) == 0.0
     assert quantum(100.0 * rng.standard_normal(4000)) == 0.0
