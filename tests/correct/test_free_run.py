@@ -14,7 +14,7 @@ from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.prove.proof import FITTED_PART, _folds
-from rwn.recording.intersample import Acting
+from rwn.recording.intersample import PiecewiseInput
 from rwn.simulate.run import run_of
 
 SHEET = rwn.Model(
@@ -54,8 +54,8 @@ def test_a_run_goes_on_from_the_recorded_motion() -> None:
 
 
 def test_an_input_that_acted_otherwise_goes_on_from_the_value_it_had() -> None:
-    acting = Acting(instants=np.array([0.0, 0.4, 1.1]), values=np.array([1.0, 2.0, 3.0]), spread=np.zeros(3))
-    later = acting.since(0.5)
+    applied = PiecewiseInput(instants=np.array([0.0, 0.4, 1.1]), values=np.array([1.0, 2.0, 3.0]), spread=np.zeros(3))
+    later = applied.since(0.5)
     np.testing.assert_allclose(later.instants, [0.0, 0.6])
     np.testing.assert_array_equal(later.values, [2.0, 3.0])
 

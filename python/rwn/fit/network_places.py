@@ -138,7 +138,7 @@ def largest(problem: Problem, state: str) -> float:
 
 
 def states_of(problem: Problem, place: Place) -> Array:
-    """The state along all recordings."""
+    """The state (n,) along all recordings, one after the other."""
     return _along(problem, place.state)
 
 
