@@ -29,14 +29,15 @@ def with_simpler(problem: Problem, nominal: Fit, fits: list[Fit]) -> list[Fit]:
 
 
 def _simpler(problem: Problem, best: Fit) -> list[Fit]:
-    """The best explanation with each of several effects left out, and with plain friction for each of its elaborations.
+    """The best explanation with each of several effects left out, and with one of its elaborations or all made plain.
 
     The search adds what gains most, so that it may never have met the plain law beside the second effect.
     """
     if len(best.added) < 2 and plainer(best.added) == set(best.added):
         return []
     sets = [best.added, *(tuple(n for n in best.added if n != name) for name in best.added)]
-    plain = [tuple(sorted(plainer(names))) for names in sets]
+    one_plainer = [({*best.added} - {name}) | plainer([name]) for name in best.added]
+    plain = [tuple(sorted(names)) for names in (*one_plainer, *map(plainer, sets))]
 
     def less(pair: tuple[tuple[str, ...], float]) -> Fit:
         names, share = pair

@@ -248,11 +248,11 @@ def _varied(fits: Sequence[Fit]) -> list[Fit]:
 
 
 def _prior(problem: Problem) -> dict[str, float]:
-    """Log prior odds that differ from uniform: a steady load is rare on a bench motor, common on a machine axis.
+    """Log prior odds that differ from uniform: a steady load is common on a machine axis.
 
-    Plain friction is likelier than any one of the laws that elaborate it.
+    Plain friction is likelier than any one of the laws that elaborate it, and than a load that a bench motor carries.
     """
-    offset = np.log(len(problem.prior.table)) + 1.0 if problem.drive.force else -5.0
+    offset = np.log(len(problem.prior.table)) + 1.0 if problem.drive.force else -np.log(ELABORATE)
     return {OFFSET: offset} | dict.fromkeys(elaborations(), -np.log(ELABORATE))
 
 
