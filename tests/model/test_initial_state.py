@@ -37,7 +37,7 @@ def test_a_first_sample_off_zero_is_motion_with_the_current_that_goes_with_it() 
     assert start.in_motion
     assert start.state[1] == pytest.approx(60.0, abs=0.3)
     assert start.state[0] == pytest.approx((5.0 - 0.05 * 60.0) / 2.0, abs=0.02)
-    assert set(start.spread) == {"initial_speed", "initial_current"}
+    assert set(start.spread) == {"initial_speed", "initial_current", "initial_position"}
 
 
 def test_the_model_file_may_say_it() -> None:

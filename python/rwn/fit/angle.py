@@ -53,10 +53,10 @@ def _turns(this: Fit) -> bool:
 
 
 def _simulated(problem: Problem, this: Fit) -> Problem:
-    """The problem on runs whose angle is the one that `this` simulates."""
+    """The problem on runs whose angle is the one that `this` simulates, but where it begins at an unknown one."""
     angles = [problem.simulate(r, this.vector, this.active).signals["position"] for r in problem.runs]
     runs = tuple(
-        replace(r, angle=np.ascontiguousarray(a), angle_from_speed=False, follows=True)
+        r if r.angle_unknown else replace(r, angle=np.ascontiguousarray(a), angle_from_speed=False, follows=True)
         for r, a in zip(problem.runs, angles, strict=True)
     )
     return replace(problem, runs=runs)

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.budget import shares_by_rank
-from rwn.fit.hypothesis import Hypothesis
+from rwn.fit.hypothesis import OF_RUNS, Hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING, Minimum, Unknown, minimise
 from rwn.fit.problem import CountedNormal, Problem
 from rwn.parallel import side_by_side
+from rwn.simulate.initial_angle import ANGLE
 
 Array = NDArray[np.float64]
 
@@ -120,10 +121,20 @@ class Fit:
         return {p.name: float(self.vector[effect.at(p.name)]) for p in effect.parameters}
 
     def starts(self, names: Iterable[str]) -> dict[str, dict[str, float]]:
-        """Where an explanation by some of its effects begins: with their parameters and those of the measurement."""
+        """Where an explanation by some of its effects begins: with their parameters and those of the measurement.
+
+        Along with effects of the angle goes the angle at which each recording begins, where that is unknown.
+        """
         measured = {u.name.partition(".")[0] for u in self.hypothesis.unknowns if u.nuisance}
         known = (*names, *(name for name in self.hypothesis.effects if name in measured))
-        return {name: self.values_of(name) for name in known}
+        angles = self.initial_angles if any(self.hypothesis.table[name].turns for name in known) else {}
+        return {name: self.values_of(name) for name in known} | {OF_RUNS: angles}
+
+    @property
+    def initial_angles(self) -> dict[str, float]:
+        """The fitted angles at which recordings begin, by the name of the unknown."""
+        pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
+        return {u.name: float(v) for u, v in pairs if u.nuisance and u.name.startswith(ANGLE)}
 
     def carried_to(self, other: Hypothesis) -> Hypothesis:
         """Another hypothesis, begun from where this fit ended in the unknowns that both have."""

@@ -15,6 +15,7 @@ from rwn.model.vocabulary import Effect, Parameter, motor_index, motor_parameter
 
 Array = NDArray[np.float64]
 
+OF_RUNS = "of runs"  # beside the names of effects: starts of what is unknown of single runs
 LEAST_LEVEL = 1e-3  # of a friction, relative to the largest torque, that says how strong its elaborations may be
 TORQUE_TO_EMF = 0.02  # Kt = Ke in SI but for losses that the equations do not hold
 
@@ -62,7 +63,10 @@ def hypothesis(
     starts: Mapping[str, Mapping[str, float]] | None = None,
     motor: Mapping[str, float] | None = None,
 ) -> Hypothesis:
-    """The nominal model with effects `added`, from their first guesses or `starts` (SI), the motor from `motor`."""
+    """The nominal model with effects `added`, from their first guesses or `starts` (SI), the motor from `motor`.
+
+    `starts`: by effect, and under OF_RUNS by the names of what is unknown of single runs.
+    """
     starts = starts or {}
     measured = {n.effect: n for n in prior.nuisance}
     active = tuple(dict.fromkeys((*prior.effects, *measured, *added)))
@@ -87,7 +91,8 @@ def hypothesis(
         else:
             declared = [(p, prior.of_effects.get(f"{name}.{p.name}", 0.0)) for p in effect.parameters]
             unknowns += [_declared_unknown(effect, p, known[p.name], std) for p, std in declared if std > 0.0]
-    vector = np.append(parameter_vector(motor_now, values, known_effects), np.zeros(len(prior.of_runs)))
+    of_runs = [starts.get(OF_RUNS, {}).get(own.name, 0.0) for own in prior.of_runs]
+    vector = np.append(parameter_vector(motor_now, values, known_effects), of_runs)
     return Hypothesis(effects=active, added=added, vector=vector, unknowns=tuple(unknowns), table=known_effects)
 
 

@@ -70,15 +70,16 @@ def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[s
 def _systematic(this: Fit, bias: float) -> Array:
     """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians.
 
-    `bias`: what is added to that part, in quadrature.
+    `bias`: what is added to that part, in quadrature, but to no number of periods: these add up along the way, where
+    what is not explained moves the phase but once.
     """
     known = this.hypothesis.table
-    angles = {f"{name}.{p.name}" for name in this.hypothesis.effects for p in known[name].parameters if p.cyclic}
+    of_effects = {f"{name}.{p.name}": p for name in this.hypothesis.effects for p in known[name].parameters}
     contacts = nonsmooth_unknowns(this.hypothesis)
-    pairs = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
-    return np.array(
-        [
-            np.hypot(IDEALISED if k in contacts else AGREEMENT, bias) * (1.0 if u.name in angles else abs(v))
-            for k, (u, v) in enumerate(pairs)
-        ]
-    )
+    parts = []
+    for k, (u, value) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):
+        p = of_effects.get(u.name)
+        part = IDEALISED if k in contacts else AGREEMENT
+        part = part if p and p.order else np.hypot(part, bias)
+        parts.append(part * (1.0 if p and p.cyclic else abs(value)))
+    return np.array(parts)

@@ -13,8 +13,10 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import Normal
 from rwn.fit.prior import Prior
 from rwn.model.drives.drive import Drive
+from rwn.model.vocabulary import motor_index
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
+from rwn.simulate.initial_angle import ANGLE, angles_to_try, nearest_angle
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import Output, Simulator
 
@@ -68,9 +70,17 @@ class Problem:
         """The nominal model at its given values."""
         return hypothesis(self.prior, (), self.scales)
 
-    def started(self, run: Run, vector: Array, active: Sequence[int]) -> Array:  # noqa: ARG002
-        """The parameter vector (all,) with the start of this run filled in."""
-        return self.simulator.started(run, vector)
+    def started(self, run: Run, vector: Array, active: Sequence[int]) -> Array:
+        """The parameter vector (all,) with the start of this run filled in.
+
+        An angle that nothing tells, of a run that was not fitted, is the one at which it fits best.
+        """
+        begun = self.simulator.started(run, vector)
+        if not run.angle_unknown or motor_index(ANGLE) in dict(run.own).values():
+            return begun
+        effects = [effect for effect in self.prior.table.values() if effect.index in active]
+        angles = angles_to_try(effects, begun)
+        return nearest_angle(self.simulator, run, begun, active, angles=angles, noise=self.noise)
 
     def simulate(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:
         """One run: signals (n,), with derivatives (n, p) by the parameters `by`."""

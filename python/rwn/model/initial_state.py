@@ -19,6 +19,7 @@ STATE = ("initial_current", "initial_speed", "initial_position")  # the paramete
 _NONE: Mapping[str, NDArray[np.bool_]] = MappingProxyType({})
 
 MOST_DEGREE = 4  # of the curve through the first samples of a position
+EVEN = 2.0 * np.pi / np.sqrt(12.0)  # standard deviation [rad] of an angle of which nothing is known
 CERTAIN = 5.0  # deviations of a first sample from rest that chance does not explain: 1 in 10^6
 
 
@@ -39,7 +40,8 @@ def initial_state_of(
 ) -> InitialState:
     """The start of a recording (n,) each, SI, by what the model's [recording] table says of it or its first samples.
 
-    A position that was recorded starts within its noise or its steps of the first sample. `missing`: samples (n,) that
+    A position that was recorded starts within its noise or its steps of the first sample; of one that was not, nothing
+    is known once the shaft turned before. `missing`: samples (n,) that
     were not measured; of a signal that begins with one nothing is read.
     """
     signals = {n: x for n, x in signals.items() if n == "position" or n not in missing or not missing[n][0]}
@@ -61,6 +63,8 @@ def initial_state_of(
     sooner = _first_speed(time, signals, known_to, first // 2)[0]  # a step response is no curve of a few degrees
     known_within = abs(speed) if "speed" in signals else float(np.hypot(off, speed - sooner))
     spread["initial_speed"] = max(known_within, known_to.get("speed", 0.0), 1e-9)
+    if "position" not in signals and not (model.linear or model.drive.coefficients):
+        spread["initial_position"] = EVEN
     if model.drive.winding:
         if "current" not in signals:
             current = _steady_current(signals, speed, model)

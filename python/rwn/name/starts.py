@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +13,9 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING
 from rwn.fit.problem import Problem
 from rwn.fit.secant import nonsmooth_unknowns
+from rwn.name.initial_guesses.guess import Guess
 from rwn.name.initial_guesses.guesses import initial_guesses
+from rwn.name.initial_guesses.initial_angle import aligned
 
 KEPT_UNFITTED = 4  # starts kept of an effect whose derivatives mislead far from the minimum
 KEPT_OF_AN_ORDER = 2  # starts kept of each order of a periodic effect
@@ -64,13 +66,13 @@ def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start
     motors = [base.motor, *([{}] if _moved(base) else []), *problem.prior.starts]
     if effect.at_an_end:
         motors += _with_less_inertia(base)
+
+    def begun(guess: Guess, motor: Mapping[str, float]) -> Hypothesis:
+        this = hypothesis(problem.prior, (*base.added, name), problem.scales, {**known, name: guess}, motor)
+        return aligned(problem, base, this, effect)
+
     return [
-        Start(
-            name,
-            guess.get(periodic, 0.0),
-            min(k, 1) if effect.at_an_end else 0,
-            hypothesis(problem.prior, (*base.added, name), problem.scales, {**known, name: guess}, motor),
-        )
+        Start(name, guess.get(periodic, 0.0), min(k, 1) if effect.at_an_end else 0, begun(guess, motor))
         for guess in initial_guesses(problem, base, effect, count=orders)
         for k, motor in enumerate(motors)
     ]

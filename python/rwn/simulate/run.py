@@ -92,6 +92,11 @@ class Run:
         return without
 
     @property
+    def angle_unknown(self) -> bool:
+        """Whether nothing tells the angle of the shaft at the first sample: it turned before, with no position."""
+        return self.in_motion and not self.position.size
+
+    @property
     def followed(self) -> Array:
         """The position that angle-dependent effects follow; empty: the simulated one."""
         return self.angle if self.follows else _NONE
@@ -118,6 +123,8 @@ class Run:
         cut = {name: getattr(self, name)[begin:] for name in arrays}
         speed, position = float(self.motion()[0][begin]), float(self.angle[begin]) if self.angle.size else 0.0
         first = float(self.time[begin])
+        if self.angle_from_speed and self.angle.size:  # it is counted from the first sample
+            cut["angle"] = cut["angle"] - position
         return replace(
             self, **cut, time=self.time[begin:] - first, start=(0.0, speed, position), start_spread={}, own=(),
             in_motion=True, input_before=float(self.input[begin - 1]),

@@ -19,6 +19,7 @@ from rwn.recording.columns import Layout
 from rwn.recording.delays import delayed
 from rwn.recording.filters import as_filtered
 from rwn.recording.signals import MEASURED
+from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import run_of
 from rwn.simulate.simulator import Simulator
@@ -46,7 +47,10 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
     Either may be a path; `recording` may be a table in Python too.
 
     That state is rest or what the first samples show, as the model's `[recording]` table says; no measured signal is
-    used beyond these. Raises InputError where the model has no values to simulate with.
+    used beyond these. Only the angle at which a shaft in motion begins, where no position tells it and the model has
+    an effect of the angle, is the one that fits the recording best.
+
+    Raises InputError where the model has no values to simulate with.
     """
     model = model_of(model)
     (recording,) = read_recordings([recording], model, compared=False)
@@ -59,6 +63,9 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
     active = [model.effect_table[name].index for name in model.effects]
     if not model.drive.coefficients:
         vector = simulator.started(run, vector)
+        if run.angle_unknown:
+            turning = angles_to_try([model.effect_table[name] for name in model.effects], vector)
+            vector = nearest_angle(simulator, run, vector, active, angles=turning)
     elif run.in_motion:
         vector = nearest_state(simulator, run, vector, active)
     output = simulator.simulate(run, vector, active)

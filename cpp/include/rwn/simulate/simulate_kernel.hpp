@@ -66,7 +66,6 @@ class Simulation {
     State state = initial(integrator);
     integrator.settle(state);
     prepare(state);
-    start_ = state.position;
     for (int k = 0; k < slice_.samples; ++k) {
       if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position)))
         return k;
@@ -74,7 +73,7 @@ class Simulation {
       if (has_own_ && *slice_.formula_failed) return k;
       if (slice_.restart_every > 0 && k > 0 && k % slice_.restart_every == 0) {
         state.x[w] = S(slice_.restart_speed[k]);
-        start_ += slice_.restart_position[k] - state.position;
+        jumped_ += slice_.restart_position[k] - state.position;
         state.position = S(slice_.restart_position[k]);
         integrator.settle(state);
       }
@@ -247,9 +246,9 @@ class Simulation {
   }
 
   /// What angle-dependent effects follow minus the simulated position. An integrated speed turns with its sensor's
-  /// errors; the simulated reading, integrated likewise, takes them out.
+  /// errors; the simulated reading, integrated likewise, takes them out. The initial position is the angle it starts at.
   S offset(int k, const S& position) const {
-    return slice_.angle_from_speed ? slice_.angle[k] - turned_ - start_ : slice_.angle[k] - position;
+    return slice_.angle_from_speed ? slice_.angle[k] - turned_ - jumped_ : slice_.angle[k] - position;
   }
 
   void store(int k, const S& y, double* values, double* slopes) const {
@@ -271,7 +270,7 @@ class Simulation {
   std::array<S, Drive::coefficients ? coefficient_count : 0> coefficients_{};
   S delay_{0.0};
   S shown_{0.0}, turned_{0.0};  // simulated reading of the speed, and its integral
-  S start_{0.0}, offset_{0.0};  // position where that integral starts; angle minus position, 0 without one
+  S jumped_{0.0}, offset_{0.0};  // how far restarts have moved the position; angle minus position, 0 without one
   std::array<S, 8> breaks_{};
   int break_count_ = 0, memories_ = 0;
   int row_ = -1;  // the last input that had acted when the last interval began

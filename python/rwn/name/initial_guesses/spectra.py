@@ -81,11 +81,14 @@ def angle_spectrum(
     """
     from scipy.signal import lfilter  # late: the command line starts without it
 
-    energy = 1e-300
+    energy, explained = 1e-300, np.zeros(orders.size)
     grams, loads = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2))
     for run, residual in zip(problem.runs, residuals, strict=True):
         if "speed" not in residual or not run.angle.size:
             continue
+        if run.angle_unknown:  # its phase is its own
+            explained += _explained(grams, loads)
+            grams, loads = np.zeros_like(grams), np.zeros_like(loads)
         angle = problem.simulator.angle_per_position * run.angle
         r = residual["speed"]
         drive = current_of(problem, motor, run) if with_current else 1.0
@@ -98,7 +101,7 @@ def angle_spectrum(
             load = complex(answer @ r)
             loads[k] += load.real, load.imag
         energy += float(r @ r)
-    return _explained(grams, loads) / energy
+    return (explained + _explained(grams, loads)) / energy
 
 
 def flux_spectrum(problem: Problem, motor: Array, orders: Array) -> Array:
