@@ -14,7 +14,7 @@ struct Task {
   int drive = 0;
   Array time, input, input_time, angle, restart_speed, restart_position;
   double angle_per_position = 1.0, input_before = 0.0;
-  bool angle_from_speed = false;
+  bool angle_from_speed = false, angle_from_start = false;
   int restart_every = 0, order = 0;
   std::vector<OwnEffect> own;
 
@@ -32,6 +32,7 @@ struct Task {
             .input_before = input_before,
             .angle = view(angle),
             .angle_from_speed = angle_from_speed,
+            .angle_from_start = angle_from_start,
             .restart_every = restart_every,
             .restart_speed = view(restart_speed),
             .restart_position = view(restart_position),

@@ -33,7 +33,7 @@ class Task:
     """
     What is simulated: a drive, the input of one run, and what its effects follow.
     """
-    def __init__(self, drive: str, *, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], input_time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_from_speed: bool = False, restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = []) -> None:
+    def __init__(self, drive: str, *, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], input_time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_from_speed: bool = False, angle_from_start: bool = False, restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = []) -> None:
         ...
 class Measurements:
     """

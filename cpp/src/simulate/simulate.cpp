@@ -175,6 +175,7 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         task.input_before,
                         task.angle.empty() ? nullptr : task.angle.data(),
                         task.angle_from_speed,
+                        task.angle_from_start,
                         task.restart_every,
                         task.restart_speed.data(),
                         task.restart_position.data(),

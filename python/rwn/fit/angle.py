@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rwn.fit.budget import one_stage
 from rwn.fit.fit import Fit, best_few, refit, refit_all
 from rwn.fit.problem import Problem
 from rwn.simulate.run import Run
+
+Array = NDArray[np.float64]
 
 MOST_ROUNDS = 4  # times that the angle is simulated anew
 GAINED = 2.0  # of cost, one unknown's worth by Akaike's criterion, that another angle has to gain
@@ -53,10 +56,14 @@ def _turns(this: Fit) -> bool:
 
 
 def _simulated(problem: Problem, this: Fit) -> Problem:
-    """The problem on runs whose angle is the one that `this` simulates, but where it begins at an unknown one."""
+    """The problem on runs whose angle is the one that `this` simulates."""
     angles = [problem.simulate(r, this.vector, this.active).signals["position"] for r in problem.runs]
-    runs = tuple(
-        r if r.angle_unknown else replace(r, angle=np.ascontiguousarray(a), angle_from_speed=False, follows=True)
-        for r, a in zip(problem.runs, angles, strict=True)
-    )
+    runs = tuple(_following(r, a) for r, a in zip(problem.runs, angles, strict=True))
     return replace(problem, runs=runs)
+
+
+def _following(run: Run, angle: Array) -> Run:
+    """The run with a simulated angle (n,); where it begins stays free if that is unknown."""
+    free = run.angle_unknown
+    counted = np.ascontiguousarray(angle - angle[0] if free else angle)
+    return replace(run, angle=counted, angle_from_speed=False, angle_from_start=free, follows=True)

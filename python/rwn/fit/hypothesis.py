@@ -75,7 +75,8 @@ def hypothesis(
     motor_now = {**prior.motor, **prior.free, **(motor or {})}
     unknowns = [_motor_unknown(name, prior) for name in prior.uncertainty if name not in replaced]
     unknowns += [_free_unknown(name) for name in prior.free]
-    unknowns += [_unknown_of_a_run(own) for own in prior.of_runs]
+    turning = any(known_effects[name].turns for name in active)
+    unknowns += [_unknown_of_a_run(own) for own in prior.of_runs if turning or not own.turns]
     values: dict[str, dict[str, float]] = {}
     for name in active:
         effect = known_effects[name]

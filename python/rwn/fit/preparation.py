@@ -21,6 +21,7 @@ from rwn.fit.transfer_function import TransferFunctionProblem, first_guesses
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.recording.recording import Recording
+from rwn.simulate.initial_angle import ANGLE
 from rwn.simulate.run import Run, run_of
 from rwn.simulate.simulator import Simulator
 
@@ -75,7 +76,8 @@ def _unknown_starts(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[RunUnkn
             unit = motor_parameters()[name].unit
             unknowns.append(
                 RunUnknown(
-                    name=f"{name} of {run.name}", unit=unit, place=place, parameter=motor_index(name), spread=spread
+                    name=f"{name} of {run.name}", unit=unit, place=place, parameter=motor_index(name), spread=spread,
+                    turns=name == ANGLE and run.angle_unknown,
                 )
             )
             own.append((place, motor_index(name)))

@@ -18,6 +18,7 @@ class RunUnknown:
     place: int  # in the vector of a fit, behind all parameters
     parameter: int  # index of what it adds to
     spread: float  # standard deviation of its prior
+    turns: bool = False  # only effects of the angle depend on it
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,7 +15,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.secant import nonsmooth_unknowns
 from rwn.name.initial_guesses.guess import Guess
 from rwn.name.initial_guesses.guesses import initial_guesses
-from rwn.name.initial_guesses.initial_angle import aligned
+from rwn.name.initial_guesses.initial_angle import aligned, free_to_turn, without_phases
 
 KEPT_UNFITTED = 4  # starts kept of an effect whose derivatives mislead far from the minimum
 KEPT_OF_AN_ORDER = 2  # starts kept of each order of a periodic effect
@@ -69,11 +69,13 @@ def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start
 
     def begun(guess: Guess, motor: Mapping[str, float]) -> Hypothesis:
         this = hypothesis(problem.prior, (*base.added, name), problem.scales, {**known, name: guess}, motor)
-        return aligned(problem, base, this, effect)
+        return aligned(problem, this, effect) if turned else this
 
+    turned = free_to_turn(problem, base, effect)
+    guesses = initial_guesses(problem, base, effect, count=orders)
     return [
         Start(name, guess.get(periodic, 0.0), min(k, 1) if effect.at_an_end else 0, begun(guess, motor))
-        for guess in initial_guesses(problem, base, effect, count=orders)
+        for guess in (without_phases(guesses, effect) if turned else guesses)
         for k, motor in enumerate(motors)
     ]
 

@@ -50,6 +50,7 @@ class Run:
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
     angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
+    angle_from_start: bool = False  # `angle` is counted from the initial position
     follows: bool = True  # angle-dependent effects follow `angle`, else the simulated position
     restart_every: int = 0  # samples of a window after which the motion restarts from the recorded one; 0: free run
     restart_speed: Array = field(default_factory=lambda: _NONE)
@@ -93,8 +94,8 @@ class Run:
 
     @property
     def angle_unknown(self) -> bool:
-        """Whether nothing tells the angle of the shaft at the first sample: it turned before, with no position."""
-        return self.in_motion and not self.position.size
+        """Whether nothing tells the angle of the shaft at the first sample."""
+        return "initial_position" in self.start_spread and not self.position.size
 
     @property
     def followed(self) -> Array:

@@ -78,6 +78,7 @@ class Simulator:
         return _core.Task(
             self.kind, time=run.time, input=given[0], input_time=given[1], angle_per_position=self.angle_per_position,
             input_before=run.input_before, angle=run.followed, angle_from_speed=run.angle_from_speed,
+            angle_from_start=run.angle_from_start,
             restart_every=run.restart_every, restart_speed=run.restart_speed, restart_position=run.restart_position,
             order=self.order, own=list(self.own),
         )  # fmt: skip

@@ -50,6 +50,7 @@ struct SimulationTask {
   std::span<const double> angle;       // (n) recorded position that angle-dependent effects follow instead of the
                                        // simulated one, which drifts; empty: free run
   bool angle_from_speed = false;       // that is the integral of a recorded speed, with what its sensor adds
+  bool angle_from_start = false;       // that is counted from the initial position
   int restart_every = 0;               // samples of a window, after which the motion restarts from the recorded one
   std::span<const double> restart_speed, restart_position;  // (n) recorded motion; not read where restart_every is 0
   int order = 0;                                             // of a transfer function (drive lti)

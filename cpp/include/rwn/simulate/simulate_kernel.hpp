@@ -66,6 +66,7 @@ class Simulation {
     State state = initial(integrator);
     integrator.settle(state);
     prepare(state);
+    if (slice_.angle_from_start) first_angle_ = state.position;
     for (int k = 0; k < slice_.samples; ++k) {
       if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position)))
         return k;
@@ -153,7 +154,7 @@ class Simulation {
     x.current = y.current;
     x.speed = y.speed;
     const bool recorded = slice_.angle != nullptr && !slice_.angle_from_speed;
-    x.angle = slice_.angle_per_position * (recorded ? S(slice_.angle[k]) : y.position + offset_);
+    x.angle = slice_.angle_per_position * (recorded ? slice_.angle[k] + first_angle_ : y.position + offset_);
     x.angle_per_position = slice_.angle_per_position;
     x.drive_torque = drive_torque(s, input);
     if constexpr (!Drive::coefficients) x.direction = s.direction;
@@ -248,7 +249,7 @@ class Simulation {
   /// What angle-dependent effects follow minus the simulated position. An integrated speed turns with its sensor's
   /// errors; the simulated reading, integrated likewise, takes them out. The initial position is the angle it starts at.
   S offset(int k, const S& position) const {
-    return slice_.angle_from_speed ? slice_.angle[k] - turned_ - jumped_ : slice_.angle[k] - position;
+    return slice_.angle_from_speed ? slice_.angle[k] - turned_ - jumped_ : slice_.angle[k] + first_angle_ - position;
   }
 
   void store(int k, const S& y, double* values, double* slopes) const {
@@ -271,6 +272,7 @@ class Simulation {
   S delay_{0.0};
   S shown_{0.0}, turned_{0.0};  // simulated reading of the speed, and its integral
   S jumped_{0.0}, offset_{0.0};  // how far restarts have moved the position; angle minus position, 0 without one
+  S first_angle_{0.0};           // initial position, where the given angle is counted from it
   std::array<S, 8> breaks_{};
   int break_count_ = 0, memories_ = 0;
   int row_ = -1;  // the last input that had acted when the last interval began

@@ -26,6 +26,7 @@ struct SimulationSlice {
   double input_before;
   const double* angle;  // recorded position, or null
   bool angle_from_speed;
+  bool angle_from_start;
   int restart_every;  // 0: never
   const double* restart_speed;
   const double* restart_position;

@@ -12,6 +12,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.problem import Problem
 from rwn.model.vocabulary import Effect, motor_index
+from rwn.name.initial_guesses.guess import Guess
 from rwn.simulate.initial_angle import ANGLE, angles_to_try
 from rwn.simulate.run import Run
 
@@ -20,43 +21,62 @@ Array = NDArray[np.float64]
 FAINT = 1e-3  # of the first guess of a strength: the answer to it is linear, and the motion as it is without
 
 
-def aligned(problem: Problem, base: Fit, start: Hypothesis, effect: Effect) -> Hypothesis:
-    """A start of `base` with an effect of the angle, each recording begun at the angle at which that gains most."""
-    if not effect.turns or any(base.hypothesis.table[name].turns for name in base.hypothesis.effects):
-        return start
-    where = motor_index(ANGLE)
+def free_to_turn(problem: Problem, base: Fit, effect: Effect) -> bool:
+    """Whether an effect may begin at any angle in some recording, as far as is known beside `base`."""
+    turning = any(base.hypothesis.table[name].turns for name in base.hypothesis.effects)
+    return effect.turns and not turning and any(_place(run) is not None for run in problem.runs)
+
+
+def without_phases(guesses: Sequence[Guess], effect: Effect) -> list[Guess]:
+    """The guesses without those that differ from another in the phase alone."""
+    cyclic = {p.name for p in effect.parameters if p.cyclic}
+    kept = {tuple((k, v) for k, v in guess.items() if k not in cyclic): guess for guess in reversed(guesses)}
+    return list(kept.values())[::-1]
+
+
+def aligned(problem: Problem, start: Hypothesis, effect: Effect) -> Hypothesis:
+    """A start with the phase, and the unknown angle of every recording, at which the effect gains most.
+
+    Recordings whose angle is known share the phase.
+    """
     vector = start.vector.copy()
+    known = [run for run in problem.runs if _place(run) is None]
+    phase = next((p for p in effect.parameters if p.cyclic), None)
+    turned = _best_angle(problem, known, start, effect) if known and phase else 0.0
     for run in problem.runs:
-        places = [place for place, parameter in run.own if parameter == where]
-        if run.angle_unknown and places:
-            vector[places[0]] = _best_angle(problem, run, start, effect)
+        place = _place(run)
+        if place is not None:
+            vector[place] = _best_angle(problem, [run], start, effect) - turned
+    if phase:
+        order = next((float(vector[effect.at(p.name)]) for p in effect.parameters if p.order), 1.0)
+        vector[effect.at(phase.name)] = np.angle(np.exp(1j * (vector[effect.at(phase.name)] + order * turned)))
     return replace(start, vector=vector)
 
 
-def _best_angle(problem: Problem, run: Run, start: Hypothesis, effect: Effect) -> float:
-    """The angle [rad] at which what the effect adds, growing from nothing, explains most of what a run leaves."""
-    vector = problem.simulator.started(run, start.vector)
+def _place(run: Run) -> int | None:
+    """Of the unknown angle of a run in the vector of a fit."""
+    where = motor_index(ANGLE)
+    return next((place for place, p in run.own if p == where and run.angle_unknown), None)
+
+
+def _best_angle(problem: Problem, runs: Sequence[Run], start: Hypothesis, effect: Effect) -> float:
+    """The angle [rad] at which what the effect adds, growing from nothing, explains most of what some runs leave."""
     strengths = [effect.at(p.name) for p in effect.parameters if p.strength and not p.replaces]
-    vector[strengths] *= FAINT
-    angles = angles_to_try([effect], vector)
-    gained = [_gain(problem, run, start, vector, strengths, angle) for angle in angles]
-    return float(angles[int(np.argmax(gained))])
+    vectors = []
+    for run in runs:
+        vector = problem.simulator.started(run, start.vector)
+        vector[strengths] *= FAINT
+        vectors.append(vector)
 
+    def gain(angle: float) -> float:
+        """Squared error that strengths of the right sign remove, to first order."""
+        slope, curvature = np.zeros(len(strengths)), np.full(len(strengths), 1e-300)
+        for run, vector in zip(runs, vectors, strict=True):
+            vector[motor_index(ANGLE)] = angle
+            normal = problem.normal_at(run, vector, start.active, strengths)
+            if not normal.finite:
+                return -np.inf
+            slope, curvature = slope + normal.gradient, curvature + np.diag(normal.curvature)
+        return float(np.sum(np.maximum(slope, 0.0) ** 2 / curvature))
 
-def _gain(
-    problem: Problem, run: Run, start: Hypothesis, vector: Array, strengths: Sequence[int], angle: float
-) -> float:
-    """Squared error that a strength of the right sign removes, to first order, beside the uncertain parameters."""
-    at = vector.copy()
-    at[motor_index(ANGLE)] = angle
-    others = [u.index for u in start.unknowns if u.prior is not None and not u.nuisance and u.index not in strengths]
-    normal = problem.normal_at(run, at, start.active, [*others, *strengths])
-    if not normal.finite or not np.isfinite(normal.curvature).all():
-        return -np.inf
-    k = len(others)
-    size = 1.0 / np.sqrt(np.maximum(np.diag(normal.curvature), 1e-300))
-    curvature, gradient = normal.curvature * np.outer(size, size), normal.gradient * size
-    kept = curvature[:k, :k] + 1e-9 * np.eye(k)
-    left = curvature[k:, k:] - curvature[k:, :k] @ np.linalg.solve(kept, curvature[:k, k:])
-    slope = gradient[k:] - curvature[k:, :k] @ np.linalg.solve(kept, gradient[:k])
-    return float(np.sum(np.where(slope > 0.0, slope, 0.0) ** 2 / np.maximum(np.diag(left), 1e-9)))
+    return float(max(angles_to_try([effect], vectors[0]), key=gain))
