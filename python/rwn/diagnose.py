@@ -14,7 +14,7 @@ from rwn.decide.decision import decide
 from rwn.errors import InputError
 from rwn.faults.explain import explained
 from rwn.faults.fault import without
-from rwn.fit.late_enable import late_enables, powered
+from rwn.faults.late_enable import late_beside, powered
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
@@ -69,7 +69,8 @@ def diagnose(
         say("proving it on data that were not fitted", 0.85)
         for fault in found.faults:
             heldout = without(heldout, fault)
-        heldout = powered(heldout, late_enables(heldout, model), model)
+        late = late_beside(heldout, model, found.ranking.problem, found.ranking.fits[0].fit)
+        heldout = powered(heldout, late, model)
         unseen = measured_alike([judging_run(r, model) for r in heldout], found.ranking.problem.whole)
         decision = decide(found.ranking, unseen, model, seed=seed)
         say("correcting the model", 0.9)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.fault import Fault
+from rwn.faults.late_enable import LateEnable, late_enables, needed, powered
 from rwn.faults.resolve import resolved
 from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
-from rwn.fit.late_enable import LateEnable, late_enables, needed, powered
 from rwn.fit.sensor_filter import stating_filters
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model

@@ -1,32 +1,36 @@
 """A power stage that was enabled after the recording began: a voltage was commanded, and nothing moved.
 
-Standing still under an input tells this apart from friction: an explanation under which the drive would have stood
-still anyway needs no late enable. Nor does one under which the input acts late throughout: a delay says more.
+Friction and a dead zone hold a drive too, and an input may act late throughout: a late enable is said where it explains
+the recordings far better than these. An explanation under which the drive would have stood still anyway needs none.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit, fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
+from rwn.fit.likelihood import DECISIVE
 from rwn.fit.nominal import nominal_of
 from rwn.fit.preparation import prepare
+from rwn.fit.prior_weight import worth
 from rwn.fit.problem import Problem
 from rwn.model.initial_state import CERTAIN, resolution
 from rwn.model.model import Model
-from rwn.recording.recording import Recording
+from rwn.name.observable import observable
+from rwn.name.screening import screen
+from rwn.recording.recording import Recording, beginnings
 from rwn.simulate.run import Run, run_of
 
 Array = NDArray[np.float64]
 
 FEWEST = 3  # samples that stand still: fewer are what an inductance and an inertia take
 DELAY = "input-delay"
+RIVALS = ("coulomb-friction", "stribeck-friction", "actuator-deadzone", DELAY)  # under which a drive stands still too
 TRIED = 64  # instants of enabling that are compared at a time
 
 
@@ -41,22 +45,37 @@ class LateEnable:
 
 
 def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEnable, ...]:
-    """What stood still where the refitted nominal model would have moved.
+    """What stood still where the refitted nominal model would have moved, and no friction, dead zone or delay did it.
 
     Raises InputError where a recording does not fit the model.
     """
-    still = _standing(recordings, model)
+    still = [_standing(r, model) for r in recordings]
     if model.drive.coefficients or not any(still):
         return ()
     problem, nominal = nominal_of([_unpowered(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
-    found: list[LateEnable] = []
-    for k, (recording, run, samples) in enumerate(zip(recordings, problem.runs, still, strict=True)):
-        if samples and _moves(problem, nominal, recording, model, run, samples):
-            enabled = _enabled(problem, nominal, recording, model, run, samples)
+    found = _enabled_late(recordings, model, problem, nominal, problem.runs)
+    return found if found and _explain_more(found, recordings, model) else ()
+
+
+def late_beside(recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit) -> tuple[LateEnable, ...]:
+    """What stood still, of recordings that were not fitted, where an explanation `this` of others would have moved."""
+    if model.drive.coefficients or not any(_standing(r, model) for r in recordings):
+        return ()
+    return _enabled_late(recordings, model, problem, this, [run_of(r, model) for r in recordings])
+
+
+def _enabled_late(
+    recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit, runs: Sequence[Run]
+) -> tuple[LateEnable, ...]:
+    found = []
+    for k, (recording, run) in enumerate(zip(recordings, runs, strict=True)):
+        samples = _standing(recording, model)
+        if samples and _moves(problem, this, recording, model, run, samples):
+            enabled = _enabled(problem, this, recording, model, run, samples)
             time = float(recording.time[enabled] - recording.time[0])
             if enabled >= FEWEST:
                 found.append(LateEnable(place=k, recording=recording.name, samples=enabled, time=time))
-    return () if found and _is_a_delay(found, recordings, model, problem) else tuple(found)
+    return tuple(found)
 
 
 def powered(recordings: Sequence[Recording], found: Sequence[LateEnable], model: Model) -> list[Recording]:
@@ -76,51 +95,31 @@ def needed(
     )
 
 
-def _standing(recordings: Sequence[Recording], model: Model) -> list[int]:
-    """Samples from the first on that stand still under an input, of each recording; 0 where few do.
-
-    Or where friction or a dead zone may have held it: where no larger input acted on them than when the motion begins,
-    or than when other recordings begin to move.
-    """
-    begun = [_begins(r, model) for r in recordings]
-    standing = []
-    for k, this in enumerate(begun):
-        elsewhere = [max(b.held, b.moved) for j, b in enumerate(begun) if j != k and b.samples > FEWEST]
-        held = 0.0 < this.moved <= this.held or this.held > max(elsewhere, default=np.inf)
-        standing.append(this.samples if this.samples > FEWEST and held else 0)
-    return standing
-
-
-class _Beginning(NamedTuple):
-    """How a recording begins: the samples that stand still, and the largest input before and when it moves."""
-
-    samples: int
-    held: float
-    moved: float
-
-
-def _begins(recording: Recording, model: Model) -> _Beginning:
+def _standing(recording: Recording, model: Model) -> int:
+    """Samples from the first on that stand still, of a recording with an input in them; 0 of others."""
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
     moved = [np.abs(x - np.median(x[:FEWEST])) > CERTAIN * resolution(x, x.size) for x in measured]
-    samples = min((int(np.argmax(m)) for m in moved), default=0)
-    given = np.abs(np.asarray(recording.signals[model.drive.input])[: samples + 1])
-    begins = max(samples - FEWEST, 0)
-    return _Beginning(samples, float(np.max(given[:begins], initial=0.0)), float(np.max(given[begins:])))
+    samples = min((int(np.argmax(m)) if m.any() else m.size for m in moved), default=0)
+    given = np.asarray(recording.signals[model.drive.input])[: max(samples - FEWEST, 0)]
+    return samples if samples > FEWEST and given.any() else 0
 
 
-def _is_a_delay(
-    found: Sequence[LateEnable], recordings: Sequence[Recording], model: Model, powered_later: Problem
-) -> bool:
-    """Whether an input that acts late in all recordings leaves no more of them than these late enables do.
+def _explain_more(found: Sequence[LateEnable], recordings: Sequence[Recording], model: Model) -> bool:
+    """Whether the recordings are far likelier with these late enables than by what may hold a drive or delay it.
 
-    Each late enable is a number of its own; a delay is one for all, and says what any other recording will do.
+    Each late enable is a number of its own. Either way the same effects may act beside the nominal model; errors count
+    as what is left by the best is worth.
     """
-    problem = replace(prepare(recordings, model), noise=powered_later.noise, colour=powered_later.colour)
-    if DELAY in problem.prior.effects:
-        return False
-    waits = [_wait(recordings[late.place], late, model) for late in found]
-    late = fit(problem, hypothesis(problem.prior, (DELAY,), problem.scales, {DELAY: {"delay": float(max(waits))}}))
-    return late.cost <= fit_nominal(powered_later).cost
+    later, nominal = nominal_of(beginnings(powered(recordings, found, model)), model)
+    names = [n for n in RIVALS if observable(n, later)]
+    best = min([nominal, *screen(later, nominal, names)], key=lambda f: f.cost)
+    at_once = replace(prepare(beginnings(recordings), model), noise=later.noise, colour=later.colour)
+    nominal = fit_nominal(at_once)
+    delay = max(_wait(recordings[late.place], late, model) for late in found)
+    delayed = [hypothesis(at_once.prior, (n,), at_once.scales, {n: {"delay": delay}}) for n in names if n == DELAY]
+    others = [nominal, *screen(at_once, nominal, names), *(fit(at_once, d) for d in delayed)]
+    gained = min(f.cost for f in others) - best.cost
+    return gained > 2.0 * worth(later, best) * DECISIVE * len(found)
 
 
 def _wait(recording: Recording, late: LateEnable, model: Model) -> float:
