@@ -5,11 +5,10 @@ cycles of one choice take one to two minutes of a core, so only the choice that 
 themselves, and in Tables 13 to 16 one with larger first weights; the others have a hundredth and less of them, and the
 nearest a tenth and a twentieth. Tables 13 and 14 are tried with the tightened bounds too: there the larger fractions
 break down, with the printed ones they do not.
-Morlet of Table 15 has a table of its own, ten seeds for each choice. With omega0 = 5 a dilation comes near zero in the
-first cycles, the running maxima of the printed bounds keep what it was then, and nothing learns any more: its error is
-that of the first cycles, grows with the square of the first weights, and 50 cycles tell it. With omega0 = 1.75, which
-the text does not give either, it learns like the others. First weights in [0, 1] are what the thesis calls usual
-(section 1).
+Morlet of Table 15 has a table of its own, ten seeds for each choice. With omega0 = 5 |c/d| max|phi'| soon reaches 1
+from most starts, mostly in the first cycle; from there on the bounds have no meaning, the rates are zero, and the
+error stays what it is: it grows with the first weights, and 50 cycles tell it. With omega0 = 1.75, which the text
+does not give either, it learns like the others. First weights in [0, 1] are what the thesis calls usual (section 1).
 """
 
 from __future__ import annotations
