@@ -82,7 +82,7 @@ CAUSES = (
     (
         "Figure 37",
         "",
-        "how far the spiral reaches into the corners is not said, and decides the tested error (choices)",
+        "how far the spiral reaches into the corners is not said, and decides the tested error (choices of Table 10)",
     ),
     *((f"Figure {number}", "", _BILINEAR) for number in (46, 49)),
     *((f"Figure {number}", "", _BLACK_BOX) for number in (51, 54)),
