@@ -133,6 +133,9 @@ def test_the_command_prints_the_comparison_and_writes_the_page(tmp_path: Path) -
     assert page.index("Shortened") < page.index("## Overview") < page.index("| Table 7 | 2 |")
     assert "not stated: both start from the dyadic grid" in " ".join(page.split())
     assert (tmp_path / "thesis" / "figure_26.png").stat().st_size > 10_000
+    again = CliRunner().invoke(app, ["page", "--out", str(tmp_path), "--page", str(tmp_path / "again" / "thesis.md")])
+    assert again.exit_code == 0, again.output
+    assert (tmp_path / "again" / "thesis.md").read_text() == page, "from what was kept"
 
 
 @pytest.mark.parametrize("options", [[], ["--table", "99"], ["--all", "--table", "1"]])
@@ -162,8 +165,8 @@ def test_the_page_begins_with_the_numbers_and_the_cause_of_each_that_is_not_repr
     def run_it(_: Settings) -> Outcome:
         rows = [
             row(None, 2.0, judge="wanted", wanted=1.0),
-            row(1.0, 9.0, reason="because", answer=True),
-            row(1.0, 1.0, reason="fine", answer=True),
+            Row(where="Table 17", case="case 1, J", thesis=1.0, ours=9.0, answer=True),
+            row(1.0, 1.0, answer=True),
         ]
         lines: dict[str, list[float | None]] = {"small": [1.5, None], "large": [9.0, 2.0]}
         choices = Search(title="Size", numbers={"a": 1.0, "b": 2.0}, lines=lines, taken="small")
@@ -175,7 +178,7 @@ def test_the_page_begins_with_the_numbers_and_the_cause_of_each_that_is_not_repr
     assert totals(results) == {"reproduced": 1, "better than printed": 0, "trend": 0, "not reproducible": 1}
     write_page(results, tmp_path / "page.md")
     page = (tmp_path / "page.md").read_text()
-    assert "| 1 | 9 |  | not reproducible | because |" in page
+    assert "| 1 | 9 |  | not reproducible | a correction acts after" in page
     assert "| reproduced |  |" in page, "no cause is asked"
     assert "| **small** | 1.5 | diverged | 1 of 2 |" in page
     assert "Shortened" not in page

@@ -20,10 +20,11 @@ import rwn
 from rwn import _core
 from rwn.errors import InputError
 from rwn.studies.thesis.archive import ARCHIVE, Archived, numbers, read_archive
+from rwn.studies.thesis.causes import CAUSES, cause
 from rwn.studies.thesis.check import differences
 from rwn.studies.thesis.cli import app
 from rwn.studies.thesis.dependencies import sources
-from rwn.studies.thesis.experiment import Experiment, Outcome, Settings
+from rwn.studies.thesis.experiment import Experiment, Outcome, Row, Settings
 from rwn.studies.thesis.formats import number
 from rwn.studies.thesis.overview import NUMBERS
 from rwn.studies.thesis.registry import EXPERIMENTS
@@ -207,6 +208,19 @@ def test_the_archive_holds_the_numbers_that_the_page_shows() -> None:
     for n in found:
         (line,) = re.findall(rf"^\| {re.escape(f'{n.where} | {n.case} |')}.*\| {n.word} \|.*$", page, re.MULTILINE)[:1]
         assert f"| {number(n.thesis, n.unit)} | {number(n.ours, n.unit)} |" in line
+
+
+def test_every_number_that_is_not_reproduced_has_a_cause() -> None:
+    for n in (n for kept in read_archive() for n in kept.numbers if n.word != "reproduced"):
+        assert cause(Row(where=n.where, case=n.case, thesis=n.thesis, ours=n.ours, answer=True)), f"{n.where}, {n.case}"
+
+
+@pytest.mark.parametrize(("where", "said"), [(where, said) for where, _, said in CAUSES if "(choices" in said])
+def test_the_choices_that_a_cause_points_to_are_on_the_page(where: str, said: str) -> None:
+    pointed = re.search(r"\(choices of Table (\d+)\)", said)
+    wanted = pointed[1] if pointed else where.split()[1]
+    titles = re.findall(r"^\*\*((?:Table|Figure).*)\*\*", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    assert any(wanted in re.findall(r"\d+", title.partition(":")[0]) for title in titles), said
 
 
 def test_the_code_gives_the_archived_numbers(tmp_path: Path) -> None:

@@ -40,7 +40,6 @@ from rwn.studies.thesis.within_cycle import SHAPES, first_cycle_panel, rates_fig
 PAGES = {"bilinear": (6.4572e-6, 1.2912e-5), "euler": (6.8587e-6, 1.6747e-5)}
 FRACTION, CYCLES = 0.2, 10_000
 RULE = thesis_rule(FRACTION)
-REASON = "what an iteration is, the start and the fraction are not said, and each moves the error by 10 or more"
 FIGURES = {"bilinear": (46, 47, 49), "euler": (51, 52, 54)}
 
 
@@ -161,7 +160,6 @@ def rows(d: Data, full: list[Trained], short: list[Trained]) -> list[Row]:
                     count=count,
                     answer=answer,
                     judge="factor-2" if answer else "none",
-                    reason=REASON,
                 )
             )
     linear = without_wavelets(full[0].start)

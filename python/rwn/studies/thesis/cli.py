@@ -103,6 +103,24 @@ def check(
     raise typer.Exit(1 if changed else 0)
 
 
+@app.command("page")
+def page_of_results(
+    *,
+    out: Annotated[Path, typer.Option(help="Results of experiments.")] = Path("thesis-results"),
+    page: Annotated[Path | None, typer.Option(help="The page to write; default OUT/thesis.md.")] = None,
+) -> None:
+    """Writes the page anew from results that are there, in today's words; runs nothing."""
+    from rwn.studies.thesis.archive import results
+    from rwn.studies.thesis.page import write_page
+    from rwn.studies.thesis.registry import EXPERIMENTS
+
+    target = page or out / "thesis.md"
+    found = results(out)
+    _check_page(target)
+    write_page([found[e.name] for e in EXPERIMENTS if e.name in found], target)
+    typer.echo(f"page: {target}")
+
+
 @app.command("archive")
 def archive_results(
     *,

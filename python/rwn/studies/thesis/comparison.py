@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from rich.table import Table
 
+from rwn.studies.thesis.causes import cause
 from rwn.studies.thesis.experiment import Row
 from rwn.studies.thesis.formats import number
 from rwn.studies.thesis.runner import Finished
@@ -53,5 +54,5 @@ def markdown_table(rows: Sequence[Row]) -> str:
     """One experiment's comparison, with the reasons below it."""
     lines = ["| " + " | ".join(HEADINGS) + " |", "|" + "---|" * len(HEADINGS)]
     lines += ["| " + " | ".join(cells(row, rows)) + " |" for row in rows]
-    reasons = dict.fromkeys(row.reason for row in rows if row.reason and word(row, rows) not in GOOD)
+    reasons = dict.fromkeys(cause(row) for row in rows if cause(row) and word(row, rows) not in GOOD)
     return "\n".join(lines) + "".join(f"\n\n{reason}" for reason in reasons) if rows else ""

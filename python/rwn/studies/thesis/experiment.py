@@ -24,7 +24,8 @@ class Row:
     answer: this row, and no other, speaks for a number of the thesis; other readings of the same number are asides.
     wanted: for the judge `wanted`, the value to reach; for `claim`, the share of cases that must hold.
     group: rows of one group must keep the thesis's order to count as `trend`.
-    reason: the measured cause, shown where the word is not the best one.
+    reason: what the run says of itself, shown where the word is not the best one; the causes of the thesis's numbers
+    are in `rwn.studies.thesis.causes`.
     unit: "" for a mean squared error, "%" for a parameter error, "s" for a time.
     """
 

@@ -36,7 +36,6 @@ BEYOND = [
     ),
 ]
 RULE = Thesis(fraction=0.01, maxima="pre-pass-then-running", shared=False)
-REASON = "a correction acts after 1/(1 - rho) = 216 samples, the rule's derivation lets it act at once"
 
 
 def run(settings: Settings) -> Outcome:
@@ -44,7 +43,7 @@ def run(settings: Settings) -> Outcome:
     cycles = settings.pick(50, 3)
     rows, runs = [], {}
     for case in CASES:
-        new, training = as_printed("Table 17", case, RULE, cycles, reason=REASON)
+        new, training = as_printed("Table 17", case, RULE, cycles)
         rows += new
         runs[case.label] = (case, training)
     settings.progress(0.3)

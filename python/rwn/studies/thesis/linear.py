@@ -52,7 +52,7 @@ def thesis_rule(fraction: float) -> Thesis:
 
 
 def as_printed(
-    where: str, case: Case, rule: RateRule, cycles: int, *, reason: str
+    where: str, case: Case, rule: RateRule, cycles: int
 ) -> tuple[list[Row], rwn.OnlineTraining[rwn.StructuredNetwork]]:
     """Rows of one case trained with the thesis's rule."""
     u, y = case.recording()
@@ -69,7 +69,6 @@ def as_printed(
             answer=case.thesis.get(name) is not None,
             group=where,
             unit="%",
-            reason=reason if not run.report.warnings else "; ".join((reason, *run.report.warnings)),
         )
         for name, error in case.errors(run.network).items()
     ]

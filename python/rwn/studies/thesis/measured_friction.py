@@ -33,10 +33,6 @@ Run = OnlineTraining[rwn.RecurrentNetwork]
 SIZES = {3: (8.2753e-10, 1.3724e-4), 7: (2.7731e-10, 1.4662e-5), 15: (3.7961e-11, 4.9190e-7)}
 FRACTION = 0.1
 FRICTION = Friction(coulomb=0.01, static=0.01)
-REASON = (
-    "the error follows the levels of the friction, which the text does not give, and the fraction of the bound: with a "
-    "larger one less is met while learning and more tested"
-)
 
 
 def torque(speed: Array, friction: Friction = FRICTION) -> Array:
@@ -129,7 +125,6 @@ def size_rows(
                     answer=answer,
                     judge="factor-2" if answer else "none",
                     group=where if answer else "",
-                    reason=REASON,
                 )
             )
     rows.append(

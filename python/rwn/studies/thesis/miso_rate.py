@@ -7,12 +7,11 @@ weights uniform in [-0.1, 0.1], 20 seeds); 31 wavelets, momentum 0.6, 10 000 ite
 from __future__ import annotations
 
 from rwn.studies.thesis.experiment import Experiment, Outcome, Settings
-from rwn.studies.thesis.miso_size import SEEDS
 from rwn.studies.thesis.offline import MISO, Case, compare_initialisers
 
 THESIS = {0.02: (0.0028, 7.4482e-4), 0.05: (0.0013, 3.3013e-4), 0.08: (7.5450e-4, 4.0521e-4)}
 CASES = [
-    Case(label=f"mu {rate}", wavelets=31, rate=rate, momentum=0.6, heuristic=heuristic, dyadic=dyadic, cause=SEEDS)
+    Case(label=f"mu {rate}", wavelets=31, rate=rate, momentum=0.6, heuristic=heuristic, dyadic=dyadic)
     for rate, (heuristic, dyadic) in THESIS.items()
 ]
 TITLE = "MSE for varying mu, two inputs"

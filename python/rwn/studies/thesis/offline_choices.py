@@ -9,10 +9,11 @@ import numpy as np
 from rwn.networks.arrays import Array
 from rwn.networks.initialisation import DyadicGrid, Heuristic, LeastSquares, LinearStart, SmallRandom
 from rwn.studies.thesis.functions import grid, miso, siso
-from rwn.studies.thesis.offline import MATLAB, PRINTED, Task
+from rwn.studies.thesis.offline import MATLAB, PRINTED, SQUARED, Task
 
 WAYS: dict[str, type[DyadicGrid] | type[Heuristic]] = {"dyadic grid": DyadicGrid, "heuristic": Heuristic}
 READINGS = {"mu (1 - gamma)": MATLAB, "mu": PRINTED}
+TWICE = {"2 mu, the gradient of (2.21)": SQUARED}
 
 
 def one_input(points: int, start: LinearStart) -> Task:
@@ -36,6 +37,7 @@ ONE_INPUT: dict[str, Task] = {
 }
 TWO_INPUTS: dict[str, Task] = {
     "[0, 1]^2, 21 x 21, w 0.1": two_inputs(0.0, 21, 0.1),
+    "[0, 1]^2, 21 x 21, w 0.3": two_inputs(0.0, 21, 0.3),
     "[0, 1]^2, 21 x 21, w 1": two_inputs(0.0, 21, 1.0),
     "[0, 1]^2, 11 x 11, w 0.1": two_inputs(0.0, 11, 0.1),
     "[-0.5, 0.5]^2, 11 x 11, w 0.1": two_inputs(-0.5, 11, 0.1),

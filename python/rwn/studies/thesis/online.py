@@ -77,7 +77,6 @@ def rows_of(
     learning: float | None,
     tested: float | None,
     answer: bool = False,
-    cause: str = "",
 ) -> list[Row]:
     """Two rows, error while learning and tested with frozen weights, beside the thesis's if there is one, for which
     they speak with `answer`."""
@@ -96,7 +95,6 @@ def rows_of(
                 group=where if answer and thesis is not None else "",
                 judge="factor-2" if answer and thesis is not None else "none",
                 answer=answer and thesis is not None,
-                reason=cause,
             )
         )
     return rows

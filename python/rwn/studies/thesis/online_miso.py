@@ -60,7 +60,6 @@ def run(settings: Settings) -> Outcome:
         learning=FIGURE_37[0],
         tested=FIGURE_37[1],
         answer=True,
-        cause="how far the spiral reaches into the corners is not said, and decides the tested error (choices)",
     )
     by_wavelet: dict[str, Online] = {}
     for label, wavelet in WAVELET_CASES.items():

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from rich.table import Table
 
+from rwn.studies.thesis.causes import cause
 from rwn.studies.thesis.experiment import Row
 from rwn.studies.thesis.formats import number, where_order
 from rwn.studies.thesis.runner import Finished
@@ -92,8 +93,8 @@ def numbers_markdown(results: Sequence[Finished]) -> str:
     for row, said in answers(results):
         ours = row.missing if row.ours is None else number(row.ours, row.unit)
         spread = "" if row.spread is None else " .. ".join(number(v) for v in row.spread)
-        cause = "" if said == WORDS[0] else row.reason or "not known"
+        why = "" if said == WORDS[0] else cause(row) or "not known"
         lines.append(
-            f"| {row.where} | {row.case} | {number(row.thesis, row.unit)} | {ours} | {spread} | {said} | {cause} |"
+            f"| {row.where} | {row.case} | {number(row.thesis, row.unit)} | {ours} | {spread} | {said} | {why} |"
         )
     return "\n".join(lines)

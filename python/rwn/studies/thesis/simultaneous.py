@@ -68,9 +68,6 @@ def online_rows(how: str, runs: list[Training], y: Array, test: tuple[Array, Arr
     ends = ", ".join(dict.fromkeys(r.status for r in runs))
     count = f"{in_words(runs)}; {ends}"
     answer = how == SPEAKS
-    stuck = "; ".join(dict.fromkeys(warning for r in runs for warning in r.report.warnings))
-    passing = "the error of J follows the fraction of the bound and where its maxima come from, which are not said"
-    gain = "v1 shares its slope with the network and acts as an observer gain: raw B is not determined by the data"
     return [
         median_row(
             "Table 20",
@@ -81,7 +78,6 @@ def online_rows(how: str, runs: list[Training], y: Array, test: tuple[Array, Arr
             judge="percentage-point" if answer else "none",
             answer=answer,
             unit="%",
-            reason="; ".join(text for text in (passing, stuck) if text),
         ),
         median_row(
             "Table 20",
@@ -92,7 +88,6 @@ def online_rows(how: str, runs: list[Training], y: Array, test: tuple[Array, Arr
             judge="percentage-point" if answer else "none",
             answer=answer,
             unit="%",
-            reason=gain,
         ),
         median_row("Table 20", f"total slope, {how}", None, slopes, count=count, judge="none", unit="%"),
         median_row("Figure 106", f"friction rms [N m], {how}", None, rms, count=count, judge="none"),
@@ -104,7 +99,6 @@ def online_rows(how: str, runs: list[Training], y: Array, test: tuple[Array, Arr
             count=count,
             judge="factor-2" if answer else "none",
             answer=answer,
-            reason="follows J and B, and so the fraction and the number of cycles",
         ),
     ]
 

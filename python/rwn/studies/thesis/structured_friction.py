@@ -34,7 +34,6 @@ WAVELETS = {
 GAUSSIAN = "gaussian-derivative"
 NETWORK = ("w", "m", "d", "c")
 FRACTION = 0.1
-REASON = "the level is that of the unstated start and fraction of the bound, each of which moves it by 10"
 Training = rwn.OnlineTraining[rwn.StructuredNetwork]
 Signals = tuple[Array, Array]  # voltage, speed
 
@@ -116,7 +115,6 @@ def rows_of(
             answer=answer and number is not None,
             judge="factor-2" if answer and number is not None else "none",
             group=table if answer and number is not None else "",
-            reason=REASON,
         )
         for table, what, number, values in found
     ]

@@ -29,7 +29,7 @@ def run(settings: Settings) -> Outcome:
     cycles = settings.pick(50, 3)
     rows, runs = [], {}
     for case in CASES:
-        new, training = as_printed("Table 18", case, thesis_rule(0.99), cycles, reason="")
+        new, training = as_printed("Table 18", case, thesis_rule(0.99), cycles)
         rows += new
         runs[case.label] = (case, training)
     settings.progress(0.3)
