@@ -45,10 +45,10 @@ FILES = {
     f"{RECORDING}selection.py": ("tests/recording/test_selection.py",),
     "python/rwn/model/toml_reader.py": ("tests/model/test_files.py", "tests/model/test_bad_models.py"),
     "python/rwn/model/formula.py": ("tests/model/test_formula.py", "tests/model/test_own_effects.py"),
-    "python/rwn/decide/account.py": ("tests/decide/test_account.py",),
+    "python/rwn/decide/account.py": ("tests/decide/test_account.py", "tests/decide/test_calibration.py"),
     "python/rwn/decide/verdict.py": ("tests/decide/test_account.py",),
-    "python/rwn/decide/excitation.py": ("tests/decide",),
-    "python/rwn/decide/other_law.py": ("tests/decide/test_other_law.py",),
+    "python/rwn/decide/calibration.py": ("tests/decide/test_calibration.py",),
+    "python/rwn/decide/excitation.py": ("tests/decide/test_excitation.py",),
 }  # fmt: skip
 # A | of types is not looked at when the code runs.
 _IDLE = ("core/ReplaceBinaryOperator_BitOr_", "core/VariableInserter", "core/VariableReplacer")  # the last: need names
