@@ -33,6 +33,13 @@ class Trace(Values):
     at: Array | None = None
     recording: str = ""
 
+    def __post_init__(self) -> None:
+        """Refuses arrays that do not belong together, as a damaged curves.json has them: ValueError."""
+        for name in ("y", "low", "high", "at"):
+            values = getattr(self, name)
+            if values is not None and values.shape != self.x.shape:
+                raise ValueError(f"trace '{self.name}': {name} has {values.size} values, x has {self.x.size}")
+
 
 @dataclass(frozen=True, kw_only=True)
 class Mark:
