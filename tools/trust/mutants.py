@@ -27,7 +27,7 @@ FORMATS, RECORDING = "python/rwn/recording/formats/", "python/rwn/recording/"
 # file -> the tests that are to notice
 FILES = {
     f"{FORMATS}csv.py": ("tests/recording/test_csv.py", "tests/recording/test_bad_input.py"),
-    f"{FORMATS}csv_dialect.py": ("tests/recording/test_csv.py", "tests/recording/test_bad_input.py"),
+    f"{FORMATS}csv_dialect.py": ("tests/recording/test_csv_dialect.py", "tests/recording/test_csv.py"),
     f"{FORMATS}scope.py": ("tests/recording/test_profiles.py",),
     f"{FORMATS}wpilog.py": ("tests/recording/test_logs.py",),
     f"{FORMATS}channels.py": ("tests/recording/test_logs.py",),
