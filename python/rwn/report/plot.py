@@ -21,6 +21,7 @@ class Trace(Values):
     """One line (or cloud) of a plot; `low`/`high` shade a band around it; NaN breaks the line.
 
     Where the points of a cloud were measured in `recording` at the instants `at` [s], a click on one leads there.
+    Raises ValueError where arrays are not of one length, as in a damaged curves.json.
     """
 
     name: str
@@ -34,7 +35,7 @@ class Trace(Values):
     recording: str = ""
 
     def __post_init__(self) -> None:
-        """Refuses arrays that do not belong together, as a damaged curves.json has them: ValueError."""
+        """Refuses arrays that do not belong together."""
         for name in ("y", "low", "high", "at"):
             values = getattr(self, name)
             if values is not None and values.shape != self.x.shape:
