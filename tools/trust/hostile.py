@@ -158,11 +158,12 @@ def main() -> int:
     options = page.parsed(parser, "hostile")
     with tempfile.TemporaryDirectory() as name:
         base, good = Path(name) / "base", Path(name) / "good"
-        write_formats(good)
-        write_results(good)
         write_recordings(base)
-        for folder in ("result", "trials"):
-            shutil.copytree(good / folder, base / folder)
+        if options.damaged:
+            write_formats(good)
+            write_results(good)
+            for folder in ("result", "trials"):
+                shutil.copytree(good / folder, base / folder)
         found, bad = count(cases(options.damaged, options.seed, good), base)
     page.show("hostile", options.page, table(found), *bad)
     return 1 if bad else 0
