@@ -116,12 +116,13 @@ develop: install-tools
 	@$(PY) -c 'import scikit_build_core' 2>/dev/null || $(PIP) scikit-build-core pybind11 cmeel-eigen
 	@$(PIP) --no-build-isolation '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON -C cmake.define.RWN_KERNELS_FOR=this
 
-# How rwn is tested, as figures; docs/testing.md says what they printed. By hand: each takes minutes or more.
+# How rwn is tested, as figures; each writes its section of docs/testing.md. By hand: each takes minutes or more.
 TRUST := PYTHONPATH=. $(PY) -m tools.trust
 COUNT ?= 100
 SECONDS ?= 60
-TARGET ?= csv
-.PHONY: coverage coverage-cpp fuzz hostile kills soak mutants-python long-csv install-trust
+TARGET ?= every
+PAGE := --page docs/testing.md
+.PHONY: coverage coverage-cpp fuzz hostile kills soak mutants-python long-csv wheels install-trust
 install-trust:
 	@$(PIP) --group trust
 
@@ -129,7 +130,8 @@ install-trust:
 WHICH ?= slow or not slow
 coverage: install-trust
 	$(PY) -m coverage run --branch --source-pkgs=rwn -m pytest -q -m "$(WHICH)"
-	$(PY) -m coverage report --skip-covered
+	$(PY) -m coverage json -q -o build/coverage.json
+	$(TRUST).coverage build/coverage.json --which "$(WHICH)" $(PAGE)
 
 # Lines and branches of C++, with the kernels that any processor runs; a line of a template counts once.
 coverage-cpp: install-trust
@@ -137,22 +139,27 @@ coverage-cpp: install-trust
 	cmake --build build/coverage -j $(JOBS) -- --quiet
 	build/coverage/rwn_tests --gtest_brief=1
 	$(PY) -m gcovr --root . --filter cpp/ --exclude cpp/tests/ --exclude-throw-branches --merge-lines \
-	  --print-summary build/coverage | tail -4
+	  --json-summary build/coverage/found.json build/coverage
+	$(TRUST).coverage build/coverage/found.json --cpp --which "those of C++ alone" $(PAGE)
 
 fuzz: install-trust
-	$(TRUST).fuzz $(TARGET) --seconds $(SECONDS)
+	$(TRUST).fuzz $(TARGET) --seconds $(SECONDS) $(PAGE)
 
 hostile:
-	$(TRUST).hostile --damaged $(COUNT)
+	$(TRUST).hostile --damaged $(COUNT) $(PAGE)
 
 kills:
-	$(TRUST).kills --count $(COUNT)
+	$(TRUST).kills --count $(COUNT) $(PAGE)
 
 soak:
-	$(TRUST).soak --count $(COUNT)
+	$(TRUST).soak --count $(COUNT) $(PAGE)
 
 mutants-python: install-trust
-	$(TRUST).mutants --count $(COUNT)
+	$(TRUST).mutants --count $(COUNT) $(PAGE)
 
 long-csv:
-	$(TRUST).long_csv --count $(COUNT)
+	$(TRUST).long_csv --count $(COUNT) $(PAGE)
+
+# Two builds of the wheel, one in another folder, and what they hold and answer.
+wheels:
+	$(TRUST).wheels $(PAGE)

@@ -129,7 +129,7 @@ def found() -> Diagnosis:
         location=Location(
             equation="mechanical",
             regions=REGIONS,
-            description="A torque that depends on the direction of motion, 21 mN m, and hardly on speed.",
+            description="a torque that depends on the direction of motion, 21 mN m, and hardly on speed",
         ),
         nominal_fit=_fit(),
         heldout=(

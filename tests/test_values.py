@@ -71,3 +71,42 @@ def test_the_table_of_a_fit() -> None:
 def test_the_table_of_a_fit_is_plain_rows_without_pandas() -> None:
     found = MADE["identification"]()
     assert found.table() == _rows(found)
+
+
+def test_the_table_of_a_recording_is_read_back() -> None:
+    frame, recording = pytest.importorskip("pandas"), MADE["recording"]()
+    table = recording.table()
+    assert isinstance(table, frame.DataFrame)
+    assert list(table) == ["time [s]", "voltage [V]", "current [A]", "speed [rad/s]"]
+    again = rwn.read_recording(table)
+    assert np.array_equal(again.time, recording.time)
+    assert all(np.array_equal(again.signals[name], values) for name, values in recording.signals.items())
+
+
+@pytest.mark.usefixtures("without_pandas")
+def test_the_table_of_a_recording_is_arrays_without_pandas() -> None:
+    signals = {"force": np.ones(60), "speed": np.ones(60)}
+    run = rwn.Recording(name="x", time=np.arange(60.0), signals=signals, linear=True)
+    table = run.table()
+    assert isinstance(table, dict)
+    assert list(table) == ["time [s]", "force [N]", "speed [m/s]"]
+    assert np.array_equal(table["time [s]"], run.time)
+
+
+def test_the_table_of_a_model_has_what_is_believed_of_each_value() -> None:
+    frame, model = pytest.importorskip("pandas"), MADE["model"]()
+    told = replace(model, effects={"coulomb-friction": {"coulomb_torque": 0.01}},
+                   uncertainty={**model.uncertainty, "coulomb-friction.coulomb_torque": 0.2})  # fmt: skip
+    table = told.table()
+    assert isinstance(table, frame.DataFrame)
+    rows = [tuple(row.values()) for row in table.to_dict("records")]
+    assert rows[0] == ("resistance", 1.166, 0.07, "ohm")
+    assert rows[1] == ("inductance", 0.00045, 0.0, "H"), "exact"
+    assert rows[-1] == ("coulomb-friction.coulomb_torque", 0.01, 0.2, "N m")
+
+
+@pytest.mark.usefixtures("without_pandas")
+def test_the_table_of_a_model_is_plain_rows_without_pandas() -> None:
+    rows = MADE["model"]().table()
+    assert isinstance(rows, list)
+    assert [row["parameter"] for row in rows] == list(MADE["model"]().parameters)

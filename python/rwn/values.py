@@ -48,6 +48,15 @@ def table_of_rows(rows: list[dict[str, Any]], columns: Sequence[str]) -> Any:
     return pd.DataFrame(rows, columns=list(columns))
 
 
+def table_of_columns(columns: Mapping[str, Any]) -> Any:
+    """Arrays as a pandas.DataFrame; as a dictionary where pandas is not installed."""
+    try:
+        import pandas as pd
+    except ModuleNotFoundError:
+        return dict(columns)
+    return pd.DataFrame(dict(columns))
+
+
 def _contents(of: Any) -> dict[str, Any]:
     return {field.name: getattr(of, field.name) for field in fields(of)}
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.recording.copies import is_piece
+from rwn.recording.copies import _allowed, _decimal_places, _steps, is_piece
 from rwn.recording.recording import read_recording, write_csv
 
 TIME = np.arange(2000) * 1e-3
@@ -98,3 +98,57 @@ def test_a_rounded_copy_is_refused_as_a_heldout_recording() -> None:
     rounded = {name: np.round(x, 2) for name, x in run.items()}
     with pytest.raises(rwn.InputError, match="given twice"):
         rwn.diagnose(_recording(run), model, heldout=_recording(rounded))
+
+
+def test_the_decimal_places_that_a_number_needs() -> None:
+    values = np.array([1.5, 1.25, 7.0, 1200.0, 0.001, 0.1 + 0.2, 1.0 / 3.0])
+    places = _decimal_places(values, np.floor(np.log10(values)))
+    assert places.tolist() == [1.0, 2.0, 0.0, -2.0, 3.0, 1.0, 13.0]
+
+
+def test_a_sample_is_rounded_to_the_last_place_of_its_decade() -> None:
+    """Four digits: 12.34 to 0.01, 1.234 to 0.001; a 0 to the finest of all."""
+    values = np.array([12.34, 56.78, 90.0, 1.234, 0.0, -1.2])
+    made = rwn.Recording(name="x", time=np.arange(6.0), signals={"speed": values})
+    np.testing.assert_allclose(_steps(made, "speed"), [0.01, 0.01, 0.01, 0.001, 0.001, 0.001])
+    si = {"speed": values * np.pi / 30.0}
+    in_rpm = rwn.Recording(name="x", time=np.arange(6.0), signals=si, units={"speed": "rpm"})
+    np.testing.assert_allclose(_steps(in_rpm, "speed"), np.array([0.01] * 3 + [0.001] * 3) * np.pi / 30.0)
+    nothing = rwn.Recording(name="x", time=np.arange(6.0), signals={"speed": np.zeros(6)})
+    assert _steps(nothing, "speed").tolist() == [0.0] * 6
+
+
+def test_single_precision_is_a_step_too() -> None:
+    values = np.array([0.1, 1.7, 300.3]).astype(np.float32)
+    made = rwn.Recording(name="x", time=np.arange(3.0), signals={"speed": values.astype(float)})
+    np.testing.assert_allclose(_steps(made, "speed"), np.spacing(values))
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "allowed"),
+    [(0.1, 0.01, 0.1), (0.01, 0.1, 0.1), (0.1, 0.1, 0.0), (0.14, 0.1, 0.0), (0.16, 0.1, 0.16)],
+)
+def test_rounded_samples_differ_by_the_coarser_step(one: float, other: float, allowed: float) -> None:
+    assert _allowed(np.array([one]), np.array([other])).tolist() == [allowed]
+
+
+def test_a_piece_is_found_wherever_it_begins_and_not_where_a_sample_differs() -> None:
+    run = _run(1)
+    whole = _recording(run)
+    for begin in (0, 1, 777, len(whole) - 50):
+        part = {name: x[begin : begin + 50].copy() for name, x in run.items()}
+        assert is_piece(_recording(part), whole)
+        part["speed"][23] += 1e-3
+        assert not is_piece(_recording(part), whole), "one sample is another"
+
+
+def test_nothing_is_a_piece_of_what_is_shorter_or_measures_nothing_of_it() -> None:
+    run = _run(1)
+    shorter = {name: x[:-1] for name, x in run.items()}
+    assert not is_piece(_recording(run), _recording(shorter))
+    assert is_piece(_recording(run), _recording(run))
+    alone = rwn.Recording(name="x", time=TIME, signals={"voltage": VOLTAGE})
+    assert not is_piece(alone, _recording(run)), "runs of one profile have their input in common"
+    current = rwn.Recording(name="x", time=TIME, signals={"voltage": VOLTAGE, "current": run["current"]})
+    speed = rwn.Recording(name="x", time=TIME, signals={"voltage": VOLTAGE, "speed": run["speed"]})
+    assert not is_piece(current, speed)

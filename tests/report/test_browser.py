@@ -90,6 +90,7 @@ def asked(found: Diagnosis, folder: Path, script: str, *, width: int = 1280, dar
     [
         *((state, 360, False) for state in made_up.ALL),
         ("found", 800, True),
+        *(("found", width, False) for width in (601, 781, 901)),  # the narrowest of each layout
         ("found", 1280, False),
         ("mistake", 1280, True),
     ],

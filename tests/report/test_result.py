@@ -123,6 +123,16 @@ def test_what_is_no_diagnosis_is_refused_in_one_line(tmp_path: Path, name: str, 
     assert "\n" not in str(refusal.value)
 
 
+@pytest.mark.parametrize("key", ["x", "y", "at"])
+def test_curves_whose_arrays_do_not_belong_together_are_refused(tmp_path: Path, key: str) -> None:
+    made_up.found().save(tmp_path / "a")
+    curves = json.loads((tmp_path / "a" / "curves.json").read_text())
+    next(t for plot in curves["curves"] for t in plot["traces"] if t.get("at"))[key].pop()
+    (tmp_path / "a" / "curves.json").write_text(json.dumps(curves))
+    with pytest.raises(InputError, match=r"no diagnosis of this version .*has \d+ values, x has \d+"):
+        Diagnosis.load(tmp_path / "a")
+
+
 @STATES
 def test_it_keeps_to_its_schema(made: Callable[[], Diagnosis]) -> None:
     jsonschema.validate(json.loads(made().to_json()), Diagnosis.schema())

@@ -1,4 +1,4 @@
-"""Fuzzes what reads files and formulas, guided by coverage: `make fuzz SECONDS=60 TARGET=csv` (atheris).
+"""Fuzzes what reads files and formulas, guided by coverage: `make fuzz SECONDS=60 TARGET=every` (atheris).
 
 A target takes bytes and may raise InputError alone; anything else is a finding, whose bytes are left in the folder
 `crash-...`. Inputs that reach new code are kept in the corpus, tests/corpus/TARGET, which a test replays and alters.
@@ -7,6 +7,9 @@ A target takes bytes and may raise InputError alone; anything else is a finding,
 from __future__ import annotations
 
 import argparse
+import re
+import resource
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
@@ -101,24 +104,48 @@ TARGETS: dict[str, Target] = {
 }  # fmt: skip
 
 
-def main() -> None:
-    """Fuzzes one target for a while; atheris ends the process."""
+def main() -> int:
+    """Fuzzes one target, or every in turn, each in a process of its own; 1 where one found something."""
+    from tools.trust import page
+
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("target", choices=TARGETS)
-    parser.add_argument("--seconds", type=int, default=60)
-    options = parser.parse_args()
+    parser.add_argument("target", choices=(*TARGETS, "every"))
+    parser.add_argument("--seconds", type=int, default=60, help="for each target")
+    options = page.parsed(parser, "fuzz")
+    targets = TARGETS if options.target == "every" else (options.target,)
+    rows, crashes = [], []
+    for target in targets:
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        code = f"from tools.trust.fuzz import fuzz; fuzz({target!r}, {options.seconds})"
+        done = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True, check=False)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        tried = re.findall(r"stat::number_of_executed_units:\s*(\d+)|^#(\d+)\s", done.stderr, re.MULTILINE)
+        inputs = max((int(a or b) for a, b in tried), default=0)
+        if done.returncode:
+            crashes.append(f"{target}: exit code {done.returncode}: {done.stderr[-2000:]}")
+        rows.append((target, f"{took:.0f}", inputs, len(list((CORPUS / target).iterdir())), int(done.returncode != 0)))
+        print(*rows[-1], file=sys.stderr, flush=True)
+    rows.append(("all", f"{sum(float(row[1]) for row in rows):.0f}", *(sum(row[k] for row in rows) for k in (2, 3, 4))))
+    heading = ("target", "processor time [s]", "inputs tried", "kept in the corpus", "findings")
+    page.show("fuzz", options.page, page.table(heading, rows), *crashes)
+    return 1 if crashes else 0
+
+
+def fuzz(target: str, seconds: int) -> None:
+    """Fuzzes one target for a while; atheris ends the process."""
     import atheris
 
     with atheris.instrument_imports(include=["rwn"]):
         import rwn.report.diagnosis  # noqa: F401
 
-    corpus = CORPUS / options.target
+    corpus = CORPUS / target
     corpus.mkdir(parents=True, exist_ok=True)
-    arguments = [sys.argv[0], str(corpus), f"-max_total_time={options.seconds}", "-timeout=20", "-max_len=4096",
+    arguments = [sys.argv[0], str(corpus), f"-max_total_time={seconds}", "-timeout=20", "-max_len=4096",
                  "-rss_limit_mb=3000", "-print_final_stats=1"]  # fmt: skip
-    atheris.Setup(arguments, TARGETS[options.target])
+    atheris.Setup(arguments, TARGETS[target])
     atheris.Fuzz()
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

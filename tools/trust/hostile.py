@@ -24,6 +24,7 @@ from pathlib import Path
 import numpy as np
 
 from rwn import cli
+from tools.trust import page
 from tools.trust.cases import Case, cases
 from tools.trust.good_files import write_formats, write_recordings, write_results
 
@@ -127,12 +128,8 @@ def _finite(out: Path) -> bool:
 
 def table(found: dict[str, Counter[str]]) -> str:
     """Counts by class of input and how it ended, as Markdown."""
-    rows = [["class", "cases", *ENDS]]
-    rows += [[kind, str(sum(n.values())), *(str(n[end]) for end in ENDS)] for kind, n in sorted(found.items())]
-    total: Counter[str] = sum(found.values(), Counter())
-    rows.append(["all", str(sum(total.values())), *(str(total[end]) for end in ENDS)])
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]])
+    counted = [*sorted(found.items()), ("all", sum(found.values(), Counter[str]()))]
+    return page.table(("class", "cases", *ENDS), [[k, sum(n.values()), *(n[end] for end in ENDS)] for k, n in counted])
 
 
 def count(all_cases: Iterable[Case], base: Path, *, show: bool = True) -> tuple[dict[str, Counter[str]], list[str]]:
@@ -158,16 +155,17 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--damaged", type=int, default=1500, help="damaged files beside the table of cases")
     parser.add_argument("--seed", type=int, default=0)
-    options = parser.parse_args()
+    options = page.parsed(parser, "hostile")
     with tempfile.TemporaryDirectory() as name:
         base, good = Path(name) / "base", Path(name) / "good"
-        write_formats(good)
-        write_results(good)
         write_recordings(base)
-        for folder in ("result", "trials"):
-            shutil.copytree(good / folder, base / folder)
+        if options.damaged:
+            write_formats(good)
+            write_results(good)
+            for folder in ("result", "trials"):
+                shutil.copytree(good / folder, base / folder)
         found, bad = count(cases(options.damaged, options.seed, good), base)
-    print(table(found))
+    page.show("hostile", options.page, table(found), *bad)
     return 1 if bad else 0
 
 

@@ -23,6 +23,7 @@ from typing import Any
 
 import rwn
 from rwn.recording.recording import write_csv
+from tools.trust import page
 from tools.trust.cases import MODEL
 from tools.trust.soak import recording
 
@@ -117,9 +118,8 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=30, help="kills of each command")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", choices=WORK)
-    options = parser.parse_args()
-    draw, bad = random.Random(options.seed), 0
-    print("| command | kills | of a run at work | lost |\n|---|---|---|---|")
+    options = page.parsed(parser, "kills")
+    draw, rows, bad = random.Random(options.seed), [], []
     for name, work in WORK.items():
         if options.only not in (None, name):
             continue
@@ -131,10 +131,12 @@ def main() -> int:
         shutil.rmtree(folder)
         ends = [trial(work, draw.uniform(0.1, 1.0) * took, expected) for _ in range(options.count)]
         lost = [what for _, what in ends if what]
-        bad += len(lost)
-        print(f"| {name} | {len(ends)} | {sum(alive for alive, _ in ends)} | {len(lost)} |", flush=True)
-        for what in lost:
-            print(f"{name}: {what}", file=sys.stderr)
+        bad += [f"{name}: {what}" for what in lost]
+        rows.append((name, len(ends), sum(alive for alive, _ in ends), len(lost)))
+        print(*rows[-1], file=sys.stderr, flush=True)
+    rows.append(("all", *(sum(row[k] for row in rows) for k in (1, 2, 3))))
+    heading = ("command", "kills", "of a run at work", "with something lost")
+    page.show("kills", options.page, page.table(heading, rows), *bad)
     return 1 if bad else 0
 
 

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tools.trust import page
+
 READ = """
 import sys, rwn
 recording = rwn.read_recording(sys.argv[1])
@@ -38,16 +40,17 @@ def main() -> None:
     """Prints the size of the file, and processor time and memory of a process that reads it."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=10**7, help="rows")
-    options = parser.parse_args()
+    options = page.parsed(parser, "long-csv")
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "long.csv"
         write(path, options.count)
         subprocess.run([sys.executable, "-c", READ, str(path), str(options.count)], check=True)
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
-        print(
+        page.show(
+            "long-csv", options.page,
             f"{options.count} rows of 4 columns, {path.stat().st_size / 1e6:.0f} MB: "
-            f"{used.ru_utime + used.ru_stime:.1f} s of processor time, {used.ru_maxrss / 1e3:.0f} MB of memory"
-        )
+            f"{used.ru_utime + used.ru_stime:.1f} s of processor time, {used.ru_maxrss / 1e3:.0f} MB of memory."
+        )  # fmt: skip
 
 
 if __name__ == "__main__":

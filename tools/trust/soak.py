@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import rwn
+from tools.trust import page
 
 PAGE = 4096  # bytes
 GROWTH = 4.0  # kB a diagnosis
@@ -45,18 +46,24 @@ def main() -> int:
     """Prints memory at ten moments and its growth."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1000)
-    options = parser.parse_args()
+    options = page.parsed(parser, "soak")
     model = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.3})
     run, answers, memory, start = recording(model), set(), [], time.process_time()
     for k in range(options.count):
         answers.add(hashlib.sha256(rwn.diagnose(run, model, jobs=1).to_json()).hexdigest())
         memory.append(resident())
         if (k + 1) % max(options.count // 10, 1) == 0:
-            print(f"{k + 1} diagnoses: {memory[-1] / 1024:.1f} MB", flush=True)
+            print(f"{k + 1} diagnoses: {memory[-1] / 1024:.1f} MB", file=sys.stderr, flush=True)
     half = np.array(memory[len(memory) // 2 :])
     growth = float(np.polyfit(np.arange(half.size), half, 1)[0]) if half.size > 1 else 0.0
     took = time.process_time() - start
-    print(f"{growth:+.2f} kB a diagnosis over the last half; {len(answers)} answer(s); {took:.0f} s of processor time")
+    tenth = max(options.count // 10, 1)
+    page.show(
+        "soak", options.page,
+        f"{options.count} diagnoses in one process, {len(answers)} answer(s), {took:.0f} s of processor time: "
+        f"{memory[tenth - 1] / 1024:.1f} MB after {tenth}, {memory[-1] / 1024:.1f} MB after {options.count}; "
+        f"{growth:+.2f} kB a diagnosis over the last half.",
+    )  # fmt: skip
     return 1 if growth > GROWTH or len(answers) != 1 else 0
 
 

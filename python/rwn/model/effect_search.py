@@ -12,18 +12,18 @@ ALIKE = 0.75  # likeness of two words from which one may be the other misspelt
 
 
 def effects_by_word(text: str, table: Mapping[str, Effect]) -> tuple[Effect, ...]:
-    """The effects that hold every word of `text` in name, meaning, equation or site; else those with words like it."""
+    """The effects that hold every word of `text` in name, meaning, equation or site; else the words most like them."""
     wanted = _words(text)
     if not wanted:
         return ()
     held = {e.name: " ".join((*_words(e.name), *_words(e.meaning), e.site, e.mismatch)) for e in table.values()}
-    found = [e for e in table.values() if all(word in held[e.name] for word in wanted)]
-    if not found:
-        found = [
-            e for e in table.values()
-            if all(difflib.get_close_matches(word, held[e.name].split(), n=1, cutoff=ALIKE) for word in wanted)
-        ]  # fmt: skip
-    return tuple(found)
+
+    def holding(words: list[str]) -> tuple[Effect, ...]:
+        return tuple(e for e in table.values() if all(word in held[e.name] for word in words))
+
+    known = sorted({word for text in held.values() for word in text.split()})
+    alike = [difflib.get_close_matches(word, known, n=1, cutoff=ALIKE) for word in wanted]
+    return holding(wanted) or (holding([spelt[0] for spelt in alike]) if all(alike) else ())
 
 
 def _words(text: str) -> list[str]:

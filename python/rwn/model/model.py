@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from html import escape
 from types import MappingProxyType
-from typing import Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,12 @@ from rwn.model.own_effects import OwnEffect, check_constants, check_own_effects,
 from rwn.model.vocabulary import Effect, Parameter
 from rwn.recording.columns import Layout
 from rwn.recording.units import linear_unit
+from rwn.values import table_of_rows
+
+if TYPE_CHECKING:
+    import pandas
+
+COLUMNS = ("parameter", "value", "uncertainty", "unit")  # of `Model.table`
 
 
 class EffectParameter(Protocol):
@@ -178,6 +184,18 @@ class Model:
         for load in self.load.values():
             motor["pendulum_torque"] = load["mass"] * GRAVITY * load["length"]
         return MappingProxyType(motor)
+
+    def table(self) -> pandas.DataFrame | list[dict[str, Any]]:
+        """Every parameter, a row each; a list of dictionaries where pandas is not installed.
+
+        Columns: parameter (of an effect: "effect.parameter"), value (SI), uncertainty (relative standard deviation; 0:
+        exact), unit.
+        """
+        values = {**self.parameters, **{name: value for name, (_, value) in self.effect_values.items()}}
+        rows = [(name, value, self.uncertainty.get(name, 0.0), self.unit(name)) for name, value in values.items()]
+        made = [dict(zip(COLUMNS, row, strict=True)) for row in rows]
+        found: pandas.DataFrame | list[dict[str, Any]] = table_of_rows(made, COLUMNS)
+        return found
 
     @property
     def vector(self) -> NDArray[np.float64]:

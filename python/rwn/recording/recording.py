@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,10 @@ from rwn.recording.intersample import PiecewiseInput
 from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
 from rwn.recording.units import factor
-from rwn.values import Values
+from rwn.values import Values, table_of_columns
+
+if TYPE_CHECKING:
+    import pandas
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -77,6 +80,18 @@ class Recording(Values):
 
     def __repr__(self) -> str:
         return f"<Recording {self.name}: {', '.join(self.signals)}; {len(self)} samples in {self.duration:.4g} s>"
+
+    def table(self) -> pandas.DataFrame | dict[str, Array]:
+        """Time and signals (n_t,) as columns `speed [rad/s]` in SI, which `read_recording` takes.
+
+        A dictionary of arrays where pandas is not installed.
+        """
+        columns = {
+            f"{name} [{si_unit(COLUMNS[name], self.linear)}]": values
+            for name, values in {TIME.name: self.time, **self.signals}.items()
+        }
+        found: pandas.DataFrame | dict[str, Array] = table_of_columns(columns)
+        return found
 
     def beginning(self, rows: int) -> Recording:
         """Its first `rows` rows."""

@@ -21,6 +21,7 @@ class Trace(Values):
     """One line (or cloud) of a plot; `low`/`high` shade a band around it; NaN breaks the line.
 
     Where the points of a cloud were measured in `recording` at the instants `at` [s], a click on one leads there.
+    Raises ValueError where arrays are not of one length, as in a damaged curves.json.
     """
 
     name: str
@@ -32,6 +33,13 @@ class Trace(Values):
     points: bool = False  # a cloud instead of a line
     at: Array | None = None
     recording: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuses arrays that do not belong together."""
+        for name in ("y", "low", "high", "at"):
+            values = getattr(self, name)
+            if values is not None and values.shape != self.x.shape:
+                raise ValueError(f"trace '{self.name}': {name} has {values.size} values, x has {self.x.size}")
 
 
 @dataclass(frozen=True, kw_only=True)
