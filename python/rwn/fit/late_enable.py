@@ -45,14 +45,14 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
 
     Raises InputError where a recording does not fit the model.
     """
-    still = _standing(recordings, model)
+    still = _standing_samples(recordings, model)
     if model.drive.coefficients or not any(still):
         return ()
-    problem, nominal = nominal_of([_unpowered(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
+    problem, nominal = nominal_of([_without_input(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
     found: list[LateEnable] = []
     for k, (recording, run, samples) in enumerate(zip(recordings, problem.runs, still, strict=True)):
-        if samples and _moves(problem, nominal, recording, model, run, samples):
-            enabled = _enabled(problem, nominal, recording, model, run, samples)
+        if samples and _would_move(problem, nominal, recording, model, run, samples):
+            enabled = _enabling_sample(problem, nominal, recording, model, run, samples)
             time = float(recording.time[enabled] - recording.time[0])
             if enabled >= FEWEST:
                 found.append(LateEnable(place=k, recording=recording.name, samples=enabled, time=time))
@@ -62,7 +62,7 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
 def powered(recordings: Sequence[Recording], found: Sequence[LateEnable], model: Model) -> list[Recording]:
     """The recordings with no input where they had no power."""
     samples = {late.place: late.samples for late in found}
-    return [_unpowered(r, model, samples.get(k, 0)) for k, r in enumerate(recordings)]
+    return [_without_input(r, model, samples.get(k, 0)) for k, r in enumerate(recordings)]
 
 
 def needed(
@@ -72,17 +72,17 @@ def needed(
     return tuple(
         late
         for late in found
-        if _moves(problem, this, recordings[late.place], model, problem.whole[late.place], late.samples)
+        if _would_move(problem, this, recordings[late.place], model, problem.whole[late.place], late.samples)
     )
 
 
-def _standing(recordings: Sequence[Recording], model: Model) -> list[int]:
+def _standing_samples(recordings: Sequence[Recording], model: Model) -> list[int]:
     """Samples from the first on that stand still under an input, of each recording; 0 where few do.
 
     Or where friction or a dead zone may have held it: where no larger input acted on them than when the motion begins,
     or than when other recordings begin to move.
     """
-    begun = [_begins(r, model) for r in recordings]
+    begun = [_beginning_of(r, model) for r in recordings]
     standing = []
     for k, this in enumerate(begun):
         elsewhere = [max(b.held, b.moved) for j, b in enumerate(begun) if j != k and b.samples > FEWEST]
@@ -99,7 +99,7 @@ class _Beginning(NamedTuple):
     moved: float
 
 
-def _begins(recording: Recording, model: Model) -> _Beginning:
+def _beginning_of(recording: Recording, model: Model) -> _Beginning:
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
     moved = [np.abs(x - np.median(x[:FEWEST])) > CERTAIN * resolution(x, x.size) for x in measured]
     samples = min((int(np.argmax(m)) for m in moved), default=0)
@@ -118,19 +118,19 @@ def _is_a_delay(
     problem = replace(prepare(recordings, model), noise=powered_later.noise, colour=powered_later.colour)
     if DELAY in problem.prior.effects:
         return False
-    waits = [_wait(recordings[late.place], late, model) for late in found]
+    waits = [_waiting_time(recordings[late.place], late, model) for late in found]
     late = fit(problem, hypothesis(problem.prior, (DELAY,), problem.scales, {DELAY: {"delay": float(max(waits))}}))
     return late.cost <= fit_nominal(powered_later).cost
 
 
-def _wait(recording: Recording, late: LateEnable, model: Model) -> float:
+def _waiting_time(recording: Recording, late: LateEnable, model: Model) -> float:
     """From the first input to the power [s], between two rows: at a row a delay has two slopes."""
     begins = int(np.argmax(np.asarray(recording.signals[model.drive.input]) != 0.0))
     before, after = recording.time[late.samples - 1], recording.time[late.samples]
     return float(max(0.5 * (before + after) - recording.time[begins], 0.0))
 
 
-def _unpowered(recording: Recording, model: Model, samples: int) -> Recording:
+def _without_input(recording: Recording, model: Model, samples: int) -> Recording:
     if not samples:
         return recording
     given = np.array(recording.signals[model.drive.input])
@@ -138,7 +138,7 @@ def _unpowered(recording: Recording, model: Model, samples: int) -> Recording:
     return replace(recording, signals={**recording.signals, model.drive.input: given})
 
 
-def _moves(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
+def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
     """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded."""
     run = replace(run_of(recording, model).until(samples), own=beside.own)
     if run.in_motion:
@@ -148,11 +148,11 @@ def _moves(problem: Problem, this: Fit, recording: Recording, model: Model, besi
     return any(np.max(e) > CERTAIN * problem.noise[s].deviation for s, e in error.items())
 
 
-def _enabled(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> int:
+def _enabling_sample(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> int:
     """The sample at which power came: that under which the fit errs least, until twice the time that it stood still."""
 
     def error(k: int) -> float:
-        run = replace(run_of(_unpowered(recording, model, k), model).until(2 * samples), own=beside.own)
+        run = replace(run_of(_without_input(recording, model, k), model).until(2 * samples), own=beside.own)
         return replace(problem, runs=(run,)).error(this.vector, this.active)
 
     low, high = 0, samples
