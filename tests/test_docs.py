@@ -78,6 +78,17 @@ def test_files_that_are_named_exist(page: Path) -> None:
         assert _leads_somewhere(module.split(".")), module
 
 
+def test_the_files_of_a_step_exist() -> None:
+    """Headings of docs/method-details.md name a folder, then its files."""
+    text = (ROOT / "docs/method-details.md").read_text(encoding="utf-8")
+    named = re.findall(r"`(python/rwn/\w+/)`: ((?:`[\w/]+`(?:, )?)+)", text)
+    assert len(named) >= 6
+    for folder, names in named:
+        for name in re.findall(r"`([\w/]+)`", names):
+            place = ROOT / folder / name
+            assert place.is_dir() or place.with_suffix(".py").exists(), place
+
+
 def _leads_somewhere(names: list[str]) -> bool:
     """A module, or what a module holds."""
     for count in range(len(names), 0, -1):

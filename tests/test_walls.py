@@ -1,7 +1,8 @@
-"""The walls between the stages, as pyproject.toml states them."""
+"""The walls between the stages, as pyproject.toml states them, and how long a file and a function may be."""
 
 from __future__ import annotations
 
+import ast
 import re
 from pathlib import Path
 
@@ -33,6 +34,29 @@ def test_from_the_top_stages_take_the_extension_alone() -> None:
 
 def test_few_modules_stand_at_the_top() -> None:
     assert len(list(Path(rwn.__file__).parent.glob("*.py"))) <= 12
+
+
+LONGEST_FILE, LONGEST_FUNCTION = 300, 60  # lines: what a reader can hold at once
+SOURCES = [p for top in ("python", "cpp", "tests", "bench", "tools") for p in (ROOT / top).rglob("*.[chp][py]*")]
+SOURCES = [path for path in SOURCES if path.suffix in (".py", ".cpp", ".hpp")]
+
+
+def test_no_file_is_long() -> None:
+    assert SOURCES
+    lines = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8").count("\n") for path in SOURCES}
+    assert not {name: count for name, count in lines.items() if count > LONGEST_FILE}
+
+
+def test_no_function_is_long() -> None:
+    """Of Python; `.clang-tidy` has the same limit for C++."""
+    found = {
+        f"{path.relative_to(ROOT)}: {node.name}": (node.end_lineno or 0) - node.lineno + 1
+        for path in SOURCES
+        if path.suffix == ".py"
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+    }
+    assert not {name: count for name, count in found.items() if count > LONGEST_FUNCTION}
 
 
 def test_the_tests_mirror_the_rooms() -> None:

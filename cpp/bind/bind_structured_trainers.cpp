@@ -5,26 +5,32 @@
 
 namespace rwn::bind {
 
+namespace {
+
+py::dict structured_trainer_defaults() {
+  py::dict all;
+  all["recursive-gauss-newton"] = defaults_of<RecursiveGaussNewton>(
+      std::pair{"noise", &RecursiveGaussNewton::noise}, std::pair{"forgetting", &RecursiveGaussNewton::forgetting},
+      std::pair{"forgetting_decay", &RecursiveGaussNewton::forgetting_decay},
+      std::pair{"underweighting", &RecursiveGaussNewton::underweighting},
+      std::pair{"follow_state", &RecursiveGaussNewton::follow_state},
+      std::pair{"cycles", &RecursiveGaussNewton::cycles},
+      std::pair{"frozen_every", &RecursiveGaussNewton::frozen_every});
+  all["structured-levenberg-marquardt"] = defaults_of<StructuredLevenbergMarquardt>(
+      std::pair{"iterations", &StructuredLevenbergMarquardt::iterations},
+      std::pair{"damping", &StructuredLevenbergMarquardt::damping},
+      std::pair{"tolerance", &StructuredLevenbergMarquardt::tolerance},
+      std::pair{"gauge", &StructuredLevenbergMarquardt::gauge},
+      std::pair{"weights_first", &StructuredLevenbergMarquardt::weights_first},
+      std::pair{"ridge", &StructuredLevenbergMarquardt::ridge});
+  return all;
+}
+
+}  // namespace
+
 void bind_structured_trainers(py::module_& m) {
   const auto release = py::call_guard<py::gil_scoped_release>();
-  m.def("structured_trainer_defaults", [] {
-    py::dict all;
-    all["recursive-gauss-newton"] = defaults_of<RecursiveGaussNewton>(
-        std::pair{"noise", &RecursiveGaussNewton::noise}, std::pair{"forgetting", &RecursiveGaussNewton::forgetting},
-        std::pair{"forgetting_decay", &RecursiveGaussNewton::forgetting_decay},
-        std::pair{"underweighting", &RecursiveGaussNewton::underweighting},
-        std::pair{"follow_state", &RecursiveGaussNewton::follow_state},
-        std::pair{"cycles", &RecursiveGaussNewton::cycles},
-        std::pair{"frozen_every", &RecursiveGaussNewton::frozen_every});
-    all["structured-levenberg-marquardt"] = defaults_of<StructuredLevenbergMarquardt>(
-        std::pair{"iterations", &StructuredLevenbergMarquardt::iterations},
-        std::pair{"damping", &StructuredLevenbergMarquardt::damping},
-        std::pair{"tolerance", &StructuredLevenbergMarquardt::tolerance},
-        std::pair{"gauge", &StructuredLevenbergMarquardt::gauge},
-        std::pair{"weights_first", &StructuredLevenbergMarquardt::weights_first},
-        std::pair{"ridge", &StructuredLevenbergMarquardt::ridge});
-    return all;
-  });
+  m.def("structured_trainer_defaults", &structured_trainer_defaults);
   m.def("recursive_gauss_newton",
         [](const StructuredNetwork& network, const VectorRef& input, const VectorRef& speed, const Eigen::Vector2d& start,
            const VectorRef& spread, double noise, double forgetting, double forgetting_decay, double underweighting,

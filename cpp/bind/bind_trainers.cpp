@@ -9,38 +9,40 @@ Training train(const auto& trainer, const ConventionalNetwork& network, const Ro
   return trainer.train(network, Patterns(x, y));
 }
 
+py::dict trainer_defaults() {
+  py::dict all;
+  all["gradient-descent"] = defaults_of<GradientDescent>(
+      std::pair{"rate", &GradientDescent::rate}, std::pair{"momentum", &GradientDescent::momentum},
+      std::pair{"iterations", &GradientDescent::iterations}, std::pair{"target", &GradientDescent::target},
+      std::pair{"stall", &GradientDescent::stall});
+  all["pattern-descent"] = defaults_of<PatternDescent>(
+      std::pair{"rate", &PatternDescent::rate}, std::pair{"momentum", &PatternDescent::momentum},
+      std::pair{"shape_momentum", &PatternDescent::shape_momentum},
+      std::pair{"iterations", &PatternDescent::iterations}, std::pair{"target", &PatternDescent::target},
+      std::pair{"stall", &PatternDescent::stall});
+  all["pattern-gauss-newton"] = defaults_of<PatternGaussNewton>(
+      std::pair{"noise", &PatternGaussNewton::noise}, std::pair{"weight_prior", &PatternGaussNewton::weight_prior},
+      std::pair{"shape_prior", &PatternGaussNewton::shape_prior},
+      std::pair{"forgetting", &PatternGaussNewton::forgetting},
+      std::pair{"iterations", &PatternGaussNewton::iterations}, std::pair{"target", &PatternGaussNewton::target},
+      std::pair{"stall", &PatternGaussNewton::stall});
+  all["levenberg-marquardt"] = defaults_of<LevenbergMarquardt>(
+      std::pair{"mu", &LevenbergMarquardt::mu}, std::pair{"beta", &LevenbergMarquardt::beta},
+      std::pair{"iterations", &LevenbergMarquardt::iterations}, std::pair{"target", &LevenbergMarquardt::target},
+      std::pair{"stall", &LevenbergMarquardt::stall});
+  all["variable-projection"] = defaults_of<VariableProjection>(
+      std::pair{"mu", &VariableProjection::mu}, std::pair{"beta", &VariableProjection::beta},
+      std::pair{"resolution", &VariableProjection::resolution},
+      std::pair{"iterations", &VariableProjection::iterations}, std::pair{"target", &VariableProjection::target},
+      std::pair{"stall", &VariableProjection::stall});
+  return all;
+}
+
 }  // namespace
 
 void bind_trainers(py::module_& m) {
   m.def("trainer_names", &trainer_names);
-  m.def("trainer_defaults", [] {
-    py::dict all;
-    all["gradient-descent"] = defaults_of<GradientDescent>(
-        std::pair{"rate", &GradientDescent::rate}, std::pair{"momentum", &GradientDescent::momentum},
-        std::pair{"iterations", &GradientDescent::iterations}, std::pair{"target", &GradientDescent::target},
-        std::pair{"stall", &GradientDescent::stall});
-    all["pattern-descent"] = defaults_of<PatternDescent>(
-        std::pair{"rate", &PatternDescent::rate}, std::pair{"momentum", &PatternDescent::momentum},
-        std::pair{"shape_momentum", &PatternDescent::shape_momentum},
-        std::pair{"iterations", &PatternDescent::iterations}, std::pair{"target", &PatternDescent::target},
-        std::pair{"stall", &PatternDescent::stall});
-    all["pattern-gauss-newton"] = defaults_of<PatternGaussNewton>(
-        std::pair{"noise", &PatternGaussNewton::noise}, std::pair{"weight_prior", &PatternGaussNewton::weight_prior},
-        std::pair{"shape_prior", &PatternGaussNewton::shape_prior},
-        std::pair{"forgetting", &PatternGaussNewton::forgetting},
-        std::pair{"iterations", &PatternGaussNewton::iterations}, std::pair{"target", &PatternGaussNewton::target},
-        std::pair{"stall", &PatternGaussNewton::stall});
-    all["levenberg-marquardt"] = defaults_of<LevenbergMarquardt>(
-        std::pair{"mu", &LevenbergMarquardt::mu}, std::pair{"beta", &LevenbergMarquardt::beta},
-        std::pair{"iterations", &LevenbergMarquardt::iterations}, std::pair{"target", &LevenbergMarquardt::target},
-        std::pair{"stall", &LevenbergMarquardt::stall});
-    all["variable-projection"] = defaults_of<VariableProjection>(
-        std::pair{"mu", &VariableProjection::mu}, std::pair{"beta", &VariableProjection::beta},
-        std::pair{"resolution", &VariableProjection::resolution},
-        std::pair{"iterations", &VariableProjection::iterations}, std::pair{"target", &VariableProjection::target},
-        std::pair{"stall", &VariableProjection::stall});
-    return all;
-  });
+  m.def("trainer_defaults", &trainer_defaults);
   py::class_<Training>(m, "Training")
       .def_property_readonly("parameters", [](const Training& t) { return Eigen::VectorXd(t.network.parameters()); })
       .def_property_readonly("mse", [](const Training& t) { return py::array_t<double>(py::ssize_t(t.mse.size()), t.mse.data()); })

@@ -150,7 +150,7 @@ def identify(
         nominal = _model(model, profile)
         files = read_recordings(recordings, nominal)
         fit = _rwn().identify(files, nominal)
-        signals = identification.fitted_signals(fit, files)
+        signals = identification.explained_signals(fit, files)
         for line in identification.lines(fit, signals, nominal):
             typer.echo(line, err=line.startswith("warning"))
         why = identification.failure(fit, signals)

@@ -19,7 +19,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import MOST_COLOURED, Statistics, statistics, statistics_of
 from rwn.model.model import Model
 from rwn.name.backward import with_simpler
-from rwn.name.forward import _beside, _no_window, _varied, rank
+from rwn.name.forward import _beside, _covers_all_or_a_moment, _diverse, rank
 from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import NO_PAIRS
 from rwn.name.screening import screen
@@ -67,7 +67,7 @@ def test_a_load_from_end_to_end_or_for_a_moment_is_none(problem: Problem, begin:
     values[at] = np.array([begin, end]) * this.hypothesis.unknowns[at[0]].upper
     moved = replace(this, minimum=replace(this.minimum, values=values))
     assert moved.windows == [pytest.approx((begin, end))]
-    assert _no_window(moved, problem) == none
+    assert _covers_all_or_a_moment(moved, problem) == none
     assert _fit_with(problem, "quadratic-drag").windows == []
 
 
@@ -100,7 +100,7 @@ def test_second_effects_are_added_to_explanations_of_different_kinds(problem: Pr
     names = ("asymmetric-friction", "stribeck-friction", "coulomb-friction", "actuator-deadzone", "quadratic-drag")
     drag = _fit_with(problem, "quadratic-drag")
     fits = [replace(drag, hypothesis=_with(problem, name)) for name in names]
-    assert [f.added[0] for f in _varied(fits)] == ["asymmetric-friction", "stribeck-friction", "actuator-deadzone"]
+    assert [f.added[0] for f in _diverse(fits)] == ["asymmetric-friction", "stribeck-friction", "actuator-deadzone"]
 
 
 def _with(problem: Problem, name: str) -> Hypothesis:

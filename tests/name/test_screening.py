@@ -15,7 +15,7 @@ from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name import screening
-from rwn.name.forward import _begun, rank
+from rwn.name.forward import _weighted_beforehand, rank
 from rwn.name.screening import FURTHER, MUCH_WORSE, _to_the_end, _unless_much_worse, screen
 from rwn.name.starts import Attempt, Start, starts
 
@@ -76,7 +76,7 @@ def test_a_delay_of_any_part_of_a_sample_is_found_where_the_winding_is_fast(late
     signals = {s: seen[s] + level * rng.standard_normal(time.size) for s, level in noise.items()}
     uncertainty = dict.fromkeys(fast, 0.06) | {"inductance": 0.0, "coulomb_friction": 0.0}
     sheet = Model(kind="dc", parameters={**fast, "inertia": 4.8e-7}, uncertainty=uncertainty)
-    problem, nominal = _begun(prepare([replace(run, signals={**run.signals, **signals})], sheet))
+    problem, nominal = _weighted_beforehand(prepare([replace(run, signals={**run.signals, **signals})], sheet))
     found = screen(problem, nominal, ["input-delay"])[0]
     assert found.value("input-delay.delay") == pytest.approx(1e-3 * late, abs=2e-5)
 

@@ -37,7 +37,7 @@ WRONG: dict[str, Recording] = {
 def _identified(case: str) -> tuple[Identification, Model, list[str], str]:
     run, model = WRONG[case], rwn.read_model(DEMO / "model.toml")
     fit = rwn.identify(run, model)
-    signals = identification.fitted_signals(fit, [run])
+    signals = identification.explained_signals(fit, [run])
     doubts = [line for line in identification.lines(fit, signals, model) if line.startswith("warning")]
     return fit, model, doubts, identification.failure(fit, signals)
 
@@ -74,4 +74,4 @@ def test_a_friction_that_comes_out_as_nothing_is_a_fit() -> None:
     made = {name: x + 0.02 * rng.standard_normal(x.size) for name, x in rwn.simulate(exact, given).signals.items()}
     run = replace(given, signals={**given.signals, "current": made["current"], "speed": made["speed"]})
     fit = rwn.identify(run, model)
-    assert not identification.failure(fit, identification.fitted_signals(fit, [run]))
+    assert not identification.failure(fit, identification.explained_signals(fit, [run]))

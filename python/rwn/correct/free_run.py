@@ -49,12 +49,12 @@ def by_free_run(decision: Decision, chosen: RankedFit, *, seed: int) -> ByFreeRu
     if not (isinstance(problem, DrivingForceProblem) and chosen.added):
         return None
     known = _predicted(decision, chosen, by_motion=False, seed=seed)
-    found = [(r, _predicted(decision, r, by_motion=True, seed=seed)) for r in _not_told_apart(decision, chosen)]
-    best, rows = min(found, key=lambda pair: _change(pair[1]))
+    found = [(r, _predicted(decision, r, by_motion=True, seed=seed)) for r in _indistinguishable(decision, chosen)]
+    best, rows = min(found, key=lambda pair: _log_ratio(pair[1]))
     force = [r for r in rows if r.signal == DRIVING_FORCE]
-    if _change(rows) >= _change(known) or (force and log_change(force) >= 0.0):
+    if _log_ratio(rows) >= _log_ratio(known) or (force and log_change(force) >= 0.0):
         return None
-    final = fitted_to_motion(problem.in_free_run(), problem.whole, best.final, _told(decision, best))
+    final = fitted_to_motion(problem.in_free_run(), problem.whole, best.final, _leading_effect(decision, best))
     return ByFreeRun(explanation=replace(best, final=final), rows=rows)
 
 
@@ -72,7 +72,7 @@ def fitted_to_motion(problem: Problem, runs: Sequence[Run], this: Fit, name: str
     return min(ends, key=lambda f: f.cost)
 
 
-def _not_told_apart(decision: Decision, chosen: RankedFit) -> list[RankedFit]:
+def _indistinguishable(decision: Decision, chosen: RankedFit) -> list[RankedFit]:
     """The explanation, and those with a rival of its leading effect in the place of it."""
     leading = next((e for e in decision.account.stated if e.name in chosen.added), None)
     if leading is None:
@@ -82,7 +82,7 @@ def _not_told_apart(decision: Decision, chosen: RankedFit) -> list[RankedFit]:
     return [chosen, *(r for r in decision.ranking.fits if set(r.added) in rivals)]
 
 
-def _told(decision: Decision, this: RankedFit) -> str:
+def _leading_effect(decision: Decision, this: RankedFit) -> str:
     """The effect of an explanation that is its leading one, or in the place of that."""
     names = [n for e in decision.account.stated for n in (e.name, *e.rivals)]
     return next((n for n in names if n in this.added), this.added[0])
@@ -96,12 +96,12 @@ def _predicted(decision: Decision, this: RankedFit, *, by_motion: bool, seed: in
         part = problem.on(known)
         fitted = refit(this.final, part)
         if by_motion:
-            fitted = fitted_to_motion(problem.in_free_run(), known, fitted, _told(decision, this))
+            fitted = fitted_to_motion(problem.in_free_run(), known, fitted, _leading_effect(decision, this))
         rows += compared(ranking, refit(ranking.nominal, part), fitted, [unseen], seed=seed)
     return tuple(rows)
 
 
-def _change(rows: Sequence[HeldoutRow]) -> float:
+def _log_ratio(rows: Sequence[HeldoutRow]) -> float:
     """Mean logarithm of the free-running errors over those of the refitted nominal model."""
     found = log_change([r for r in rows if r.signal != DRIVING_FORCE])
     return found if np.isfinite(found) else np.inf

@@ -81,15 +81,15 @@ def _best_curve(
     effects = {name: this.values_of(name) for name in beside}
     share = one_stage(part.work) / SHARES
 
-    def ended(place: Place) -> Statistics:
+    def left_by(place: Place) -> Statistics:
         on, with_it = with_network(part, model, place, PART, motor=this.motor, effects=effects)
         return statistics(on, fit(on, this.carried_to(with_it), max_iterations=ITERATIONS, share=share), drift=False)
 
     found = all_places(part, model)
     tried = list(dict.fromkeys(chain.from_iterable(most_promising(part, one, found, PART) for one in leaving)))
-    left = side_by_side(ended, tried)
-    return min(zip(tried, left, strict=True), key=lambda row: _or_worst(row[1].variance))
+    left = side_by_side(left_by, tried)
+    return min(zip(tried, left, strict=True), key=lambda row: _finite_or_worst(row[1].variance))
 
 
-def _or_worst(variance: float) -> float:
+def _finite_or_worst(variance: float) -> float:
     return variance if np.isfinite(variance) else np.inf

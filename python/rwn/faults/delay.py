@@ -64,14 +64,14 @@ def suspected(recordings: Sequence[Recording], model: Model) -> SuspectedFault |
     weighted = with_noise_of(problem, fit_nominal(problem))
     nominal = fit_nominal(weighted)
     noise = with_noise_of(weighted, nominal).noise
-    before = _left(problem, _refitted(problem, noise), noise)
+    before = _excess_error(problem, _refitted(problem, noise), noise)
     if before < LITTLE:
         return None
     best = None
     for fault in chain(gears(recordings, model), _shifts(recordings, problem, nominal)):
         undone = prepare(without(recordings, fault), model)
         own = fault.noise_without(noise)
-        after = _left(undone, _refitted(undone, own), own)
+        after = _excess_error(undone, _refitted(undone, own), own)
         if after < (best.after if best else (1.0 - SUSPECT) * before):
             best = SuspectedFault(fault=fault, noise=noise, before=before, after=after)
     return best
@@ -79,7 +79,7 @@ def suspected(recordings: Sequence[Recording], model: Model) -> SuspectedFault |
 
 def unexplained(suspect: SuspectedFault, found: Ranking) -> float:
     """Mean squared error above the noise, in units of it, that physics leaves of the recordings, shifted or not."""
-    return _left(found.problem, found.closest, suspect.noise)
+    return _excess_error(found.problem, found.closest, suspect.noise)
 
 
 def removing(fault: Fault, suspect: SuspectedFault, *, left: float, physics: float) -> Fault:
@@ -122,16 +122,16 @@ def refined(
     def undone(fault: Fault) -> Problem:
         return replace(prepare(without(recordings, fault), model), noise=noise)
 
-    def briefly(fault: Fault) -> float:
+    def variance_after_a_few_steps(fault: Fault) -> float:
         on = screening_part(undone(fault), base)
         return variance(on, refit(base, on, iterations=FURTHER))
 
-    left = _left(beneath.problem, base, noise)
+    left = _excess_error(beneath.problem, base, noise)
     near = [suspect.fault.delay + off for off in NEAR] if suspect.fault.delay else []
     tried = [_shift(suspect.fault.signals, delay, suspect.fault.step) for delay in near if delay]
     if not tried:
         return suspect.fault, left
-    as_suspected, *soon = side_by_side(briefly, [suspect.fault, *tried])
+    as_suspected, *soon = side_by_side(variance_after_a_few_steps, [suspect.fault, *tried])
     if min(soon) >= as_suspected:
         return suspect.fault, left
     best = tried[int(np.argmin(soon))]
@@ -144,7 +144,7 @@ def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:
     return fit_nominal(replace(problem, noise=dict(noise)))
 
 
-def _left(problem: Problem, this: Fit, noise: Mapping[str, Noise]) -> float:
+def _excess_error(problem: Problem, this: Fit, noise: Mapping[str, Noise]) -> float:
     """Mean squared error above the noise of the recordings, in units of it."""
     return variance(replace(problem, noise=noise_before_filters(problem, noise)), this) - 1.0
 

@@ -67,7 +67,7 @@ class Explained:
 def explained(
     recordings: Sequence[Recording], model: Model, *, say: Progress, effort: float = 1.0
 ) -> Explained:
-    """The explanation; found once more where the best one tells otherwise how the input acted.
+    """The explanation; found once more where under the best one the input acted otherwise.
 
     `effort`: what the search may cost, as a multiple of the usual.
 
@@ -86,9 +86,9 @@ def explained(
         faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say, effort=effort)
     for wrong in contradicted(ranking):
         free = without_declared(again, wrong)
-        others, told = resolved(_as_acted(powered(recordings, still, model), again), free, say=say, effort=effort)
-        if confirmed(told, ranking, again, wrong):
-            faults, ranking = others, told
+        others, freed = resolved(_as_acted(powered(recordings, still, model), again), free, say=say, effort=effort)
+        if confirmed(freed, ranking, again, wrong):
+            faults, ranking = others, freed
             break
     again = stating_filters(again, ranking.problem.filters)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)

@@ -49,17 +49,17 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
 
     Raises InputError where a recording does not fit the model.
     """
-    still = [_standing(r, model) for r in recordings]
+    still = [_standing_samples(r, model) for r in recordings]
     if model.drive.coefficients or not any(still):
         return ()
-    problem, nominal = nominal_of([_unpowered(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
+    problem, nominal = nominal_of([_without_input(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
     found = _enabled_late(recordings, model, problem, nominal, problem.runs)
     return found if found and _explain_more(found, recordings, model) else ()
 
 
 def late_beside(recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit) -> tuple[LateEnable, ...]:
     """What stood still, of recordings that were not fitted, where an explanation `this` of others would have moved."""
-    if model.drive.coefficients or not any(_standing(r, model) for r in recordings):
+    if model.drive.coefficients or not any(_standing_samples(r, model) for r in recordings):
         return ()
     return _enabled_late(recordings, model, problem, this, [run_of(r, model) for r in recordings])
 
@@ -69,9 +69,9 @@ def _enabled_late(
 ) -> tuple[LateEnable, ...]:
     found = []
     for k, (recording, run) in enumerate(zip(recordings, runs, strict=True)):
-        samples = _standing(recording, model)
-        if samples and _moves(problem, this, recording, model, run, samples):
-            enabled = _enabled(problem, this, recording, model, run, samples)
+        samples = _standing_samples(recording, model)
+        if samples and _would_move(problem, this, recording, model, run, samples):
+            enabled = _enabling_sample(problem, this, recording, model, run, samples)
             time = float(recording.time[enabled] - recording.time[0])
             if enabled >= FEWEST:
                 found.append(LateEnable(place=k, recording=recording.name, samples=enabled, time=time))
@@ -81,7 +81,7 @@ def _enabled_late(
 def powered(recordings: Sequence[Recording], found: Sequence[LateEnable], model: Model) -> list[Recording]:
     """The recordings with no input where they had no power."""
     samples = {late.place: late.samples for late in found}
-    return [_unpowered(r, model, samples.get(k, 0)) for k, r in enumerate(recordings)]
+    return [_without_input(r, model, samples.get(k, 0)) for k, r in enumerate(recordings)]
 
 
 def needed(
@@ -91,11 +91,11 @@ def needed(
     return tuple(
         late
         for late in found
-        if _moves(problem, this, recordings[late.place], model, problem.whole[late.place], late.samples)
+        if _would_move(problem, this, recordings[late.place], model, problem.whole[late.place], late.samples)
     )
 
 
-def _standing(recording: Recording, model: Model) -> int:
+def _standing_samples(recording: Recording, model: Model) -> int:
     """Samples from the first on that stand still, of a recording with an input in them; 0 of others."""
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
     moved = [np.abs(x - np.median(x[:FEWEST])) > CERTAIN * resolution(x, x.size) for x in measured]
@@ -115,21 +115,21 @@ def _explain_more(found: Sequence[LateEnable], recordings: Sequence[Recording], 
     best = min([nominal, *screen(later, nominal, names)], key=lambda f: f.cost)
     at_once = replace(prepare(beginnings(recordings), model), noise=later.noise, colour=later.colour)
     nominal = fit_nominal(at_once)
-    delay = max(_wait(recordings[late.place], late, model) for late in found)
+    delay = max(_waiting_time(recordings[late.place], late, model) for late in found)
     delayed = [hypothesis(at_once.prior, (n,), at_once.scales, {n: {"delay": delay}}) for n in names if n == DELAY]
     others = [nominal, *screen(at_once, nominal, names), *(fit(at_once, d) for d in delayed)]
     gained = min(f.cost for f in others) - best.cost
     return gained > 2.0 * worth(later, best) * DECISIVE * len(found)
 
 
-def _wait(recording: Recording, late: LateEnable, model: Model) -> float:
+def _waiting_time(recording: Recording, late: LateEnable, model: Model) -> float:
     """From the first input to the power [s], between two rows: at a row a delay has two slopes."""
     begins = int(np.argmax(np.asarray(recording.signals[model.drive.input]) != 0.0))
     before, after = recording.time[late.samples - 1], recording.time[late.samples]
     return float(max(0.5 * (before + after) - recording.time[begins], 0.0))
 
 
-def _unpowered(recording: Recording, model: Model, samples: int) -> Recording:
+def _without_input(recording: Recording, model: Model, samples: int) -> Recording:
     if not samples:
         return recording
     given = np.array(recording.signals[model.drive.input])
@@ -137,7 +137,7 @@ def _unpowered(recording: Recording, model: Model, samples: int) -> Recording:
     return replace(recording, signals={**recording.signals, model.drive.input: given})
 
 
-def _moves(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
+def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
     """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded."""
     run = replace(run_of(recording, model).until(samples), own=beside.own)
     if run.in_motion:
@@ -147,11 +147,11 @@ def _moves(problem: Problem, this: Fit, recording: Recording, model: Model, besi
     return any(np.max(e) > CERTAIN * problem.noise[s].deviation for s, e in error.items())
 
 
-def _enabled(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> int:
+def _enabling_sample(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> int:
     """The sample at which power came: that under which the fit errs least, until twice the time that it stood still."""
 
     def error(k: int) -> float:
-        run = replace(run_of(_unpowered(recording, model, k), model).until(2 * samples), own=beside.own)
+        run = replace(run_of(_without_input(recording, model, k), model).until(2 * samples), own=beside.own)
         return replace(problem, runs=(run,)).error(this.vector, this.active)
 
     low, high = 0, samples

@@ -31,7 +31,7 @@ from rwn.name.ranking import Ranking
 from rwn.recording.recording import Recording
 
 MOST_SCALES = 2  # wrong at a time
-MOST_REFINEMENTS = 3  # times that a delay is told more exactly, with what was found beneath it
+MOST_REFINEMENTS = 3  # times that a delay is refined with what was found beneath it
 WRONG = 0.01  # relative error of a gear ratio, from which what is beneath it is explained anew
 
 
@@ -130,8 +130,8 @@ def _decided(
     if physics <= suspect.little:
         return FaultDecision(None, alone)
     if suspect.after <= LITTLE:
-        told = accepted(suspect, left=suspect.after, physics=physics, little=suspect.little)
-        return FaultDecision(suspect.fault, None, physics) if told else FaultDecision(None, alone)
+        believed = accepted(suspect, left=suspect.after, physics=physics, little=suspect.little)
+        return FaultDecision(suspect.fault, None, physics) if believed else FaultDecision(None, alone)
     pairs = ranking(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(suspect, pairs) <= LITTLE
     names = first_effects(alone, pairs) if enough else None
@@ -140,8 +140,8 @@ def _decided(
         if enough or not exact or left > BETTER * physics:
             return FaultDecision(None, pairs)
         beneath = ranking(without(right, fault), after=beneath)
-        told = unexplained(suspect, beneath) <= LITTLE
-        return FaultDecision(fault, beneath, unexplained(suspect, pairs)) if told else FaultDecision(None, pairs)
+        believed = unexplained(suspect, beneath) <= LITTLE
+        return FaultDecision(fault, beneath, unexplained(suspect, pairs)) if believed else FaultDecision(None, pairs)
     if left > CLEAR * suspect.before:
         if not enough:
             pairs = ranking(right, 2, names=rivals(alone, beneath), after=pairs)
@@ -155,7 +155,7 @@ def _decided(
 def _refined(
     suspect: SuspectedFault, right: Sequence[Recording], model: Model, ranking: Rank, names: Sequence[str] | None
 ) -> RefinedDelay:
-    """The suspected delay, told again by what is found beneath it until that tells the same."""
+    """The suspected delay, refined with what is found beneath it until it stays the same."""
     fault = suspect.fault
     for _ in range(MOST_REFINEMENTS):
         undone = fault

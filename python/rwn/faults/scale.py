@@ -17,10 +17,10 @@ from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Fault, without
 from rwn.faults.similarity import FAR, Similarity
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.model.vocabulary import motor_index
 from rwn.recording.kinematics import kinematics_of
 from rwn.recording.recording import Recording, beginnings
 from rwn.recording.smoothing import smooth
+from rwn.simulate.inverse_dynamics import needed_force
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ REMOVED = {UNIT: 0.85, SIGN: 0.85, GEAR: 0.95}  # share of the misfit that undoi
 LEFT = 0.3  # misfit that undoing may leave; 0.3 is a correlation of 0.85
 SAME = 0.05  # relative difference between a size and a unit's factor that nothing has to account for
 WIDEST = 0.3  # relative difference from a unit's factor that a poor data sheet and missing physics make
-PLAIN = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
+BEYOND_PHYSICS = 100.0  # factor that no physics comes near: a signal may be off by the root of it beside
 GEARED = 2.0  # size from which a gear is believed: what slows a motor by so much does not leave its transients alike
 MOST_GEARED = 1e4  # four stages of ten to one: small motors have no gear beyond
 GEAR_LIKE = 1.5  # size from which a gear is tried beside physics
@@ -55,33 +55,33 @@ LEAST_FORCE = 0.3  # correlation of a force with what the motion takes, below wh
 def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """A unit, sign or gear ratio that is plainly wrong; None where the scale of every signal is believable."""
     recordings = beginnings(recordings)
-    certain = _contradiction(recordings, model)
+    certain = _kinematic_fault(recordings, model)
     if certain:
         return certain
     if model.drive.force:
-        return _of_axis(recordings, model)
+        return _axis_fault(recordings, model)
     seen = _similarity(recordings, model)
     if not any(one.far for one in seen.values()):
         return None
     best, least = None, np.inf
-    for fault in _suspected(seen, model):
+    for fault in _candidates(seen, model):
         if not all(seen[s].bettered(fault.factor) for s in fault.signals if s in seen):
             continue
-        undone = _undone(fault, seen, recordings, model)
+        undone = _misfits_without(fault, seen, recordings, model)
         judged = [s for s in seen if s in fault.signals] or list(seen)  # all signals depend on the voltage
         before = float(np.mean([seen[s].misfit(1.0) for s in judged]))
         left = float(np.mean([undone[s] for s in judged]))
         everywhere = float(np.mean(list(undone.values())))
         most = (1.0 - REMOVED[fault.name]) * before
-        if left < (most if _plain(fault.factor) else min(most, LEFT)) and everywhere < least:
+        if left < (most if _beyond_physics(fault.factor) else min(most, LEFT)) and everywhere < least:
             best, least = fault, everywhere
     return best
 
 
-def _contradiction(recordings: Sequence[Recording], model: Model) -> Fault | None:
+def _kinematic_fault(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """The speed or the position in a wrong unit or sign, where their kinematics say that one of them is.
 
-    Which of the two is left to the model. None where no unit makes them agree: a gear between their sensors, say.
+    Which of the two it is, the model decides. None where no unit makes them agree: a gear between their sensors, say.
     """
     motions = [motion for recording in recordings if (motion := kinematics_of(recording))]
     if not motions or not all(motion.contradict for motion in motions):
@@ -89,7 +89,7 @@ def _contradiction(recordings: Sequence[Recording], model: Model) -> Fault | Non
     ratios = np.array([motion.ratio for motion in motions])
     faults = []
     for signal, power in (("speed", 1), ("position", -1)):
-        tried = chain([_turned((signal,))], _in_units((signal,), _units((signal,), model)))
+        tried = chain([_wrong_sign((signal,))], _in_units((signal,), _units((signal,), model)))
         faults += [one for one in tried if np.all(np.abs(ratios / one.factor**power - 1.0) < SAME)]
     return min(faults, key=lambda one: relative_error(without(recordings, one), model), default=None)
 
@@ -102,10 +102,10 @@ def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
     moving = tuple(s for s in MOTION if s in seen)
     ratio = _mean([seen[s] for s in moving]).ratio if moving else 1.0
     if abs(np.log(ratio)) > np.log(GEAR_LIKE):
-        yield from _gears(moving, ratio, _spread(model))
+        yield from _gears(moving, ratio, _speed_spread(model))
 
 
-def _undone(
+def _misfits_without(
     fault: Fault, seen: Mapping[str, Similarity], recordings: Sequence[Recording], model: Model
 ) -> dict[str, float]:
     """Misfit of every signal without the fault."""
@@ -131,14 +131,14 @@ def _slope(run: Run) -> Array:
     return smooth(run.position, run.smoothing_length(), derivative=1, step=run.sample_time)
 
 
-def _suspected(seen: Mapping[str, Similarity], model: Model) -> Iterator[Fault]:
+def _candidates(seen: Mapping[str, Similarity], model: Model) -> Iterator[Fault]:
     """What may be wrong: each signal by itself, the motion as a whole, and the voltage, which all depend on."""
     moving = tuple(s for s in MOTION if s in seen)
     groups = dict.fromkeys([*((s,) for s in seen), moving])
     for group in sorted(groups):
         if any(seen[s].far for s in group):
             yield from _scales(group, _mean([seen[s] for s in group]), model, whole=group == moving)
-    yield _turned(("voltage",))
+    yield _wrong_sign(("voltage",))
     yield from _in_units(("voltage",), THOUSANDS)
 
 
@@ -152,18 +152,18 @@ def _mean(of: Sequence[Similarity]) -> Similarity:
 
 def _scales(group: tuple[str, ...], seen: Similarity, model: Model, *, whole: bool) -> Iterator[Fault]:
     """Sign and units of a group of signals that its size allows, and a gear ratio where it is all of the motion."""
-    yield _turned(group)
-    units = {f: text for f, text in _units(group, model).items() if _allowed(f, group, seen, model)}
+    yield _wrong_sign(group)
+    units = {f: text for f, text in _units(group, model).items() if _is_allowed(f, group, seen, model)}
     if not whole:
         yield from _in_units(group, units)
         return
-    geared = abs(np.log(seen.ratio)) > max(np.log(GEARED), SURELY * _spread(model))
+    geared = abs(np.log(seen.ratio)) > max(np.log(GEARED), SURELY * _speed_spread(model))
     for unit in _in_units(group, units):  # numbers too large by a unit are common, a sensor on a faster shaft is not
         as_well = geared and abs(unit.factor) < 1.0
         text = f"{unit.meaning}, or of a shaft that turns {seen.ratio:.3g} times as fast as the motor"
         yield replace(unit, also=(GEAR,), meaning=text) if as_well else unit
     if geared and not units:
-        yield from _gears(group, seen.ratio, _spread(model))
+        yield from _gears(group, seen.ratio, _speed_spread(model))
 
 
 def _gears(group: tuple[str, ...], ratio: float, spread: float) -> Iterator[Fault]:
@@ -171,7 +171,7 @@ def _gears(group: tuple[str, ...], ratio: float, spread: float) -> Iterator[Faul
     yield gear(group, -ratio, spread)
 
 
-def _turned(group: tuple[str, ...]) -> Fault:
+def _wrong_sign(group: tuple[str, ...]) -> Fault:
     return Fault(name=SIGN, signals=group, factor=-1.0, meaning=f"{' and '.join(group)} of the wrong sign")
 
 
@@ -195,8 +195,8 @@ def gear(group: tuple[str, ...], factor: float, spread: float) -> Fault:
 
 
 def as_gear(unit: Fault, model: Model) -> Fault:
-    """What is told as a unit, as the ratio of a gear in its place."""
-    return gear(unit.signals, unit.factor, _spread(model))
+    """The ratio of a gear in place of a suspected unit."""
+    return gear(unit.signals, unit.factor, _speed_spread(model))
 
 
 def _units(group: tuple[str, ...], model: Model) -> dict[float, str]:
@@ -205,38 +205,38 @@ def _units(group: tuple[str, ...], model: Model) -> dict[float, str]:
     return THOUSANDS
 
 
-def _allowed(factor: float, group: tuple[str, ...], seen: Similarity, model: Model) -> bool:
+def _is_allowed(factor: float, group: tuple[str, ...], seen: Similarity, model: Model) -> bool:
     """Whether what the data sheet and missing physics leave open makes a signal's size of a unit's factor.
 
     Missing physics slows a motor: where numbers are too large, it may be slower than its model by more than faster.
     """
     off = float(np.log(seen.ratio / factor))
-    if _plain(factor):
-        return bool(abs(off) < np.log(PLAIN) / 2.0)
+    if _beyond_physics(factor):
+        return bool(abs(off) < np.log(BEYOND_PHYSICS) / 2.0)
     if group[0] in MOTION and factor > 1.0:
-        return -WIDEST < off < max(SURELY * _spread(model), SAME)
-    return abs(off) < _leeway(seen, model)
+        return -WIDEST < off < max(SURELY * _speed_spread(model), SAME)
+    return abs(off) < _tolerance(seen, model)
 
 
-def _plain(factor: float) -> bool:
-    return bool(abs(np.log(abs(factor))) > np.log(PLAIN))
+def _beyond_physics(factor: float) -> bool:
+    return bool(abs(np.log(abs(factor))) > np.log(BEYOND_PHYSICS))
 
 
-def _spread(model: Model) -> float:
+def _speed_spread(model: Model) -> float:
     """Relative standard deviation that the data sheet leaves the speed at a voltage."""
     return float(model.uncertainty.get("back_emf_constant", 0.0))
 
 
-def _leeway(seen: Similarity, model: Model) -> float:
+def _tolerance(seen: Similarity, model: Model) -> float:
     """Relative difference from a unit's factor that the data sheet and missing physics, by what it bends, may make."""
     missing = max(1.0 - seen.correlation**2, 0.0)
-    return float(np.clip(2.0 * np.sqrt(_spread(model) ** 2 + missing), SAME, WIDEST))
+    return float(np.clip(2.0 * np.sqrt(_speed_spread(model) ** 2 + missing), SAME, WIDEST))
 
 
 # ---- an axis, whose force is recorded --------------------------------------------------------------------------------
 
 
-def _of_axis(recordings: Sequence[Recording], model: Model) -> Fault | None:
+def _axis_fault(recordings: Sequence[Recording], model: Model) -> Fault | None:
     """The same from the driving force against what the motion takes."""
     seen = _force_similarity(recordings, model)
     if abs(seen.correlation) < LEAST_FORCE or (seen.correlation > 0.0 and abs(np.log(seen.ratio)) < np.log(2.0 * FAR)):
@@ -253,18 +253,22 @@ def _of_axis(recordings: Sequence[Recording], model: Model) -> Fault | None:
 
 
 def _any_scale(group: tuple[str, ...], model: Model) -> Iterator[Fault]:
-    yield _turned(group)
+    yield _wrong_sign(group)
     yield from _in_units(group, _units(group, model))
 
 
 def _force_similarity(recordings: Sequence[Recording], model: Model) -> Similarity:
+    """Of the recorded driving force to the one that the model as given needs for the recorded motion."""
     problem = prepare(recordings, model)
-    vector = problem.as_given().vector
+    given = problem.as_given()
     pairs = []
     for run in problem.whole:
         speed, acceleration = run.motion()
-        takes = vector[motor_index("inertia")] * acceleration + vector[motor_index("viscous_friction")] * speed
-        pairs.append((run.input, takes))
+        needed = needed_force(
+            problem.simulator, given.vector, given.active, time=run.time, speed=speed, acceleration=acceleration,
+            position=run.position if run.position.size else np.zeros(run.time.size),
+        )  # fmt: skip
+        pairs.append((run.input, needed))
     return Similarity.of(pairs)
 
 

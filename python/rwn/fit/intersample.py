@@ -42,13 +42,14 @@ def likeliest(problem: Problem, this: Fit) -> str:
     of a row by the input of that row, a cable picks its steps up. A law that foretells this is likelier for no physics,
     so one that simulates the recordings certainly worse, from their input alone, is not taken.
     """
-    under = {law: _under(problem, law) for law in INTERSAMPLE}
-    told = {law: p for law, p in under.items() if law == HELD or any(r.applied_input is not None for r in p.runs)}
-    fits = side_by_side(lambda p: refit(this, p, iterations=ITERATIONS), told.values())
-    refitted = dict(zip(told, fits, strict=True))
-    scores = {law: log_likelihood(told[law], refitted[law]) for law in told}
-    likely = [law for law in told if scores[law] > scores[HELD] + DECISIVE]
-    lost = {law: accuracy_lost(told[HELD], refitted[HELD], told[law], refitted[law]) for law in likely}
+    under = {law: _under_law(problem, law) for law in INTERSAMPLE}
+    candidates = {law: p for law, p in under.items() if law == HELD or any(r.applied_input is not None for r in p.runs)}
+    fits = side_by_side(lambda p: refit(this, p, iterations=ITERATIONS), candidates.values())
+    refitted = dict(zip(candidates, fits, strict=True))
+    scores = {law: log_likelihood(candidates[law], refitted[law]) for law in candidates}
+    likely = [law for law in candidates if scores[law] > scores[HELD] + DECISIVE]
+    held = candidates[HELD], refitted[HELD]
+    lost = {law: accuracy_lost(*held, candidates[law], refitted[law]) for law in likely}
     return max((law for law in likely if lost[law] < REFUSED), key=lambda law: scores[law], default=HELD)
 
 
@@ -78,5 +79,5 @@ def stating(model: Model, law: str) -> Model:
     return replace(model, recording=replace(model.recording, intersample=law))
 
 
-def _under(problem: Problem, law: str) -> Problem:
+def _under_law(problem: Problem, law: str) -> Problem:
     return replace(problem, runs=tuple(r.with_intersample(law) for r in problem.runs))

@@ -31,7 +31,8 @@ KEPT = 8  # places that are worth a fit each: the order to first order is not th
 def most_promising(problem: Problem, this: Fit, places: Sequence[Place], count: int) -> list[Place]:
     """The KEPT places at which a network of `count` wavelets explains most of what a fit leaves, the best first."""
     residuals = problem.residuals(this.vector, this.active)
-    answers = [_Answers.of(problem, this, run, tuple(_told(r))) for run, r in zip(problem.runs, residuals, strict=True)]
+    pairs = list(zip(problem.runs, residuals, strict=True))
+    answers = [_Answers.of(problem, this, run, tuple(_compared_signals(left))) for run, left in pairs]
     left = np.concatenate([a.weighted(r) for a, r in zip(answers, residuals, strict=True)])
     nominal, _ = np.linalg.qr(np.concatenate([a.of_nominal() for a in answers]))
     left = left - nominal @ (nominal.T @ left)
@@ -46,7 +47,7 @@ def most_promising(problem: Problem, this: Fit, places: Sequence[Place], count: 
     return sorted(places, key=explained, reverse=True)[:KEPT]
 
 
-def _told(residual: dict[str, Array]) -> list[str]:
+def _compared_signals(residual: dict[str, Array]) -> list[str]:
     """The signals that are looked at: a position adds up what the speed shows already."""
     return [s for s in residual if s != "position"] or list(residual)
 

@@ -53,7 +53,7 @@ def _one_sensor(runs: tuple[Run, ...]) -> tuple[Run, ...]:
     """The runs with the speed measured in all as most of them show; as many, the way over fewest samples.
 
     One recording may show it wrongly: an input that is held for some samples leaves gaps in the spectrum of its own.
-    A difference of the position beside it is told by its values: a recording that shows none does not speak against it.
+    A difference of the position beside it is known by its values; a recording that shows none says nothing against it.
     """
     shown = Counter(
         r.speed_measured for r in runs if r.speed.size and r.position.size and r.speed_measured.is_difference

@@ -2,7 +2,8 @@
 
 Noise that a filter y_k = phi y_{k-1} + (1 - phi) x_k has passed goes from sample to sample with phi = exp(-T / tau).
 Differences of the residual show it, since what else may be missing is smooth between its sharp instants, and few
-windows hold one. Whether the motion went through it too, sample by sample or as an analog signal, the likelihood tells.
+windows hold one. Whether the motion went through it too, sample by sample or as an analog signal, the likelihood
+decides.
 """
 
 from __future__ import annotations
@@ -31,10 +32,10 @@ LAGS = {"speed": "speed-sensor-lag", "current": "current-sensor-lag"}  # signal 
 WINDOW = 64  # samples
 CERTAIN = 5.0  # standard deviations of the autocorrelation of white noise
 LEAST, MOST = 0.1, 0.95  # of phi: a filter faster than half a sample changes nothing, a slower one is physics
-NOTHING_ELSE = 2.0  # variance of what is new in a residual against its rough noise, up to which it is noise alone
+NOISE_ALONE = 2.0  # variance of what is new in a residual against its rough noise, up to which it is noise alone
 ITERATIONS = 8  # of a fit that begins near its end
-EXACT = 0.01  # to which it is told; its noise tells it to about as much (N = 10 000)
-ROUNDS = 2  # in which the filters of several signals are told beside each other
+EXACT = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
+ROUNDS = 2  # in which the filters of several signals are estimated beside each other
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,25 +59,25 @@ def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
         seen = coloured_signals(problem, residuals) or seen
     if not seen:
         return ()
-    told = [_told(problem, base, seen, residuals) for base in _bases(problem, this)]
-    return max(told, key=lambda pair: pair[1])[0]
+    found = [_filters_beside(problem, base, seen, residuals) for base in _without_lags(problem, this)]
+    return max(found, key=lambda pair: pair[1])[0]
 
 
-def _told(
+def _filters_beside(
     problem: Problem, base: Fit, seen: Sequence[SensorFilter], residuals: Sequence[Mapping[str, Array]]
 ) -> tuple[tuple[SensorFilter, ...], float]:
     """The filters beside an explanation, and how likely both are (log, BIC)."""
     found: dict[str, SensorFilter] = {}
-    for _ in range(ROUNDS if len(seen) > 1 else 1):  # what one signal tells depends on the others' filters
+    for _ in range(ROUNDS if len(seen) > 1 else 1):  # what one signal shows depends on the others' filters
         for one in seen:
             others = [f for f in found.values() if f.signal != one.signal]
             on = filtered(problem, others)
-            told = _likeliest(on, _again(base, on), found.get(one.signal, one))
-            if told is None and _nothing_else(problem, residuals, one):
-                told = one
-            found = {f.signal: f for f in (*others, told) if f is not None}
+            best = _likeliest_kind(on, _refitted(base, on), found.get(one.signal, one))
+            if best is None and _is_noise_alone(problem, residuals, one):
+                best = one
+            found = {f.signal: f for f in (*others, best) if f is not None}
     on = filtered(problem, tuple(found.values()))
-    this = _again(base, on)
+    this = _refitted(base, on)
     shown = sum(_samples(problem, f.signal) * float(np.log(1.0 - f.share)) for f in found.values() if f.digital)
     unknowns = len(this.hypothesis.unknowns) + len(on.filters)
     return tuple(found.values()), log_likelihood(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
@@ -100,11 +101,11 @@ def coloured_signals(problem: Problem, residuals: Sequence[Mapping[str, Array]])
     found = []
     for signal, lag in LAGS.items():
         parts = [(run, left[signal]) for run, left in zip(problem.runs, residuals, strict=True) if signal in left]
-        parts = [(run, x) for run, x in parts if _tells(run, signal, x)]
+        parts = [(run, x) for run, x in parts if _is_sensor_noise(run, signal, x)]
         known = signal in problem.filters or lag in problem.prior.effects or lag not in problem.prior.table
         if not parts or known:
             continue
-        share = _share([run.masked(signal, x) for run, x in parts])
+        share = _estimated_share([run.masked(signal, x) for run, x in parts])
         if share > LEAST:
             share = min(share, MOST)
             step = float(np.median([run.sample_time for run, _ in parts]))
@@ -164,7 +165,7 @@ def _with_lags(problem: Problem, this: Fit) -> Fit:
     return fit(problem, begun, share=one_stage(problem.work))
 
 
-def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
+def _without_lags(problem: Problem, this: Fit) -> Iterator[Fit]:
     """An explanation without lags of the sensors, and without delays too: both stand in for a filter."""
     table = problem.prior.table
     without_lags = tuple(name for name in this.added if name not in LAGS.values())
@@ -177,14 +178,14 @@ def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
         yield fit(problem, begun, share=one_stage(problem.work))
 
 
-def _again(this: Fit, problem: Problem) -> Fit:
+def _refitted(this: Fit, problem: Problem) -> Fit:
     """The same explanation fitted to a problem that may hold other filters."""
     starts = {name: this.values_of(name) for name in this.added}
     begun = hypothesis(problem.prior, this.added, problem.scales, starts, this.motor)
     return fit(problem, begun, max_iterations=ITERATIONS)
 
 
-def _likeliest(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter | None:
+def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter | None:
     """The filter, digital or analog, under which the errors are likelier than as coloured noise alone; None: neither.
 
     By BIC: a filter has a time constant more.
@@ -193,7 +194,7 @@ def _likeliest(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter 
     analog = filtered(problem, [lag])
     sampled, score = _digital(problem, this, seen)
     scores: dict[SensorFilter | None, float] = {
-        lag: log_likelihood(analog, _again(this, analog)),
+        lag: log_likelihood(analog, _refitted(this, analog)),
         None: log_likelihood(problem, this) + 0.5 * np.log(problem.samples),
         sampled: score,
     }
@@ -206,7 +207,7 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFil
 
     samples = _samples(problem, seen.signal)
 
-    def unlikely(logarithm: float) -> float:
+    def negative_log_likelihood(logarithm: float) -> float:
         time_constant = float(np.exp(logarithm))
         on = _undone(problem, seen.signal, time_constant)
         shown = 1.0 - _share_kept(problem, seen.signal, time_constant)  # of what is new in a sample
@@ -214,42 +215,42 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFil
 
     one = float(np.log(seen.time_constant * -np.log(seen.share)))  # of the time of a sample
     bounds = (one - float(np.log(-np.log(LEAST))), one - float(np.log(-np.log(MOST))))
-    found = minimize_scalar(unlikely, bounds=bounds, method="bounded", options={"xatol": EXACT})
+    found = minimize_scalar(negative_log_likelihood, bounds=bounds, method="bounded", options={"xatol": EXACT})
     time_constant = float(np.exp(found.x))
     share = _share_kept(problem, seen.signal, time_constant)
     return replace(seen, digital=True, time_constant=time_constant, share=share), -float(found.fun)
 
 
-def _tells(run: Run, signal: str, residual: Array) -> bool:
+def _is_sensor_noise(run: Run, signal: str, residual: Array) -> bool:
     """Whether its noise is a sensor's: not that of counts or their difference, and larger than its steps."""
     if signal == "speed" and run.speed_measured.is_difference:
         return False
     return noise_from_differences(residual) > 2.0 * run.quantisation(signal)
 
 
-def _share(residuals: Sequence[Array]) -> float:
+def _estimated_share(residuals: Sequence[Array]) -> float:
     """phi of the noise of residuals (n,) each; 0 where it may be white."""
-    once, twice = (np.concatenate([_correlations(np.diff(x, n)) for x in residuals]) for n in (1, 2))
+    once, twice = (np.concatenate([_lag_one_correlations(np.diff(x, n)) for x in residuals]) for n in (1, 2))
     if twice.size < 8:
         return 0.0
     shares = np.linspace(0.0, 0.99, 100)
-    expected = np.array([_correlation(p) for p in shares])
+    expected = np.array([_second_difference_correlation(p) for p in shares])
     seen = float(np.median(twice))
     if seen < expected[0] + CERTAIN * 1.25 * float(np.std(twice)) / np.sqrt(twice.size):  # deviation of a median
         return 0.0
     return min(float(np.interp(seen, expected, shares)), 1.0 + 2.0 * float(np.median(once)))
 
 
-def _nothing_else(problem: Problem, residuals: Sequence[Mapping[str, Array]], seen: SensorFilter) -> bool:
+def _is_noise_alone(problem: Problem, residuals: Sequence[Mapping[str, Array]], seen: SensorFilter) -> bool:
     """Whether errors are noise of this colour and nothing else."""
     parts = [run.masked(seen.signal, r[seen.signal]) for run, r in zip(problem.runs, residuals, strict=True)
              if seen.signal in r]  # fmt: skip
     fresh = [x[1:] - seen.share * x[:-1] for x in parts]
     loud = max(float(np.nanmean(x**2)) / max(noise_from_differences(x) ** 2, 1e-300) for x in fresh)
-    return loud < NOTHING_ELSE
+    return loud < NOISE_ALONE
 
 
-def _correlations(x: Array) -> Array:
+def _lag_one_correlations(x: Array) -> Array:
     """From one sample to the next, of each window of x (n,) that was measured throughout."""
     count = x.size // WINDOW
     windows = x[: count * WINDOW].reshape(count, WINDOW)
@@ -259,7 +260,7 @@ def _correlations(x: Array) -> Array:
     return found
 
 
-def _correlation(share: float) -> float:
+def _second_difference_correlation(share: float) -> float:
     """Of second differences, from one sample to the next, of an autoregression of first order."""
     c = share ** np.arange(5.0)
     covariance = [6 * c[0] - 8 * c[1] + 2 * c[2], -4 * c[0] + 7 * c[1] - 4 * c[2] + c[3]]

@@ -51,11 +51,13 @@ def with_unrecorded_input(recordings: Sequence[Recording], model: Model) -> list
         left = problem.residuals(this.vector, this.active)
         for k, (run, given) in enumerate(zip(problem.runs, applied, strict=True)):
             if given is not None and given.spread.any() and not run.restart_every:
-                made[k] = replace(made[k], applied_input=_told(problem, this, run, left[k], given))
+                made[k] = replace(made[k], applied_input=_inferred(problem, this, run, left[k], given))
     return made
 
 
-def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], given: PiecewiseInput) -> PiecewiseInput:
+def _inferred(
+    problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], given: PiecewiseInput
+) -> PiecewiseInput:
     """`given` with its unknown values as the errors `left` of a simulation under those of `run` tell."""
     from scipy.signal import lfilter  # late: the command line starts without it
     from scipy.sparse import diags_array, vstack
@@ -66,7 +68,7 @@ def _told(problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], give
     after = np.flatnonzero(~unknown & np.concatenate([[False], unknown[:-1]]))
     ends = np.append(given.instants[after], run.time[-1])[: first.size]
     assumed = given if run.applied_input is None else run.applied_input
-    before = (assumed.values - given.values)[first]  # what the errors have been told already
+    before = (assumed.values - given.values)[first]  # what the errors are corrected by already
     responses, errors = [], []
     for signal, error in left.items():
         level = problem.noise[signal].deviation

@@ -131,14 +131,14 @@ class OwnEffect:
     @property
     def _names(self) -> dict[str, str]:
         """Every name that the equation may use, with its SI unit; a parameter's own name comes first."""
-        linear = self.drive.input == "force"
+        linear = self.drive.linear
         known = {name: unit[linear] or _input_unit(self.drive) for name, unit in VARIABLES.items()}
         nominal = {p.name: (p.linear_unit if linear else "") or p.unit for p in self.drive.parameters}
         return known | nominal | {p.name: p.unit for p in self.parameters}
 
     @property
     def _unit(self) -> str:
-        return TERMS[self.term][1 + (self.drive.input == "force")] or _input_unit(self.drive)
+        return TERMS[self.term][1 + self.drive.linear] or _input_unit(self.drive)
 
 
 def _step(

@@ -81,7 +81,7 @@ def rank(
         return rank(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
     fits = with_simpler(problem, nominal, fits) if names is None else fits
     at_a_limit = [f for f in fits if f.limits_met]
-    fits = [f for f in fits if not (f.limits_met or f.idle or _no_window(f, problem))]
+    fits = [f for f in fits if not (f.limits_met or f.idle or _covers_all_or_a_moment(f, problem))]
     best, left = _best_of(problem, [nominal, *fits])
     weighted, finals, counted = final_fits(problem, [nominal, *fits], left)
     ranked = weigh([nominal, *fits], counted, rivals=len(wanted), prior=_prior(as_prepared), finals=finals)
@@ -110,7 +110,7 @@ def _grown(
     """Single effects, then the best of them with more beside, as long as that helps; `pairs` are known already."""
     problem = alone.problem
     _, left = _best_of(problem, [alone.nominal, *fits])
-    bases = _varied(fits)
+    bases = _diverse(fits)
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     for size in range(2, at_once + 1):
         if complete:
@@ -139,7 +139,7 @@ def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:
     return best, statistics(problem, best)
 
 
-def _begun(problem: Problem) -> tuple[Problem, Fit]:
+def _weighted_beforehand(problem: Problem) -> tuple[Problem, Fit]:
     """The problem, weighted by the noise that the refitted nominal model leaves, and that model."""
     problem, nominal = weighted_by_nominal(problem)
     within, _ = with_priors_weighed(problem, nominal)
@@ -148,7 +148,7 @@ def _begun(problem: Problem) -> tuple[Problem, Fit]:
 
 def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> SameNoise:
     """The nominal model and every single effect."""
-    problem, nominal = _begun(problem)
+    problem, nominal = _weighted_beforehand(problem)
     progress("trying every effect", 0.1)
     fits = screen(problem, nominal, wanted)
     if problem.drive.force:  # the rule on a machine axis: gravity, or an offset of the drive
@@ -217,7 +217,7 @@ def _beside(
     """
     found, tried, names = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted)
     for place, base in enumerate(bases):
-        parts = _all_there_is(problem, found)
+        parts = _complete_explanation(problem, found)
         rivals = bool(parts) and not parts & set(base.added)
         if (place or known.fits) and not rivals and not affords_more(problem.work):
             continue
@@ -230,14 +230,14 @@ def _beside(
     return Pairs(distinct(found), tried)
 
 
-def _all_there_is(problem: Problem, found: Sequence[Fit]) -> frozenset[str]:
+def _complete_explanation(problem: Problem, found: Sequence[Fit]) -> frozenset[str]:
     """The effects of the best that was found if it leaves but noise; none otherwise."""
     best = min(found, key=lambda f: f.cost, default=None)
     done = best and (statistics(problem, best).at_the_floor or _at_its_floor(problem, best))
     return frozenset(best.added) if best and done else frozenset()
 
 
-def _varied(fits: Sequence[Fit]) -> list[Fit]:
+def _diverse(fits: Sequence[Fit]) -> list[Fit]:
     """The three best explanations, at most two of them with a law in place of the same nominal parameters."""
     kept: list[Fit] = []
     for f in fits:
@@ -270,7 +270,7 @@ def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Proble
     return other, first, sorted(rest, key=lambda f: f.cost)
 
 
-def _no_window(this: Fit, problem: Problem) -> bool:
+def _covers_all_or_a_moment(this: Fit, problem: Problem) -> bool:
     """Whether a load is said to act from end to end of the recordings, which has a name of its own, or for a moment.
 
     A stray sample is no load.

@@ -1,4 +1,4 @@
-"""Which effects can be told at all from the recorded signals."""
+"""Which effects show at all in the recorded signals."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ HALF_A_METRE = 0.5  # least travel [m] of a linear axis that tells a force over 
 
 
 def observable(name: str, problem: Problem) -> bool:
-    """Whether an effect can be told at all from these signals and this model."""
+    """Whether an effect shows at all in these signals under this model."""
     effect = problem.prior.table[name]
     if effect.site not in problem.drive.sites:
         return False

@@ -146,13 +146,13 @@ def _to_the_end(
     attempts = by_rank(on_all, attempts)
     bar = far_behind(attempts, best)
 
-    def late(attempt: Attempt, share: float) -> Attempt:
+    def unfinished(attempt: Attempt, share: float) -> Attempt:
         brief = _under_way(attempt.fit) and attempt.fit.minimum.iterations <= BRIEFLY
         if brief and _goes_on(attempt.fit, bar):
             return _attempt(attempt.start, TO_THE_END, problem, share=share)
         return attempt
 
-    return by_rank(late, attempts)
+    return by_rank(unfinished, attempts)
 
 
 def _by_rank(

@@ -1,4 +1,4 @@
-"""A speed that a drive computes as the difference of its position over many rows, told from position and speed alone.
+"""A speed that a drive computes as the difference of its position over many rows, known by position and speed alone.
 
 Motor controllers difference an encoder over a fixed time (100 ms is a common default), update the result every few
 rows, and log the position beside it. The mean speed of the last rows then fits what was recorded far better than a mean
@@ -36,7 +36,7 @@ def window_of(time: Array, speed: Array, position: Array, new: Flags) -> int:
     rows = rows[moving][:JUDGED]
     errors = _errors(time, speed, position, rows)
     best = 1 + int(np.argmin([errors[width - 1, width] for width in range(1, LONGEST_WINDOW + 1)]))
-    if best <= 2 * update:  # not told from its neighbours
+    if best <= 2 * update:  # not distinguished from its neighbours
         return 0
     widths, delays = np.arange(1, LONGEST_WINDOW + 1)[:, None], np.arange(2 * LONGEST_WINDOW + 1)
     other = (np.abs(widths - best) > update) | (

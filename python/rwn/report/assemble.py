@@ -15,9 +15,11 @@ from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.verdict import Verdict
 from rwn.faults.fault import SURE, Fault
+from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import with_uncertainty
 from rwn.fit.intervals import Doubt, estimates
 from rwn.fit.prior_weight import BELIEVABLE
+from rwn.fit.problem import Problem
 from rwn.mismatch_map.dependence import laws
 from rwn.mismatch_map.regions import regions
 from rwn.model.model import Model
@@ -34,7 +36,7 @@ from rwn.report.nominal_fit import nominal_fit
 from rwn.report.sensor_filter import FittedFilter, fitted_filters
 from rwn.report.text import located
 from rwn.simulate.run import Run
-from rwn.simulate.unknown_inputs import unknown_inputs
+from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
 
 def assemble(
@@ -45,12 +47,7 @@ def assemble(
     ranking, chosen, verdict, rows = decision.ranking, decision.chosen, decision.verdict, decision.rows
     model = correction.network.model if correction.network else model
     problem, nominal = ranking.problem.in_free_run(), ranking.nominal
-    unknown = [
-        unknown_inputs(
-            problem.drive, problem.simulator, r, problem.started(r, nominal.vector, nominal.active), nominal.active
-        )
-        for r in problem.runs
-    ]
+    unknown = _unknown_to(nominal, problem)
     named = verdict == "missing-physics"
     stated, doubt = decision.account.stated, _doubt(decision)
     physics = found_effects(ranking, chosen, {e.name: e.probability for e in stated}, doubt=doubt) if named else ()
@@ -99,6 +96,14 @@ def assemble(
         stand_in=correction.stands_in,
         corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, doubt=doubt)),
     )
+
+
+def _unknown_to(this: Fit, problem: Problem) -> list[UnknownInputs]:
+    """What the equations of a fit leave over along each recording."""
+    return [
+        unknown_inputs(problem.drive, problem.simulator, r, problem.started(r, this.vector, this.active), this.active)
+        for r in problem.runs
+    ]
 
 
 def _alternatives(ranking: Ranking, chosen: RankedFit) -> tuple[Alternative, ...]:

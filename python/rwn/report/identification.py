@@ -22,7 +22,7 @@ DESCRIBES = 0.5  # share of a signal's variance that a model must explain, to be
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fitted:
+class ExplainedSignal:
     """How much of one recorded signal the fitted model explains in free run."""
 
     recording: str
@@ -30,7 +30,7 @@ class Fitted:
     explained: float  # share of the variance; negative where it is worse than the mean
 
 
-def fitted_signals(fit: Identification, recordings: Sequence[Recording]) -> tuple[Fitted, ...]:
+def explained_signals(fit: Identification, recordings: Sequence[Recording]) -> tuple[ExplainedSignal, ...]:
     """What the fitted model explains of every recorded output."""
     rows = []
     for recording in recordings:
@@ -41,11 +41,11 @@ def fitted_signals(fit: Identification, recordings: Sequence[Recording]) -> tupl
             spread = float(np.nanvar(measured))
             error = float(np.nanmean((measured - made[signal]) ** 2))
             explained = 1.0 - error / spread if spread > 0.0 else float(error == 0.0)
-            rows.append(Fitted(recording=recording.name, signal=signal, explained=explained))
+            rows.append(ExplainedSignal(recording=recording.name, signal=signal, explained=explained))
     return tuple(rows)
 
 
-def failure(fit: Identification, signals: Sequence[Fitted]) -> str:
+def failure(fit: Identification, signals: Sequence[ExplainedSignal]) -> str:
     """Why the fit is no model of these recordings; empty where it is one."""
     said = [f"the fit did not converge ({fit.status}): {fit.advice.rstrip('.')}"] if fit.status != "converged" else []
     explained = [row.explained if np.isfinite(row.explained) else -np.inf for row in signals]
@@ -63,7 +63,7 @@ def failure(fit: Identification, signals: Sequence[Fitted]) -> str:
     return "; ".join(said)
 
 
-def lines(fit: Identification, signals: Sequence[Fitted], nominal: Model) -> Iterator[str]:
+def lines(fit: Identification, signals: Sequence[ExplainedSignal], nominal: Model) -> Iterator[str]:
     """Parameters with intervals, what is explained, and what to doubt."""
     for name, value in fit.parameters.items():
         yield f"{name:<22} {estimate(value)}"

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 LAWS = 3  # effects whose law is drawn
 BINS = 240  # of a curve over its state
-TELLS = 0.5  # share of an effect's own energy that a curve over one state must show, to be drawn
+LEAST_SHOWN = 0.5  # share of an effect's own energy that a curve over one state must show, to be drawn
 UNITS = {"speed": "rad/s", "angle": "rad", "current": "A", "acceleration": "rad/s^2", "time": "s"}
 
 
@@ -60,9 +60,9 @@ def _law(name: str, full: Sequence[UnknownInputs], without: Sequence[UnknownInpu
     if not np.isfinite(shares).all() or max(shares) < 0.05:
         return None
     states = _states(full)
-    told = {state: _told(x, best.effect) for state, x in states.items()}
-    state = max(told, key=lambda s: told[s])
-    if told[state] < TELLS:
+    shares_shown = {state: _share_shown(x, best.effect) for state, x in states.items()}
+    state = max(shares_shown, key=lambda s: shares_shown[s])
+    if shares_shown[state] < LEAST_SHOWN:
         return None
     x, unit = states[state], UNITS[state].replace("rad/s", "m/s") if linear else UNITS[state]
     curve, kept = _curve(x, best.effect), thin_cloud(best.left)
@@ -92,7 +92,7 @@ def _states(unknown: Sequence[UnknownInputs]) -> dict[str, Array]:
     return {name: x for name, x in states.items() if np.ptp(x) > 0.0}
 
 
-def _told(x: Array, y: Array) -> float:
+def _share_shown(x: Array, y: Array) -> float:
     """Share of the energy of y (n,) that a curve over x (n,) shows."""
     place, n = _bins(x)
     means = np.bincount(place, y, n.size) / n

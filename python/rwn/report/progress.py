@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress as Bar
     from rich.progress import TaskID
 
-TOLD = 0.05  # share that must be done before the time that is left is worth an estimate
+EARLIEST = 0.05  # share that must be done before the time that is left is worth an estimate
 
 
 class Progress:
@@ -56,7 +56,7 @@ class Progress:
 
 def remaining(elapsed: float, fraction: float) -> str:
     """The time that is left if the rest goes on as so far: "about 40 s left"; empty where it is too early to say."""
-    if not TOLD <= fraction < 1.0:
+    if not EARLIEST <= fraction < 1.0:
         return ""
     seconds = elapsed * (1.0 - fraction) / fraction
     return f"about {seconds:.0f} s left" if seconds < 100.0 else f"about {seconds / 60.0:.0f} min left"

@@ -101,20 +101,31 @@ Vector deviations(const StructuredNetwork& network, const StructuredSignals& sig
   return out;
 }
 
+/// Refuses options and deviations that no recursion can run with.
+void check_options(const RecursiveGaussNewton& options, const VectorRef& spread, Eigen::Index parameters) {
+  if (spread.size() != parameters || !(spread.array() >= 0.0).all() || !(spread.maxCoeff() > 0.0)) {
+    throw std::invalid_argument("spread: expected one standard deviation >= 0 per parameter, at least one above 0");
+  }
+  if (!(options.noise > 0.0) || !(options.underweighting >= 0.0) || !(options.forgetting > 0.0 && options.forgetting <= 1.0) ||
+      !(options.forgetting_decay >= 0.0 && options.forgetting_decay <= 1.0) || options.cycles < 1) {
+    throw std::invalid_argument(
+        "noise must be positive, underweighting at least 0, forgetting in (0, 1], forgetting_decay in [0, 1] and cycles at "
+        "least 1");
+  }
+}
+
+/// Mean squared error without learning; infinite where a parameter has left the numbers or a wavelet has no width.
+double frozen_error(const Vector& theta, const StructuredNetwork& network, const StructuredSignals& signals) {
+  const bool sound = theta.allFinite() && (theta.segment(network.offset(kDilation), network.wavelets()).array() != 0.0).all();
+  return sound ? mean_squared_error({theta, network.wavelet()}, signals) : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork& network, const StructuredSignals& signals,
                                                          const VectorRef& spread) const {
   check(signals);
-  if (spread.size() != network.theta().size() || !(spread.array() >= 0.0).all() || !(spread.maxCoeff() > 0.0)) {
-    throw std::invalid_argument("spread: expected one standard deviation >= 0 per parameter, at least one above 0");
-  }
-  if (!(noise > 0.0) || !(underweighting >= 0.0) || !(forgetting > 0.0 && forgetting <= 1.0) ||
-      !(forgetting_decay >= 0.0 && forgetting_decay <= 1.0) || cycles < 1) {
-    throw std::invalid_argument(
-        "noise must be positive, underweighting at least 0, forgetting in (0, 1], forgetting_decay in [0, 1] and cycles at "
-        "least 1");
-  }
+  check_options(*this, spread, network.theta().size());
   Result out{network, {}, {}};
   OnlineHistory& history = out.history;
   StructuredRun run(network);
@@ -125,10 +136,6 @@ RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork
   const double samples = static_cast<double>(signals.samples());
   history.frozen_after.push_back(0);
   history.mse_frozen.push_back(mean_squared_error(network, signals));
-  const auto frozen_error = [&](const Vector& theta) {
-    const bool sound = theta.allFinite() && (theta.segment(network.offset(kDilation), network.wavelets()).array() != 0.0).all();
-    return sound ? mean_squared_error({theta, network.wavelet()}, signals) : std::numeric_limits<double>::infinity();
-  };
   bool improved = false;
   Vector theta = network.theta();
   double frozen = history.mse_frozen[0], wary = underweighting, forget = 1.0 - forgetting;
@@ -144,7 +151,7 @@ RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork
       run.shift(change);
     }
     history.mse_learning.push_back(squares / samples);
-    const double mse = frozen_error(theta);
+    const double mse = frozen_error(theta, network, signals);
     if (mse <= (improved ? 1.1 : 1.0) * frozen) {
       out.network = StructuredNetwork(theta, network.wavelet());
       improved = true;

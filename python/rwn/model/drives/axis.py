@@ -8,7 +8,7 @@ _SITES = SITES - {"voltage", "flux"}
 
 LINEAR_AXIS = Drive(
     kind="axis", input="force", outputs=("speed", "position"), parameters=MECHANICS, sites=_SITES, force=True,
-    shaft=False,
+    linear=True, shaft=False,
 )  # fmt: skip
 AXIS = Drive(
     kind="axis", input="torque", outputs=("speed", "position"), parameters=MECHANICS, sites=_SITES, force=True,

@@ -40,6 +40,7 @@ class Drive:
     winding: bool = False  # a voltage drives the current of a winding
     force: bool = False  # what drives the mechanics is recorded itself
     coefficients: bool = False  # a transfer function, whose parameters are no physics
+    linear: bool = False  # moves along a line: units of forces and metres
     shaft: bool = True  # turns, so that a pendulum may hang on it
     on_a_line: Drive | None = None  # the same moving along a line, where there is such
 

@@ -10,4 +10,4 @@ from rwn.model.vocabulary import Effect
 
 Guess = Mapping[str, float]
 Read = Callable[[Problem, Fit, Effect, int], list[Guess] | None]  # (problem, base, effect, how many)
-"""What the residual of a fit tells of an effect beside it: some parameters each; None: scan as if it told nothing."""
+"""What the residual of a fit shows of an effect beside it: some parameters each; None: nothing, so all is scanned."""

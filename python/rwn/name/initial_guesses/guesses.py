@@ -26,12 +26,12 @@ def initial_guesses(problem: Problem, base: Fit, effect: Effect, *, count: int) 
     What the residual tells is combined with what the table scans of the other parameters.
     """
     known = READ[effect.guess](problem, base, effect, count) if effect.guess in READ else None
-    told = {name for guess in known or () for name in guess}
+    read_off = {name for guess in known or () for name in guess}
     motor = {**problem.prior.motor, **base.motor}
     axes = [
         [{p.name: s * first_unit(effect, p, motor, problem.scales)} for s in p.scan]
         for p in effect.parameters
-        if p.scan and p.name not in told
+        if p.scan and p.name not in read_off
     ]
     axes += [] if known is None else [[dict(guess) for guess in known]]
     return [{k: v for part in combination for k, v in part.items()} for combination in product(*axes)]

@@ -106,15 +106,15 @@ def bias_of(folders: Sequence[Path], *, results: Path | None = None, check: Coll
 
 def _bias_in(place: Path) -> float:
     """The bias that the intervals of a diagnosis count with. Raises InputError where timing.json does not say it."""
-    told = timing_of(place)
-    if "bias" not in told:
+    timing = timing_of(place)
+    if "bias" not in timing:
         raise InputError(
             "nothing says which bias these intervals count with",
             where=place / TIMING,
             expected=f'a "bias" as `rwn trials run` writes it ({calibration().bias:.3g} with the calibration of today)',
             fix="diagnose the set anew, or leave it out of the bias by --check",
         )
-    return float(told["bias"])
+    return float(timing["bias"])
 
 
 def _bias_needed(estimate: Estimate, true: float, left: Remainder, bias: float) -> float:

@@ -98,19 +98,19 @@ def score(
         check_page(page, folders)
     if any(bench_grade.is_bench(folder) for folder in folders):
         on_benches = bench_grade.grade_folders(folders, results=results)
-        told = bench_tables.shown(on_benches)
+        tables = bench_tables.shown(on_benches)
         bins = bench_score.reliability(on_benches.grades)
     else:
         graded = grade_folders(folders, results=results)
-        told = shown(graded)
+        tables = shown(graded)
         bins = reliability(graded.grades)
     console = Console(width=None if sys.stdout.isatty() else 150)  # a file has room
-    for part in told:
+    for part in tables:
         console.print(part)
     if plot is not None:
         reliability_plot(bins, plot)
     if page is not None:
-        write_page(page, folders, told, results=results)
+        write_page(page, folders, tables, results=results)
 
 
 @app.command()

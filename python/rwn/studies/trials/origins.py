@@ -23,8 +23,8 @@ def timing_of(place: Path) -> Mapping[str, Any]:
     """What timing.json beside a diagnosis says; nothing where there is none."""
     timing = place / TIMING
     with reading(timing):
-        told: Mapping[str, Any] = json.loads(timing.read_text()) if timing.exists() else {}
-    return told
+        content: Mapping[str, Any] = json.loads(timing.read_text()) if timing.exists() else {}
+    return content
 
 
 def codes(folder: Path, results: Path | None) -> list[str]:
@@ -34,8 +34,10 @@ def codes(folder: Path, results: Path | None) -> list[str]:
 
 def diagnosed_by(folder: Path, results: Path | None) -> list[str]:
     """Commit, date and machine of the diagnoses of a set; several where they differ."""
-    told = _timings(folder, results)
-    said = (f"{each['commit']} on {each['date']}, {each['machine']}" if "commit" in each else UNKNOWN for each in told)
+    said = (
+        f"{each['commit']} on {each['date']}, {each['machine']}" if "commit" in each else UNKNOWN
+        for each in _timings(folder, results)
+    )  # fmt: skip
     return list(dict.fromkeys(said))
 
 

@@ -25,9 +25,9 @@ def check_page(page: Path, folders: Sequence[Path]) -> None:
     check_sections(page, COMMAND, [name_of(folders)])
 
 
-def write_page(page: Path, folders: Sequence[Path], told: Iterable[str | Table], *, results: Path | None) -> None:
-    """A score in place of what stood in its section; `told` and `results` as for the score itself."""
-    parts = [markdown(part) if isinstance(part, Table) else f"{part}." for part in told]
+def write_page(page: Path, folders: Sequence[Path], tables: Iterable[str | Table], *, results: Path | None) -> None:
+    """A score in place of what stood in its section; `tables` and `results` as for the score itself."""
+    parts = [markdown(part) if isinstance(part, Table) else f"{part}." for part in tables]
     parts += [*_origins(folders, results), f"Scored on {made().date} by {made().commit}."]
     write_section(page, COMMAND, name_of(folders), "\n\n".join(parts))
 

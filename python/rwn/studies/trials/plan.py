@@ -37,7 +37,7 @@ class Plan:
 
 
 def compatible(a: Effect, b: Effect) -> bool:
-    """Two effects that may act together and can in principle be told from each other."""
+    """Two effects that may act together and can in principle be distinguished."""
     friction = {"presliding-hysteresis"}
     both_dry = all(e.replaces_coulomb or e.name in friction for e in (a, b))
     rivals = b.name in a.rivals or a.name in b.rivals

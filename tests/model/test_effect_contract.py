@@ -1,0 +1,58 @@
+"""What an effect has to be: the compiler refuses one that would do nothing, with a sentence that says what is wrong."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+INCLUDE = Path(__file__).resolve().parents[2] / "cpp" / "include"
+PARAMETER = 'Parameter{.name = "k", .symbol = "k", .unit = "N m s/rad", .meaning = "slope", .upper = 1.0, .start = 0.1}'
+EFFECT = """
+#include "rwn/model/effect.hpp"
+using namespace rwn;
+struct Drag {
+  static constexpr EffectInfo info{"drag", Site::torque, "T = -k w", "meaning", "source"};
+  static constexpr std::array parameters{PARAMETERS};
+  static constexpr EffectTraits traits{TRAITS};
+  template <class S>
+  static RESULT HOOK(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) { t.torque -= p[0] * x.speed; }
+};
+static_assert(Effect<Drag>);
+"""
+RIGHT = {"PARAMETERS": PARAMETER, "TRAITS": ".hooks = Hook::apply", "RESULT": "void", "HOOK": "apply"}
+
+
+def said(place: Path, **changed: str) -> str:
+    """What the compiler says of an effect that differs from a right one; empty where it compiles."""
+    compiler = shutil.which("g++")
+    if compiler is None:
+        pytest.skip("there is no g++")
+    text = EFFECT
+    for name, value in (RIGHT | changed).items():
+        text = text.replace(name, value)
+    (place / "effect.cpp").write_text(text)
+    command = [compiler, "-std=c++20", "-fsyntax-only", f"-I{INCLUDE}", str(place / "effect.cpp")]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stderr
+
+
+def test_an_effect_compiles(tmp_path: Path) -> None:
+    assert said(tmp_path) == ""
+
+
+@pytest.mark.parametrize(
+    ("changed", "sentence"),
+    [
+        ({"HOOK": "aply"}, "hook `apply` is listed in traits and not there"),
+        ({"TRAITS": ".hooks = Hook::rate"}, "hook `apply` is there and not listed in traits"),
+        ({"RESULT": "int"}, "a hook of this effect has another signature"),
+        ({"TRAITS": ".hooks = Hook::apply, .memories = 99"}, "an effect has at most max_memories"),
+        ({"PARAMETERS": ", ".join([PARAMETER] * 9)}, "an effect has one to max_effect_parameters parameters"),
+        ({"PARAMETERS": PARAMETER.replace('"k"', '"q"')}, "a parameter of an effect has a `symbol`"),
+    ],
+    ids=["misspelt", "not listed", "signature", "memories", "parameters", "symbol"],
+)
+def test_one_that_would_do_nothing_does_not(changed: dict[str, str], sentence: str, tmp_path: Path) -> None:
+    assert sentence in said(tmp_path, **changed)
