@@ -195,7 +195,8 @@ def _check_page(page: Path) -> None:
 def _with_progress(
     experiments: Sequence[Experiment], out: Path, count: Count, seeds: int, jobs: int
 ) -> list[Finished]:
-    """Runs them; bars of each and of all on stderr, with the time left at the weights of the experiments."""
+    """Runs them; a bar of all on stderr, with the time left at the weights of the experiments, and one
+    of each that is under way."""
     from rich.console import Console
     from rich.progress import Progress
 
@@ -204,12 +205,12 @@ def _with_progress(
     done = dict.fromkeys([e.name for e in experiments], 0.0)
     weights = {e.name: e.minutes_of(seeds) for e in experiments}
     with Progress(console=Console(stderr=True)) as bars:
-        tasks = {e.name: bars.add_task(e.name, total=1.0) for e in experiments}
-        every = bars.add_task("all", total=sum(weights.values()))
+        every = bars.add_task("all", total=sum(weights.values()))  # first, where a short terminal shows it
+        tasks = {e.name: bars.add_task(e.name, total=1.0, visible=False) for e in experiments}
 
         def show(experiment: Experiment, share: float) -> None:
             done[experiment.name] = share
-            bars.update(tasks[experiment.name], completed=share)
+            bars.update(tasks[experiment.name], completed=share, visible=share < 1.0)
             bars.update(every, completed=sum(weights[name] * part for name, part in done.items()))
 
         return run_experiments(experiments, out, count=count, seeds=seeds, jobs=jobs, progress=show)
