@@ -143,6 +143,11 @@ def test_only_names_without_numbers_are_read_for_the_refusal_that_follows() -> N
     assert found == Dialect(delimiter=",", names=("time", "speed"), units=("s", "rpm"), first=2)
 
 
+def test_a_header_that_no_number_follows_is_refused_by_its_line() -> None:
+    with pytest.raises(InputError, match=r"x.csv, line 2: cannot read the column name 'speed \[rpm'"):
+        told("# note", "time [s],speed [rpm", "a,b", "c,d")
+
+
 def test_columns_are_called_by_number_where_the_map_does() -> None:
     found = told(*rows(), wanted={"3"})
     assert found == Dialect(delimiter=",", names=("1", "2", "3"), units=(None, None, None), first=0)
