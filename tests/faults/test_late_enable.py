@@ -75,3 +75,14 @@ def test_an_input_that_is_late_throughout_is_a_delay() -> None:
     recording = _run(late, 0)
     recording = rwn.Recording(name="run", time=recording.time, signals={**recording.signals, "voltage": step})
     assert late_enables([recording], MODEL) == ()
+
+
+def test_a_delay_beside_friction_is_no_late_enable() -> None:
+    """Neither holds alone what the two recordings show, and a late enable in each would."""
+    ramp, step = np.linspace(0.0, 3.0, 3000), np.where(np.arange(3000) < 50, 0.0, 3.0)
+    recordings = []
+    for given in (ramp, step):
+        acting = np.concatenate([np.zeros(40), given[:-40]])
+        made = _run(acting, 0, friction=0.02)
+        recordings.append(rwn.Recording(name="run", time=made.time, signals={**made.signals, "voltage": given}))
+    assert late_enables(recordings, MODEL) == ()

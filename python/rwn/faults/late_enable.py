@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 
 FEWEST = 3  # samples that stand still: fewer are what an inductance and an inertia take
 DELAY = "input-delay"
-RIVALS = ("coulomb-friction", "stribeck-friction", "actuator-deadzone", DELAY)  # under which a drive stands still too
+HOLDING = ("coulomb-friction", "stribeck-friction", "actuator-deadzone")  # under which a drive stands still too
 TRIED = 64  # instants of enabling that are compared at a time
 
 
@@ -54,7 +54,7 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
         return ()
     problem, nominal = nominal_of([_without_input(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
     found = _enabled_late(recordings, model, problem, nominal, problem.runs)
-    return found if found and _explain_more(found, recordings, model) else ()
+    return _worthwhile(found, recordings, model) if found else ()
 
 
 def late_beside(recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit) -> tuple[LateEnable, ...]:
@@ -104,22 +104,49 @@ def _standing_samples(recording: Recording, model: Model) -> int:
     return samples if samples > FEWEST and given.any() else 0
 
 
-def _explain_more(found: Sequence[LateEnable], recordings: Sequence[Recording], model: Model) -> bool:
-    """Whether the recordings are far likelier with these late enables than by what may hold a drive or delay it.
+def _worthwhile(
+    found: tuple[LateEnable, ...], recordings: Sequence[Recording], model: Model
+) -> tuple[LateEnable, ...]:
+    """The late enables with each of which the recordings are far likelier than by what else holds a drive or delays it.
 
-    Each late enable is a number of its own. Either way the same effects may act beside the nominal model; errors count
-    as what is left by the best is worth.
+    Each is a number of its own. With it and without, the same effects may act beside the nominal model; errors count as
+    what the best leaves is worth.
     """
-    later, nominal = nominal_of(beginnings(powered(recordings, found, model)), model)
-    names = [n for n in RIVALS if observable(n, later)]
-    best = min([nominal, *screen(later, nominal, names)], key=lambda f: f.cost)
-    at_once = replace(prepare(beginnings(recordings), model), noise=later.noise, colour=later.colour)
-    nominal = fit_nominal(at_once)
-    delay = max(_waiting_time(recordings[late.place], late, model) for late in found)
-    delayed = [hypothesis(at_once.prior, (n,), at_once.scales, {n: {"delay": delay}}) for n in names if n == DELAY]
-    others = [nominal, *screen(at_once, nominal, names), *(fit(at_once, d) for d in delayed)]
-    gained = min(f.cost for f in others) - best.cost
-    return gained > 2.0 * worth(later, best) * DECISIVE * len(found)
+    weighted, _ = nominal_of(beginnings(powered(recordings, found, model)), model)
+    waits = [_waiting_time(recordings[late.place], late, model) for late in found]
+
+    def best(kept: Sequence[LateEnable]) -> Fit:
+        on = prepare(beginnings(powered(recordings, kept, model)), model)
+        return _best_held(replace(on, noise=weighted.noise, colour=weighted.colour), waits)
+
+    this = best(found)
+    enough = 2.0 * worth(weighted, this) * DECISIVE
+    while found:
+        others = {late: best([other for other in found if other != late]) for late in found}
+        least = min(others, key=lambda late: others[late].cost)
+        if others[least].cost - this.cost > enough:
+            break
+        found, this = tuple(late for late in found if late != least), others[least]
+    return found
+
+
+def _best_held(problem: Problem, waits: Sequence[float]) -> Fit:
+    """The best of the nominal model, what holds a drive, and a delay of the input beside either.
+
+    `waits`: delays [s] to begin from.
+    """
+    nominal = fit_nominal(problem)
+    held = min([nominal, *screen(problem, nominal, [n for n in HOLDING if observable(n, problem)])], key=_cost)
+    if DELAY in held.hypothesis.effects or not observable(DELAY, problem):
+        return held
+    names, known = (*held.added, DELAY), held.starts(held.added)
+    begun = [{**known, DELAY: {"delay": wait}} for wait in waits]
+    delayed = [fit(problem, hypothesis(problem.prior, names, problem.scales, start, held.motor)) for start in begun]
+    return min([held, *delayed], key=_cost)
+
+
+def _cost(this: Fit) -> float:
+    return this.cost
 
 
 def _waiting_time(recording: Recording, late: LateEnable, model: Model) -> float:
