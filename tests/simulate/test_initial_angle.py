@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import rwn
+from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.model.vocabulary import table
 from rwn.name.forward import rank
+from rwn.name.initial_guesses.spectra import angle_spectrum
 from rwn.simulate.initial_angle import angles_to_try
 
 STEP = 1e-3
@@ -54,6 +57,22 @@ def test_an_effect_is_found_in_recordings_that_begin_at_any_angle(effects: dict[
     assert found.left.variance < 1.5
     first = next(iter(effects[name]))
     assert found.fits[0].fit.value(f"{name}.{first}") == pytest.approx(effects[name][first], rel=0.05)
+
+
+@pytest.mark.slow
+def test_a_recording_from_rest_beside_one_in_motion_has_a_phase_of_its_own() -> None:
+    known, unknown = (seen(COGGING, cut, seed) for cut, seed in ((0, 4), (571, 5)))
+    for runs in ([known, unknown], [unknown, known]):
+        problem = prepare(runs, SHEET)
+        nominal = fit_nominal(problem)
+        orders = np.arange(1.0, 20.0)
+        residuals = problem.residuals(nominal.vector, nominal.active)
+        spectrum = angle_spectrum(problem, nominal.vector, residuals, orders)
+        assert orders[np.argmax(spectrum)] == 5.0
+        each = [angle_spectrum(replace(problem, runs=(r,)), nominal.vector, [left], orders)
+                for r, left in zip(problem.runs, residuals, strict=True)]  # fmt: skip
+        energy = [float(np.sum((left["speed"] - left["speed"].mean()) ** 2)) for left in residuals]
+        np.testing.assert_allclose(spectrum, np.average(each, axis=0, weights=energy), rtol=1e-6)
 
 
 def test_a_simulation_begins_at_the_angle_that_fits_what_was_recorded() -> None:

@@ -81,14 +81,11 @@ def angle_spectrum(
     """
     from scipy.signal import lfilter  # late: the command line starts without it
 
-    energy, explained = 1e-300, np.zeros(orders.size)
-    grams, loads = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2))
-    for run, residual in zip(problem.runs, residuals, strict=True):
+    energy, phases = 1e-300, _phases(problem.runs)
+    grams, loads = (np.zeros((max(phases) + 1, orders.size, *size)) for size in ((2, 2), (2,)))
+    for run, phase, residual in zip(problem.runs, phases, residuals, strict=True):
         if "speed" not in residual or not run.angle.size:
             continue
-        if run.angle_unknown:  # its phase is its own
-            explained += _explained(grams, loads)
-            grams, loads = np.zeros_like(grams), np.zeros_like(loads)
         angle = problem.simulator.angle_per_position * run.angle
         r = residual["speed"]
         drive = current_of(problem, motor, run) if with_current else 1.0
@@ -97,11 +94,17 @@ def angle_spectrum(
         for k, wave in enumerate(_waves(angle, orders)):
             answer = lfilter([0.0, b], [1.0, -a], drive * wave)
             answer -= answer.mean()
-            grams[k] += _gram(answer)
+            grams[phase, k] += _gram(answer)
             load = complex(answer @ r)
-            loads[k] += load.real, load.imag
+            loads[phase, k] += load.real, load.imag
         energy += float(r @ r)
-    return (explained + _explained(grams, loads)) / energy
+    explained: Array = np.sum(list(map(_explained, grams, loads)), axis=0)
+    return explained / energy
+
+
+def _phases(runs: Sequence[Run]) -> list[int]:
+    """Which runs share a phase, a number each: those whose angle is known; every other has one of its own."""
+    return [k + 1 if run.angle_unknown else 0 for k, run in enumerate(runs)]
 
 
 def flux_spectrum(problem: Problem, motor: Array, orders: Array) -> Array:
@@ -113,18 +116,22 @@ def flux_spectrum(problem: Problem, motor: Array, orders: Array) -> Array:
     free run has lost; what another R, L and Ke could take is taken out first. Of recordings that have a current.
     """
     parts = []
-    for run in problem.runs:
+    for run, number in zip(problem.runs, _phases(problem.runs), strict=True):
         unknown = unknown_inputs(problem.drive, problem.simulator, run, motor)
         linear = np.stack([unknown.current, np.gradient(unknown.current, run.time), unknown.speed], axis=1)
-        parts.append((unknown.voltage, linear, unknown.speed, unknown.angle))
-    voltage, linear, speed, angle = (np.concatenate(rows) for rows in zip(*parts, strict=True))
+        parts.append((unknown.voltage, linear, unknown.speed, unknown.angle, np.full(run.time.size, number)))
+    voltage, linear, speed, angle, phase = (np.concatenate(rows) for rows in zip(*parts, strict=True))
     basis, _ = np.linalg.qr(linear)
     left = _beside(basis, voltage)
-    grams, loads = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2))
-    for k, wave in enumerate(_waves(angle, orders)):
-        ripple = _beside(basis, np.stack([wave.real, wave.imag], axis=1) * speed[:, None])
-        grams[k], loads[k] = ripple.T @ ripple, ripple.T @ left
-    return _explained(grams, loads) / max(float(left @ left), 1e-300)
+    explained = np.zeros(orders.size)
+    for number in np.unique(phase):
+        grams, loads = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2))
+        of_phase = np.where(phase == number, speed, 0.0)[:, None]
+        for k, wave in enumerate(_waves(angle, orders)):
+            ripple = _beside(basis, np.stack([wave.real, wave.imag], axis=1) * of_phase)
+            grams[k], loads[k] = ripple.T @ ripple, ripple.T @ left
+        explained += _explained(grams, loads)
+    return explained / max(float(left @ left), 1e-300)
 
 
 def _waves(angle: Array, orders: Array) -> Iterator[NDArray[np.complex128]]:
