@@ -59,7 +59,7 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
 
 def late_beside(recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit) -> tuple[LateEnable, ...]:
     """What stood still, of recordings that were not fitted, where an explanation `this` of others would have moved."""
-    if model.drive.coefficients or not any(_standing_samples(r, model) for r in recordings):
+    if model.drive.coefficients:
         return ()
     return _enabled_late(recordings, model, problem, this, [run_of(r, model) for r in recordings])
 

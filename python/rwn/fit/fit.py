@@ -12,8 +12,8 @@ from rwn.fit.budget import shares_by_rank
 from rwn.fit.hypothesis import OF_RUNS, Hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING, Minimum, Unknown, minimise
 from rwn.fit.problem import CountedNormal, Problem
+from rwn.model.initial_state import INITIAL_POSITION
 from rwn.parallel import side_by_side
-from rwn.simulate.initial_angle import ANGLE
 
 Array = NDArray[np.float64]
 
@@ -134,7 +134,7 @@ class Fit:
     def initial_angles(self) -> dict[str, float]:
         """The fitted angles at which recordings begin, by the name of the unknown."""
         pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
-        return {u.name: float(v) for u, v in pairs if u.nuisance and u.name.startswith(ANGLE)}
+        return {u.name: float(v) for u, v in pairs if u.nuisance and u.name.startswith(INITIAL_POSITION)}
 
     def carried_to(self, other: Hypothesis) -> Hypothesis:
         """Another hypothesis, begun from where this fit ended in the unknowns that both have."""

@@ -18,10 +18,10 @@ from rwn.fit.prior import Prior, RunUnknown
 from rwn.fit.problem import Problem
 from rwn.fit.scales import scales
 from rwn.fit.transfer_function import TransferFunctionProblem, first_guesses
+from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.recording.recording import Recording
-from rwn.simulate.initial_angle import ANGLE
 from rwn.simulate.run import Run, run_of
 from rwn.simulate.simulator import Simulator
 
@@ -77,7 +77,7 @@ def _unknown_starts(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[RunUnkn
             unknowns.append(
                 RunUnknown(
                     name=f"{name} of {run.name}", unit=unit, place=place, parameter=motor_index(name), spread=spread,
-                    turns=name == ANGLE and run.angle_unknown,
+                    turns=name == INITIAL_POSITION and run.angle_unknown,
                 )
             )
             own.append((place, motor_index(name)))

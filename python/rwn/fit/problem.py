@@ -13,10 +13,11 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import Normal
 from rwn.fit.prior import Prior
 from rwn.model.drives.drive import Drive
+from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.vocabulary import motor_index
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
-from rwn.simulate.initial_angle import ANGLE, angles_to_try, nearest_angle
+from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import Output, Simulator
 
@@ -76,7 +77,7 @@ class Problem:
         An angle that nothing tells, of a run that was not fitted, is the one at which it fits best.
         """
         begun = self.simulator.started(run, vector)
-        if not run.angle_unknown or motor_index(ANGLE) in dict(run.own).values():
+        if not run.angle_unknown or motor_index(INITIAL_POSITION) in dict(run.own).values():
             return begun
         effects = [effect for effect in self.prior.table.values() if effect.index in active]
         angles = angles_to_try(effects, begun)

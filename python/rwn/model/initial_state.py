@@ -15,7 +15,8 @@ from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
 
 Array = NDArray[np.float64]
-STATE = ("initial_current", "initial_speed", "initial_position")  # the parameters of a start
+INITIAL_POSITION = "initial_position"
+STATE = ("initial_current", "initial_speed", INITIAL_POSITION)  # the parameters of a start
 _NONE: Mapping[str, NDArray[np.bool_]] = MappingProxyType({})
 
 MOST_DEGREE = 4  # of the curve through the first samples of a position
@@ -53,7 +54,7 @@ def initial_state_of(
     if position.size:
         place = float(position[0])
         if known_to["position"] > 0.0:
-            spread["initial_position"] = known_to["position"]
+            spread[INITIAL_POSITION] = known_to["position"]
     current, (speed, off) = _first_current(signals), _first_speed(time, signals, known_to, first)
     moving = abs(speed) > CERTAIN * off
     flowing = abs(current) > CERTAIN * known_to.get("current", 0.0)
@@ -64,7 +65,7 @@ def initial_state_of(
     known_within = abs(speed) if "speed" in signals else float(np.hypot(off, speed - sooner))
     spread["initial_speed"] = max(known_within, known_to.get("speed", 0.0), 1e-9)
     if "position" not in signals and not (model.linear or model.drive.coefficients):
-        spread["initial_position"] = EVEN
+        spread[INITIAL_POSITION] = EVEN
     if model.drive.winding:
         if "current" not in signals:
             current = _steady_current(signals, speed, model)

@@ -11,6 +11,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.vocabulary import Effect, motor_index
 from rwn.recording.noise import Noise
 from rwn.simulate.run import Run
@@ -18,7 +19,6 @@ from rwn.simulate.simulator import Simulator
 
 Array = NDArray[np.float64]
 
-ANGLE = "initial_position"  # the parameter of the core
 OF_A_PERIOD = 12  # angles tried of the shortest period: the best of them is within a twentieth of a period
 MOST_ANGLES = 240  # of a revolution
 ITERATIONS = 6
@@ -50,7 +50,7 @@ def nearest_angle(
 
     `noise`: see Simulator.
     """
-    where = motor_index(ANGLE)
+    where = motor_index(INITIAL_POSITION)
 
     def at(angle: float) -> Array:
         trial = vector.copy()

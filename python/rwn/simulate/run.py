@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.model.initial_state import initial_state_of
+from rwn.model.initial_state import INITIAL_POSITION, initial_state_of
 from rwn.model.model import Model
 from rwn.recording.delays import in_time
 from rwn.recording.filters import after_missing, before_filter, unfiltered
@@ -95,7 +95,7 @@ class Run:
     @property
     def angle_unknown(self) -> bool:
         """Whether nothing tells the angle of the shaft at the first sample."""
-        return "initial_position" in self.start_spread and not self.position.size
+        return INITIAL_POSITION in self.start_spread and not self.position.size
 
     @property
     def followed(self) -> Array:

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.problem import Problem
+from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.vocabulary import Effect, motor_index
 from rwn.name.initial_guesses.guess import Guess
-from rwn.simulate.initial_angle import ANGLE, angles_to_try
+from rwn.simulate.initial_angle import angles_to_try
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -55,7 +56,7 @@ def aligned(problem: Problem, start: Hypothesis, effect: Effect) -> Hypothesis:
 
 def _place(run: Run) -> int | None:
     """Of the unknown angle of a run in the vector of a fit."""
-    where = motor_index(ANGLE)
+    where = motor_index(INITIAL_POSITION)
     return next((place for place, p in run.own if p == where and run.angle_unknown), None)
 
 
@@ -72,7 +73,7 @@ def _best_angle(problem: Problem, runs: Sequence[Run], start: Hypothesis, effect
         """Squared error that strengths of the right sign remove, to first order."""
         slope, curvature = np.zeros(len(strengths)), np.full(len(strengths), 1e-300)
         for run, vector in zip(runs, vectors, strict=True):
-            vector[motor_index(ANGLE)] = angle
+            vector[motor_index(INITIAL_POSITION)] = angle
             normal = problem.normal_at(run, vector, start.active, strengths)
             if not normal.finite:
                 return -np.inf
