@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -35,6 +36,7 @@ ONE_INPUT: dict[str, Task] = {
     "201 points, all random 0.1": one_input(201, SmallRandom(scale=0.1)),
     "51 points, b, a least squares, w 0.1": one_input(51, LeastSquares(scale=0.1)),
 }
+ONE_INPUT_TAKEN = "mu (1 - gamma), 201 points, b, a least squares, w 0.1, dyadic grid"  # by the experiments
 TWO_INPUTS: dict[str, Task] = {
     "[0, 1]^2, 21 x 21, w 0.1": two_inputs(0.0, 21, 0.1),
     "[0, 1]^2, 21 x 21, w 0.3": two_inputs(0.0, 21, 0.3),
@@ -42,3 +44,15 @@ TWO_INPUTS: dict[str, Task] = {
     "[0, 1]^2, 11 x 11, w 0.1": two_inputs(0.0, 11, 0.1),
     "[-0.5, 0.5]^2, 11 x 11, w 0.1": two_inputs(-0.5, 11, 0.1),
 }
+
+
+def one_input_choices(
+    values: Callable[[str, Task, str], list[float | None]],
+) -> dict[str, Callable[[], list[float | None]]]:
+    """What is tried of an experiment with one input; `values`: its numbers by way to start, patterns and reading."""
+    return {
+        f"{reading}, {name}, {way}": partial(values, way, task, value)
+        for way in WAYS
+        for reading, value in READINGS.items()
+        for name, task in ONE_INPUT.items()
+    }

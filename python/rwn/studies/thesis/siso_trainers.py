@@ -8,8 +8,6 @@ LM is one Jacobian, however many dampings are tried with it.
 
 from __future__ import annotations
 
-from functools import partial
-
 from rwn.networks.initialisation import Heuristic
 from rwn.networks.trainers import LevenbergMarquardt, Trainer
 from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Search, Settings
@@ -25,7 +23,7 @@ from rwn.studies.thesis.offline import (
     output_panel,
     train,
 )
-from rwn.studies.thesis.offline_choices import ONE_INPUT, READINGS, WAYS
+from rwn.studies.thesis.offline_choices import ONE_INPUT_TAKEN, WAYS, one_input_choices
 from rwn.studies.thesis.search import median, search
 
 TRAINERS: dict[str, Trainer] = {"LM": LevenbergMarquardt(mu=0.1, beta=2.0, iterations=100)}
@@ -64,17 +62,11 @@ def choices(settings: Settings) -> Search:
         start, trainers = WAYS[way](linear=task.linear), (TRAINERS["LM"], TRAINERS["gradient descent" + reading])
         return [median(train(task, start, trainer, wavelets=15, seeds=seeds).mses) for trainer in trainers]
 
-    tried = {
-        f"{reading}, {name}, {way}": partial(values, way, task, value)
-        for way in WAYS
-        for reading, value in READINGS.items()
-        for name, task in ONE_INPUT.items()
-    }
     return search(
         "Table 3: reading of (2.20), patterns and start",
         {"LM": THESIS["LM"], "gradient descent": THESIS["gradient descent"]},
-        tried,
-        taken="mu (1 - gamma), 201 points, b, a least squares, w 0.1, dyadic grid",
+        one_input_choices(values),
+        taken=ONE_INPUT_TAKEN,
         count=f"{seeds} seeds, 100 iterations",
     )
 

@@ -7,8 +7,6 @@ in wavelet networks) are both shown; 1.75 speaks for the thesis's number. (2.20)
 
 from __future__ import annotations
 
-from functools import partial
-
 from rwn.studies.thesis.experiment import Experiment, Figure, Outcome, Search, Settings
 from rwn.studies.thesis.offline import (
     MATLAB,
@@ -23,7 +21,7 @@ from rwn.studies.thesis.offline import (
     output_panel,
     train,
 )
-from rwn.studies.thesis.offline_choices import ONE_INPUT, READINGS, WAYS
+from rwn.studies.thesis.offline_choices import ONE_INPUT_TAKEN, WAYS, one_input_choices
 from rwn.studies.thesis.search import median, search
 
 THESIS = (0.0158, 0.0301, 0.0430)
@@ -57,17 +55,11 @@ def choices(settings: Settings) -> Search:
             for wavelet in WAVELET_CASES.values()
         ]
 
-    tried = {
-        f"{reading}, {name}, {way}": partial(values, way, task, value)
-        for way in WAYS
-        for reading, value in READINGS.items()
-        for name, task in ONE_INPUT.items()
-    }
     return search(
         "Table 4: reading of (2.20), patterns and start",
         dict(zip(WAVELET_CASES, (*THESIS, THESIS[2]), strict=True)),
-        tried,
-        taken="mu (1 - gamma), 201 points, b, a least squares, w 0.1, dyadic grid",
+        one_input_choices(values),
+        taken=ONE_INPUT_TAKEN,
         count=f"{seeds} seeds, {iterations} iterations",
     )
 
