@@ -86,3 +86,10 @@ def test_a_delay_beside_friction_is_no_late_enable() -> None:
         made = _run(acting, 0, friction=0.02)
         recordings.append(rwn.Recording(name="run", time=made.time, signals={**made.signals, "voltage": given}))
     assert late_enables(recordings, MODEL) == ()
+
+
+def test_a_drive_that_never_got_power_stands_still_to_the_end() -> None:
+    recordings = [_run(STEPS, 0), _run(STEPS, STEPS.size)]
+    (late,) = late_enables(recordings, MODEL)
+    assert late.place == 1
+    assert late.samples > 0.9 * STEPS.size

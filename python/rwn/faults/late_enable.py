@@ -99,7 +99,7 @@ def _standing_samples(recording: Recording, model: Model) -> int:
     """Samples from the first on that stand still, of a recording with an input in them; 0 of others."""
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
     moved = [np.abs(x - np.median(x[:FEWEST])) > CERTAIN * resolution(x, x.size) for x in measured]
-    samples = min((int(np.argmax(m)) if m.any() else m.size for m in moved), default=0)
+    samples = min((int(np.argmax(m)) if m.any() else m.size - 1 for m in moved), default=0)
     given = np.asarray(recording.signals[model.drive.input])[: max(samples - FEWEST, 0)]
     return samples if samples > FEWEST and given.any() else 0
 
