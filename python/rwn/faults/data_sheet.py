@@ -21,7 +21,7 @@ from rwn.fit.residuals import statistics
 from rwn.fit.sensor_filter import refitted_beside
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
-from rwn.name.weights import EXACT, MISSPECIFIED
+from rwn.name.weights import effective_samples
 
 CONSTANTS = frozenset({"torque_constant", "back_emf_constant"})  # one number of a motor, where both were declared
 
@@ -59,8 +59,8 @@ def confirmed(free: Ranking, bound: Ranking, model: Model, names: Collection[str
         return False
     (held,) = refitted_beside([bound.fits[0].fit], _declaring(problem, {n: model.uncertainty[n] for n in names}))
     left = statistics(problem, best)
-    effective = min(left.effective, EXACT if left.at_the_floor else MISSPECIFIED)
-    return 0.5 * effective * (held.cost - best.cost) / (max(left.variance, 1.0) * left.count) > DECISIVE
+    gained = (held.cost - best.cost) / (max(left.variance, 1.0) * left.count)
+    return 0.5 * effective_samples(left) * gained > DECISIVE
 
 
 def _group(problem: Problem, name: str) -> frozenset[str]:

@@ -29,6 +29,11 @@ class RankedFit:
         return self.fit.added
 
 
+def effective_samples(left: Statistics) -> float:
+    """How many independent samples a residual counts for, against a fit that leaves more."""
+    return min(left.effective, EXACT if left.at_the_floor else MISSPECIFIED)
+
+
 def weigh(
     fits: Sequence[Fit], left: Statistics, *, rivals: int, prior: Mapping[str, float] | None = None,
     finals: Sequence[Fit] | None = None,
@@ -40,7 +45,7 @@ def weigh(
     `finals`: what the fits became under coloured noise, to be weighed in their place.
     """
     finals = fits if finals is None else finals
-    effective = min(left.effective, EXACT if left.at_the_floor else MISSPECIFIED)
+    effective = effective_samples(left)
     scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
     least = min(f.cost for f in finals)
     base = min(f.unknowns_seen for f in finals)
