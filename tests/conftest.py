@@ -8,11 +8,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from bad_input import Refuse, refusing
 from command_line import Run, running
 
 SHARED = Path(os.environ.get("RWN_SHARED", Path(__file__).resolve().parents[2] / "shared"))
+
+# The same examples in every run, so that a failure is the change's and not the day's; new ones by hand with
+# `pytest --hypothesis-profile default`.
+settings.register_profile("repeatable", derandomize=True)
+settings.load_profile("repeatable")
 
 
 @pytest.fixture
