@@ -47,7 +47,7 @@ def test_spikes_are_found_left_out_and_said(speed: Array) -> None:
 
 
 def test_a_signal_that_jumps_often_has_no_spikes(speed: Array) -> None:
-    speed[::20] += 30.0
+    speed[::23] += 30.0
     assert inspected([_recording({"speed": speed})]).findings == ()
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from rwn.recording.inspection.clipping import CLIPPING
 from rwn.recording.inspection.finding import Check, Finding, Flags
 from rwn.recording.inspection.held import HELD
+from rwn.recording.inspection.hum import without_hum
 from rwn.recording.inspection.motion import contradictions
 from rwn.recording.inspection.spikes import SPIKES
 from rwn.recording.recording import Recording
@@ -37,6 +38,8 @@ def inspected(recordings: Sequence[Recording]) -> Inspected:
                 if flags.any():
                     found.append(check.found(recording, signal, flags))
                     recording = _without(recording, signal, flags, bridged=check.bridged)
+        recording, hum = without_hum(recording)
+        found += hum
         found += contradictions(recording)
         made.append(recording)
     return Inspected(made, tuple(found))

@@ -1,0 +1,191 @@
+"""Mains hum on the wires of a sensor: lines at 50 or 60 Hz and their harmonics, in whatever else the signal does.
+
+A sine that lasts through a recording is told from a spectrum that is smooth about it by Thomson's harmonic F-test
+(Thomson 1982, Proc. IEEE 70:1055), with the sine tapers of Riedel and Sidorenko (1995, IEEE Trans. SP 43:188). A
+nonlinear drive answers a periodic input with all multiples of its frequency: where the mains is one, none is sought.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.recording.inspection.finding import Finding
+from rwn.recording.recording import ENOUGH, Recording
+from rwn.recording.signals import MEASURED
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+MAINS = (50.0, 60.0)  # Hz
+ORDERS = (1, 2, 3, 4, 5, 7)  # harmonics; a rectifier makes the even ones
+LOWEST = (1, 2)  # of which hum has one at least
+CLOCK = 0.002  # how far a line may lie off, relatively: the mains 0.1 Hz, and a logger's clock as much
+LEVEL = 0.001  # chance of hum in a signal without it: 1 % of a diagnosis, of some ten signals
+TAPERS = 7  # of which the odd ones see a line; each line takes a band of (TAPERS + 1) / length
+FINER = 4  # frequencies looked at per 1 / length
+CYCLES = 25  # fewest of the mains in what is looked at, so that this band leaves out what moves slowly
+
+
+@dataclass(frozen=True, kw_only=True)
+class Line:
+    """Re(amplitude exp(2 pi i frequency t)), t from the first row."""
+
+    frequency: float  # Hz
+    amplitude: complex
+
+
+def without_hum(recording: Recording) -> tuple[Recording, list[Finding]]:
+    """The recording without the hum of its sensors, and what was found."""
+    signals, findings = dict(recording.signals), []
+    for signal in (s for s in MEASURED if s in signals):
+        x, found = np.array(signals[signal]), list[Line]()
+        for part in _parts(len(recording)):
+            time = recording.time[part] - recording.time[part][:1]
+            lines = _hum(time, x[part], [signals[s][part] for s in signals if s not in MEASURED])
+            x[part] -= _sum(lines, time)
+            found += lines
+        if found:
+            findings.append(_finding(recording, signal, found, float(np.std(signals[signal] - x))))
+            signals[signal] = x
+    return (replace(recording, signals=signals) if findings else recording), findings
+
+
+def _finding(recording: Recording, signal: str, lines: Sequence[Line], rms: float) -> Finding:
+    at = ", ".join(f"{f:g}" for f in sorted({round(line.frequency) for line in lines}))
+    return Finding(
+        kind="hum", recording=recording.name, signals=(signal,), count=len(recording),
+        words=f"the {signal} has a mains hum of {at} Hz, {rms:.3g} rms (SI)", done="taken off",
+    )  # fmt: skip
+
+
+def _parts(rows: int) -> Iterator[slice]:
+    """Of a long recording, through which the mains does not keep its phase."""
+    count = max(1, rows // ENOUGH)
+    edges = np.linspace(0, rows, count + 1).astype(int)
+    yield from (slice(int(a), int(b)) for a, b in pairwise(edges))
+
+
+def _hum(time: Array, x: Array, inputs: Sequence[Array]) -> list[Line]:
+    """The lines of a signal (n,) at the mains and its harmonics."""
+    length = float(time[-1]) if time.size else 0.0
+    if length * min(MAINS) < CYCLES or time.size < CYCLES * TAPERS or np.ptp(x) == 0.0:
+        return []
+    step, band = float(np.median(np.diff(time))), (TAPERS + 1) / length
+    asked = {(m, order): m * order for m in MAINS for order in ORDERS}
+    seen = {which: f for which, f in asked.items() if band < _alias(f, step) < 0.5 / step - band}
+    even = [_evenly(time, u, step) for u in inputs]
+    own = [f for u in even for f in _lines_of_its_own(u, step, list(seen.values()), band)]
+    frequencies, chances = _test(_evenly(time, x, step), step, finer=FINER, inputs=even)
+    found: dict[tuple[float, int], Line] = {}
+    for which, f in seen.items():
+        alias = _alias(f, step)
+        near = np.flatnonzero(np.abs(frequencies - alias) < CLOCK * f + 1.0 / length)
+        best = near[int(np.argmin(chances[near]))]
+        line = f + float(frequencies[best] - alias) * (1.0 if _is_upright(f, step) else -1.0)
+        if chances[best] * near.size / FINER * len(seen) < LEVEL and not _is_multiple(f, own, band):
+            found[which] = Line(frequency=line, amplitude=_amplitude(time, x, line, step))
+    return max((_of(mains, found, step, band) for mains in MAINS), key=len)
+
+
+def _of(mains: float, found: Mapping[tuple[float, int], Line], step: float, band: float) -> list[Line]:
+    """The lines of one mains, of which one at least is no higher harmonic; of lines that samples show as one, one."""
+    kept: list[Line] = []
+    for line in (line for (m, _), line in found.items() if m == mains):
+        if all(abs(_alias(line.frequency, step) - _alias(other.frequency, step)) > band for other in kept):
+            kept.append(line)
+    return kept if any((mains, order) in found for order in LOWEST) else []
+
+
+def _evenly(time: Array, x: Array, step: float) -> Array:
+    """The signal at even instants, also where rows are lost."""
+    even: Array = np.interp(np.arange(0.0, time[-1] + 0.5 * step, step), time, x)
+    return even
+
+
+def _sum(lines: Sequence[Line], time: Array) -> Array:
+    """(n,)."""
+    total = np.zeros(time.size)
+    for line in lines:
+        total += np.real(line.amplitude * np.exp(2j * np.pi * line.frequency * time))
+    return total
+
+
+def _alias(frequency: float, step: float) -> float:
+    """Where samples show a frequency [Hz]."""
+    return abs(frequency - round(frequency * step) / step)
+
+
+def _is_upright(frequency: float, step: float) -> bool:
+    """Whether what samples show of a frequency rises with it."""
+    return frequency * step % 1.0 < 0.5
+
+
+def _test(x: Array, step: float, *, finer: int = 1, inputs: Sequence[Array] = ()) -> tuple[Array, Array]:
+    """Frequencies (m,), and the chance (m,) of so much at each in a smooth spectrum.
+
+    Of differences, since the spectrum of a motion falls steeply. `finer`: how many per 1 / length. `inputs`: what x
+    (n,) may answer to, by a gain that is smooth too.
+    """
+    from scipy.fft import next_fast_len, rfft, rfftfreq  # late: the command line starts without it
+
+    tapers = _tapers(x.size - 1)
+    size = next_fast_len(finer * (x.size - 1), real=True)
+    seen, *answered = (rfft(tapers * np.diff(one), size).T for one in (x, *inputs))
+    return rfftfreq(size, step), _f_test(seen, tapers.sum(axis=1), answered)
+
+
+def _amplitude(time: Array, x: Array, frequency: float, step: float) -> complex:
+    """Of a line of a signal (n,)."""
+    tapers = _tapers(x.size - 1)
+    seen = (tapers * np.diff(x)) @ np.exp(-2j * np.pi * frequency * time[:-1])
+    weights = tapers.sum(axis=1)
+    return complex(2.0 * (weights @ seen) / (weights @ weights) / (np.exp(2j * np.pi * frequency * step) - 1.0))
+
+
+def _f_test(seen: Complex, weights: Array, answered: Sequence[Complex]) -> Array:
+    """The chance (m,) of tapered spectra (m, TAPERS) without a line, and with an answer to others.
+
+    `weights`: what each taper shows of a line.
+    """
+    line = np.broadcast_to(weights.astype(complex), seen.shape)
+    for u in answered:
+        seen, line = _without(seen, u), _without(line, u)
+    energy = np.sum(np.abs(line) ** 2, axis=1)
+    explained = np.abs(np.sum(np.conj(line) * seen, axis=1)) ** 2 / np.maximum(energy, 1e-12 * float(weights @ weights))
+    left = np.maximum(np.sum(np.abs(seen) ** 2, axis=1) - explained, 1e-300)
+    free = TAPERS - 1 - len(answered)
+    chances: Array = (1.0 + explained / left) ** -float(free)  # of F with 2 and 2 free degrees of freedom
+    return chances
+
+
+def _without(x: Complex, u: Complex) -> Complex:
+    """What of x (m, TAPERS) is orthogonal to u, at each frequency."""
+    gain = np.sum(np.conj(u) * x, axis=1) / np.maximum(np.sum(np.abs(u) ** 2, axis=1), 1e-300)
+    found: Complex = x - gain[:, None] * u
+    return found
+
+
+def _tapers(count: int) -> Array:
+    """(TAPERS, count)."""
+    n = np.arange(1, count + 1) / (count + 1)
+    found: Array = np.sqrt(2.0 / (count + 1)) * np.sin(np.pi * np.outer(np.arange(1, TAPERS + 1), n))
+    return found
+
+
+def _lines_of_its_own(u: Array, step: float, mains: Sequence[float], band: float) -> list[float]:
+    """Frequencies of the lines of an input (n,), where it is periodic; not of a mains that a controller let through."""
+    if np.ptp(np.diff(u)) == 0.0:
+        return []
+    frequencies, chances = _test(u, step)
+    of_mains = np.min(np.abs(frequencies[:, None] - [_alias(f, step) for f in mains]), axis=1) < band
+    found = (chances * chances.size < LEVEL) & ~of_mains & (frequencies > 0.0)
+    return [float(f) for f in frequencies[found]]
+
+
+def _is_multiple(frequency: float, of: Sequence[float], band: float) -> bool:
+    return any(abs(frequency - round(frequency / f) * f) < band for f in of if f > band)
