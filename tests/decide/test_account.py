@@ -44,8 +44,10 @@ def test_what_acts_is_stated_and_its_elaboration_is_not(ranking: Ranking) -> Non
 
 def test_what_was_kept_back_may_withdraw_a_name(ranking: Ranking) -> None:
     found = account(ranking, [], MODEL)
-    assert found.withdrawn().stated == ()
-    assert len(found.withdrawn().effects) == len(found.effects)
+    refused = found.withdrawn(["coulomb-friction"])
+    assert refused.stated == ()
+    assert len(refused.effects) == len(found.effects)
+    assert found.withdrawn(["quadratic-drag"]) == found, "a name that is not in it"
 
 
 def test_the_remainder_is_that_of_the_nominal_model_or_noise(ranking: Ranking) -> None:

@@ -10,7 +10,8 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.fit.preparation import prepare
-from rwn.prove.heldout import _gain, gain_interval, heldout_rows
+from rwn.prove.heldout import HeldoutRow, _gain, gain_interval, heldout_error, heldout_rows, hurts
+from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.run import judging_run
 
 MODEL = rwn.Model(kind="dc", parameters=MOTOR)
@@ -55,3 +56,42 @@ def test_the_interval_of_a_gain_covers_it() -> None:
     low, high = gain_interval(2.0 * noise[0], noise[1], seed=0)
     assert low < 0.5 < high
     assert high - low < 0.1
+
+
+def row(signal: str, before: float, after: float, interval: tuple[float, float], region: str = "all") -> HeldoutRow:
+    return HeldoutRow(
+        recording="run", region=region, signal=signal, unit="%" if signal == DRIVING_FORCE else "rad/s", samples=100,
+        nominal=before, refitted=before, corrected=after, noise_floor=None, gain=1.0 - after / before,
+        gain_interval=interval,
+    )  # fmt: skip
+
+
+BETTER, WORSE = row("speed", 2.0, 1.0, (0.4, 0.6)), row("speed", 1.0, 3.0, (-2.5, -1.5))
+PERHAPS, AWAY = row("position", 1.0, 1.1, (-0.3, 0.1)), row("speed", 1.0, np.inf, (-np.inf, -np.inf))
+LITTLE = row("current", 1.0, 1.02, (-0.03, -0.01))
+
+
+@pytest.mark.parametrize(
+    ("rows", "expected"),
+    [
+        ([], False),
+        ([BETTER], False),
+        ([WORSE], True),
+        ([PERHAPS], False),
+        ([WORSE, PERHAPS], True),
+        ([BETTER, LITTLE], False),  # of one signal a little is lost, of another much is gained
+        ([BETTER, WORSE], True),  # more than is gained
+        ([BETTER, AWAY], True),
+        ([replace(WORSE, region="low speed")], False),
+    ],
+)
+def test_what_hurts_is_certainly_worse_somewhere_and_worse_on_the_mean(
+    rows: list[HeldoutRow], expected: bool
+) -> None:
+    assert hurts(rows) is expected
+
+
+def test_the_driving_force_is_a_signal_where_the_position_alone_is_recorded() -> None:
+    force, position = row(DRIVING_FORCE, 1.0, 2.0, (-1.2, -0.8)), row("position", 1.0, 0.5, (0.4, 0.6))
+    assert heldout_error([position, force]) == pytest.approx(0.5 * (0.25 + 4.0))
+    assert heldout_error([position, force, BETTER]) == pytest.approx(0.25)

@@ -5,7 +5,7 @@ Whether an effect acts and whether that is all are two questions: what remains t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -63,9 +63,9 @@ class Account:
         """The effects that are stated."""
         return tuple(e for e in self.effects if e.stated)
 
-    def withdrawn(self) -> Account:
-        """The account once recordings that were kept back have refused what it states."""
-        refused = (replace(e, probability=0.0, together=0.0) if e.stated else e for e in self.effects)
+    def withdrawn(self, names: Collection[str]) -> Account:
+        """The account once recordings that were kept back have refused some effects."""
+        refused = (replace(e, probability=0.0, together=0.0) if e.name in names else e for e in self.effects)
         return replace(self, effects=tuple(refused))
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain, combinations
 
 from rwn.decide.account import Account, Remainder, account, remainder
 from rwn.decide.other_law import curve_beside
@@ -14,8 +15,8 @@ from rwn.fit.network_places import Place
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
-from rwn.prove.heldout import HeldoutRow
-from rwn.prove.proof import hurts, proved
+from rwn.prove.heldout import HeldoutRow, hurts, log_change
+from rwn.prove.proof import compared, proved
 from rwn.simulate.run import Run
 
 
@@ -35,14 +36,13 @@ class Decision:
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
     """What is stated, proved on `heldout` or by cross-validation.
 
-    Effects that certainly make recordings worse that were kept back are not stated.
+    An effect that certainly makes recordings worse that were kept back is not stated.
     """
     found = account(ranking, heldout, model)
     chosen = _together(ranking, found)
+    while refused := _refused(ranking, chosen, found, heldout, seed=seed):
+        found, chosen = refused
     rows = proved(ranking, chosen, heldout, seed=seed)
-    if chosen.added and heldout and hurts(rows):
-        found, chosen = found.withdrawn(), ranking.nothing_missing
-        rows = proved(ranking, chosen, heldout, seed=seed)
     left = remainder(ranking, chosen.final)
     verdict = verdict_of(ranking, found, left)
     curve = curve_beside(ranking.problem, chosen.fit, model) if left.signals else None
@@ -50,6 +50,25 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
     return Decision(
         ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other
     )
+
+
+def _refused(
+    ranking: Ranking, chosen: RankedFit, found: Account, heldout: Sequence[Run], *, seed: int
+) -> tuple[Account, RankedFit] | None:
+    """The account and explanation without those effects that make worse what was kept back, and most so."""
+    worse = []
+    for names in _parts(chosen.added) if heldout else ():
+        account = found.withdrawn(names)
+        less = _together(ranking, account)
+        rows = compared(ranking, less.final, chosen.final, heldout, seed=seed)
+        if hurts(rows):
+            worse.append((log_change(rows), account, less))
+    return max(worse, key=lambda row: row[0])[1:] if worse else None
+
+
+def _parts(names: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """One of the names, several, and all."""
+    return chain.from_iterable(combinations(names, count) for count in range(1, len(names) + 1))
 
 
 def _together(ranking: Ranking, found: Account) -> RankedFit:

@@ -155,13 +155,12 @@ def _rms(x: Array) -> float:
 def heldout_error(rows: Sequence[HeldoutRow]) -> float:
     """Squared error of the corrected against the refitted model, mean of signals; inf where it ran away.
 
-    Where an axis shows its position alone, which drifts for small reasons, the driving force counts as a signal too.
+    Where an axis shows its position alone, the driving force counts as a signal too.
     """
-    drifts = not any(r.signal == "speed" for r in rows)
     shares = [
         (r.corrected / r.refitted) ** 2
-        for r in rows
-        if r.region == "all" and r.corrected is not None and r.refitted > 0.0 and (drifts or r.unit != "%")
+        for r in _free_run(rows)
+        if r.region == "all" and r.corrected is not None and r.refitted > 0.0
     ]
     return float(np.mean(shares)) if shares and np.isfinite(shares).all() else np.inf
 
@@ -178,9 +177,27 @@ def log_change(rows: Sequence[HeldoutRow]) -> float:
 
 def helps(rows: Sequence[HeldoutRow]) -> bool:
     """Whether some signal is certainly better on what was not fitted, and none certainly worse."""
-    gains = [r.gain_interval for r in rows if r.region == "all" and r.gain_interval is not None]
-    better, worse = any(low > 0.0 for low, _ in gains), any(high < 0.0 for _, high in gains)
-    return better and not worse and heldout_error(rows) < 1.0
+    return _any_certainly_better(rows) and not _any_certainly_worse(rows) and heldout_error(rows) < 1.0
+
+
+def hurts(rows: Sequence[HeldoutRow]) -> bool:
+    """Whether what was not fitted is certainly worse in some signal and worse on the mean of all; or one runs away."""
+    runs_away = any(r.corrected is not None and not np.isfinite(r.corrected) for r in rows if r.region == "all")
+    return runs_away or (_any_certainly_worse(rows) and log_change(rows) > 0.0)
+
+
+def _free_run(rows: Sequence[HeldoutRow]) -> list[HeldoutRow]:
+    """Without the driving force where an axis shows more than its position, which drifts for small reasons."""
+    drifts = not any(r.signal == "speed" for r in rows)
+    return [r for r in rows if drifts or r.signal != DRIVING_FORCE]
+
+
+def _any_certainly_better(rows: Sequence[HeldoutRow]) -> bool:
+    return any(r.gain_interval[0] > 0.0 for r in rows if r.region == "all" and r.gain_interval is not None)
+
+
+def _any_certainly_worse(rows: Sequence[HeldoutRow]) -> bool:
+    return any(r.gain_interval[1] < 0.0 for r in rows if r.region == "all" and r.gain_interval is not None)
 
 
 def gain_interval(before: Array, after: Array, *, seed: int, draws: int = DRAWS) -> tuple[float, float]:

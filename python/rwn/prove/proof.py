@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from rwn.fit.fit import Fit, refit
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.problem import Problem
@@ -48,14 +46,6 @@ def proved(
 
     parts = side_by_side(fold, _folds(ranking.problem))
     return tuple(row for part in parts for row in part or ()) if None not in parts else ()
-
-
-def hurts(rows: Sequence[HeldoutRow]) -> bool:
-    """Whether the correction makes held-out simulation certainly worse."""
-    main = [r for r in rows if r.region == "all" and r.gain_interval is not None]
-    if any(r.corrected is not None and not np.isfinite(r.corrected) for r in main):
-        return True  # it runs away
-    return bool(main) and all(r.gain_interval[1] < 0.0 for r in main if r.gain_interval)
 
 
 def compared(
