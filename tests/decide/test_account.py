@@ -96,5 +96,5 @@ def test_a_curve_in_the_place_of_a_law_says_no_more_of_its_state(ranking: Rankin
     problem = ranking.problem
     mimic = fit(problem, hypothesis(problem.prior, ("quadratic-drag",), problem.scales))
     nominal = ranking.nominal
-    assert curve_instead(ranking.problem, friction, nominal, "coulomb-friction", MODEL) > 0.99
-    assert curve_instead(ranking.problem, mimic, nominal, "quadratic-drag", MODEL) < 0.5
+    assert curve_instead(ranking.problem, friction, nominal, MODEL) > 0.99
+    assert curve_instead(ranking.problem, mimic, nominal, MODEL) < 0.5

@@ -59,19 +59,25 @@ def ranked(*fits: tuple[tuple[str, ...], float]) -> Any:
 def test_rivals_take_the_place_of_one_effect_beside_the_same_others() -> None:
     ranking = ranked((("a", "b"), 10.0), (("a", "c"), 9.0), (("c", "b"), 8.5), (("d",), 9.9), (("a", "b", "e"), 9.9))
     leading = ranking.fits[0]
-    assert _rivals(ranking, leading, "b") == {"c": pytest.approx(np.exp(-1.0))}
-    assert _rivals(ranking, leading, "a") == {"c": pytest.approx(np.exp(-1.5))}
+    assert _rivals(ranking, leading, "b", {}) == {"c": pytest.approx(np.exp(-1.0))}
+    assert _rivals(ranking, leading, "a", {}) == {"c": pytest.approx(np.exp(-1.5))}
 
 
 def test_few_rivals_are_an_answer_and_faint_ones_are_none() -> None:
     near = [((name,), 10.0 - 0.1 * k) for k, name in enumerate("abcde")]
     ranking = ranked(*near)
-    assert list(_rivals(ranking, ranking.fits[0], "a")) == ["b", "c"]
+    assert list(_rivals(ranking, ranking.fits[0], "a", {})) == ["b", "c"]
     assert LARGEST_SET == 3
     edge = -np.log(RIVAL)
     for off, found in ((edge - 0.01, ["b"]), (edge + 0.01, [])):
         ranking = ranked((("a",), 10.0), (("b",), 10.0 - off))
-        assert list(_rivals(ranking, ranking.fits[0], "a")) == found
+        assert list(_rivals(ranking, ranking.fits[0], "a", {})) == found
+
+
+def test_what_is_known_of_a_rival_stands_for_the_evidence_between_explanations() -> None:
+    ranking = ranked((("a",), 10.0), (("b",), 12.0))
+    assert _rivals(ranking, ranking.fits[0], "a", {("a", "b"): 0.25}) == {"b": 0.25}
+    assert _rivals(ranking, ranking.fits[0], "a", {("a", "b"): 0.5 * RIVAL}) == {}
 
 
 def test_rivals_share_the_probability_by_the_evidence_for_each() -> None:

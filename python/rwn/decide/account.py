@@ -11,12 +11,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rwn.decide.calibration import calibration
-from rwn.decide.evidence import Evidence, evidence
+from rwn.decide.elaboration import elaborated
+from rwn.decide.evidence import Evidence, Judge
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import join, structured, variance
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
+from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
 
 ACTS = 0.5  # probability from which an effect is stated: it is more likely there than not
@@ -71,11 +73,14 @@ class Account:
 
 def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     """What acts, of the best explanation that has effects at all; empty where none was found."""
-    leading = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
-    rivals = {name: _rivals(ranking, leading, name) for name in leading.added}
-    found = evidence(ranking, leading, heldout, model, rivals=rivals)
-    rows = sorted((_acting(name, e, rivals[name]) for name, e in found.evidence.items()), key=lambda row: -row.share)
-    return Account(effects=tuple(rows), leading=leading, birge=found.birge)
+    best = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
+    found = elaborated(ranking, best, lambda this: Judge(ranking, this, heldout, model))
+    leading, judge = found.leading, found.judge
+    rivals = {name: _rivals(ranking, leading, name, found.odds) for name in leading.added}
+    instead = {name: {*rivals[name], *(rival for one, rival in found.odds if one == name)} for name in leading.added}
+    evidence = side_by_side(lambda name: judge.evidence(name, instead[name]), leading.added)
+    rows = [_acting(name, e, rivals[name]) for name, e in zip(leading.added, evidence, strict=True)]
+    return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading, birge=judge.birge)
 
 
 def _acting(name: str, found: Evidence, rivals: Mapping[str, float]) -> Acting:
@@ -91,15 +96,21 @@ def _acting(name: str, found: Evidence, rivals: Mapping[str, float]) -> Acting:
     )
 
 
-def _rivals(ranking: Ranking, leading: RankedFit, name: str) -> dict[str, float]:
-    """The names that explain nearly as much in the place of this one, with the evidence for each against it."""
+def _rivals(
+    ranking: Ranking, leading: RankedFit, name: str, known: Mapping[tuple[str, str], float]
+) -> dict[str, float]:
+    """The names that explain nearly as much in the place of this one, with the evidence for each against it.
+
+    `known`: what is known already of a rival against a name.
+    """
     others = set(leading.added) - {name}
-    found = {
-        next(iter(set(r.added) - others)): float(np.exp(r.score - leading.score))
-        for r in ranking.fits
-        if len(r.added) == len(leading.added) and others < set(r.added) and name not in r.added
-    }
-    near = [(rival, odds) for rival, odds in found.items() if odds > RIVAL]
+    alike = [r for r in ranking.fits if len(r.added) == len(leading.added) and others < set(r.added)]
+    found = {}
+    for r in alike:
+        (rival,) = set(r.added) - others
+        if rival != name:
+            found[rival] = known.get((name, rival), float(np.exp(r.score - leading.score)))
+    near = sorted(((rival, odds) for rival, odds in found.items() if odds > RIVAL), key=lambda row: -row[1])
     return dict(near[: LARGEST_SET - 1])
 
 

@@ -44,14 +44,6 @@ class Evidence:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Validation:
-    """What halves and recordings kept back say of an explanation."""
-
-    evidence: dict[str, Evidence]  # of each of its effects
-    birge: float  # how much farther than their deviations the halves' parameters lie apart
-
-
-@dataclass(frozen=True, kw_only=True)
 class _Half:
     """One half of what was recorded, and the explanation fitted to it alone."""
 
@@ -59,34 +51,49 @@ class _Half:
     fit: Fit
 
 
-def evidence(
-    ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model, *, rivals: Mapping[str, Collection[str]]
-) -> Validation:
-    """Features of every effect of the leading explanation; `rivals`: names by effect that may act in its place."""
-    problem, this = ranking.weighted, leading.final
-    after, nothing = variances(problem, this), variances(problem, ranking.nothing_missing.final)
-    chance = float(np.sqrt(2.0 / max(statistics(problem, this).effective, 2.0)))  # deviation of a mean square
-    halves = _halves(problem)
-    seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(this, half)), halves)
-    judges = [problem.on(heldout)] if heldout else []
+class Judge:
+    """An explanation fitted to all that was recorded and to each half of it, which evidence for its effects goes by."""
 
-    def one(name: str) -> Evidence:
-        without = _without(ranking, leading, name)
-        before = variances(problem, without)
-        parts = [_refit(without, half) for half in halves]
-        pairs = [(other, part, mine.fit) for other, part, mine in zip(halves[::-1], parts, seen, strict=True)]
-        pairs += [(judge, without, this) for judge in judges]
-        unseen = [_share(variances(on, a), variances(on, b), nothing, chance) for on, a, b in pairs]
+    def __init__(self, ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model) -> None:
+        """`heldout`: recordings that were kept back."""
+        self._ranking, self._leading, self._model = ranking, leading, model
+        problem = ranking.weighted
+        self._after = variances(problem, leading.final)
+        self._nothing = variances(problem, ranking.nothing_missing.final)
+        # deviation of a mean square
+        self._chance = float(np.sqrt(2.0 / max(statistics(problem, leading.final).effective, 2.0)))
+        self._halves = _halves(problem)
+        self._seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(leading.final, half)), self._halves)
+        self._heldout = [problem.on(heldout)] if heldout else []
+
+    def evidence(self, name: str, rivals: Collection[str], *, without: Fit | None = None) -> Evidence:
+        """Features of one effect of the explanation.
+
+        Args:
+            name: of the effect.
+            rivals: names that may act in its place.
+            without: the explanation that it is compared with; None is the same without the effect.
+        """
+        ranking, this = self._ranking, self._leading.final
+        less = _without(ranking, self._leading, name) if without is None else without
+        before = variances(ranking.weighted, less)
+        others = self._halves[::-1]
+        pairs = [(o, _refit(less, h), s.fit) for o, h, s in zip(others, self._halves, self._seen, strict=True)]
+        pairs += [(judge, less, this) for judge in self._heldout]
+        unseen = [_share(variances(on, a), variances(on, b), self._nothing, self._chance) for on, a, b in pairs]
         beside = _without_drift(before)
         return Evidence(
-            share=_share(before, after, nothing, chance),
+            share=_share(before, self._after, self._nothing, self._chance),
             unseen=float(np.mean(unseen)),
-            part=_share(beside, after, beside, chance),
-            odds=_odds(ranking, leading, {name, *rivals[name]}),
-            curve=curve_instead(ranking.problem, leading.fit, without, name, model),
+            part=_share(beside, self._after, beside, self._chance),
+            odds=_odds(ranking, self._leading, {name, *rivals}),
+            curve=curve_instead(ranking.problem, self._leading.fit, less, self._model),
         )
 
-    return Validation(evidence={name: one(name) for name in leading.added}, birge=_birge(seen))
+    @property
+    def birge(self) -> float:
+        """How much farther than their deviations the halves' parameters lie apart, at least 1."""
+        return _birge(self._seen)
 
 
 def _share(

@@ -6,7 +6,7 @@ a curve over speed, where a right name leaves noise.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -51,34 +51,34 @@ def curve_beside(problem: Problem, this: Fit, model: Model) -> Curve | None:
         return None
     part = screening_part(problem, this)
     left = statistics(part, this, drift=False)
-    place, after = _best_curve(part, model, this, this.added, (this,))
+    place, after = _best_curve(part, model, this, {n: this.values_of(n) for n in this.added}, (this,))
     gained = left.variance - after.variance
     seen = 0.5 * gained * left.count / (after.variance * after.correlation_time)
     return Curve(place=place, gained=gained, seen=seen, left=left.variance)
 
 
-def curve_instead(problem: Problem, this: Fit, without: Fit, name: str, model: Model) -> float:
+def curve_instead(problem: Problem, this: Fit, without: Fit, model: Model) -> float:
     """Squared error with the best curve over one state in place of an effect, in units of that with it; at most 1.
 
     A law says as much of its state as any curve does. The curve may be of any term, also a coefficient or the error of
-    a sensor. 1 where the drive has no place for a curve. `without`: the fit by the other effects.
+    a sensor. 1 where the drive has no place for a curve. `without`: the fit by what the curve stands beside.
     """
-    if not has_room(model, 1, beside=len(this.added) - 1):
+    if not has_room(model, 1, beside=len(without.added)):
         return 1.0
     part = screening_part(problem, this)
     law = statistics(part, this, drift=False).variance
-    _, best = _best_curve(part, model, this, tuple(n for n in this.added if n != name), (without, this))
+    effects = {n: (this if n in this.added else without).values_of(n) for n in without.added}
+    _, best = _best_curve(part, model, this, effects, (without, this))
     return float(min(max(best.variance, 1.0) / max(law, 1.0), 1.0))
 
 
 def _best_curve(
-    part: Problem, model: Model, this: Fit, beside: Sequence[str], leaving: Sequence[Fit]
+    part: Problem, model: Model, this: Fit, effects: Mapping[str, Mapping[str, float]], leaving: Sequence[Fit]
 ) -> tuple[Place, Statistics]:
-    """The place whose curve leaves least beside some effects of a fit, and what it leaves.
+    """The place whose curve leaves least beside `effects`, which begin at these values, and what it leaves.
 
     Fitted are those that promise most of what each of the fits `leaving` leaves.
     """
-    effects = {name: this.values_of(name) for name in beside}
     share = one_stage(part.work) / SHARES
 
     def left_by(place: Place) -> Statistics:

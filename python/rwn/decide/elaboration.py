@@ -1,0 +1,55 @@
+"""Whether an elaborate law says more than its plain one, as friction of two levels says more than dry friction.
+
+Such a name makes two claims: that the plain law acts, and that it is not all. The second has evidence of its own: what
+the elaborate law adds to the plain one in its place. A mimic adds little, or on the samples that were fitted alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rwn.decide.calibration import calibration
+from rwn.decide.evidence import Judge
+from rwn.name.backward import elaborations, plainer
+from rwn.name.ranking import Ranking
+from rwn.name.weights import RankedFit
+
+HOLDS = 0.5  # probability from which a claim is more likely true than not
+
+
+@dataclass(frozen=True, kw_only=True)
+class Elaborated:
+    """An explanation whose elaborate laws each add to the plain ones."""
+
+    leading: RankedFit
+    judge: Judge  # of it
+    odds: dict[tuple[str, str], float] = field(default_factory=dict)  # of a rival against a name of it
+
+
+def elaborated(ranking: Ranking, leading: RankedFit, judge_of: Callable[[RankedFit], Judge]) -> Elaborated:
+    """The explanation, with the next best law in the place of each elaborate one that adds nothing to its plain one."""
+    judge, odds = judge_of(leading), dict[tuple[str, str], float]()
+    for name in leading.added:
+        others, idle = frozenset(leading.added) - {name}, dict[str, float]()
+        (plain_name,) = plainer([name])
+        plain = _explained(ranking, others, plain_name)
+        while name != plain_name and plain is not None:
+            adds = calibration().probability(judge.evidence(name, (), without=plain.final))
+            if adds >= HOLDS:
+                odds[name, plain_name] = (1.0 - adds) / adds
+                break
+            idle[name] = adds
+            alike = [n for n in elaborations() if plainer([n]) == {plain_name} and n not in idle]
+            found = [_explained(ranking, others, n) for n in alike]
+            leading = max([plain, *(f for f in found if f)], key=lambda r: r.score)
+            judge = judge_of(leading)
+            (name,) = set(leading.added) - others
+        of_plain = odds.get((name, plain_name), 1.0)
+        odds |= {(name, n): of_plain * p / (1.0 - p) for n, p in idle.items()}
+    return Elaborated(leading=leading, judge=judge, odds=odds)
+
+
+def _explained(ranking: Ranking, others: frozenset[str], name: str) -> RankedFit | None:
+    """The explanation by some effects and one more, if it was tried."""
+    return next((r for r in ranking.fits if name not in others and set(r.added) == others | {name}), None)
