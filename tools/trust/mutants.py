@@ -45,8 +45,8 @@ FILES = {
     f"{RECORDING}selection.py": ("tests/recording/test_selection.py",),
     "python/rwn/model/toml_reader.py": ("tests/model/test_files.py", "tests/model/test_bad_models.py"),
     "python/rwn/model/formula.py": ("tests/model/test_formula.py", "tests/model/test_own_effects.py"),
-    "python/rwn/decide/account.py": ("tests/decide/test_account.py", "tests/decide/test_calibration.py"),
-    "python/rwn/decide/verdict.py": ("tests/decide/test_account.py",),
+    "python/rwn/decide/account.py": ("tests/decide/test_account_by_hand.py", "tests/decide/test_calibration.py"),
+    "python/rwn/decide/verdict.py": ("tests/decide/test_verdict.py",),
     "python/rwn/decide/calibration.py": ("tests/decide/test_calibration.py",),
     "python/rwn/decide/excitation.py": ("tests/decide/test_excitation.py",),
 }  # fmt: skip
