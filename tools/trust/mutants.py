@@ -43,7 +43,7 @@ FILES = {
     f"{RECORDING}units.py": ("tests/recording/test_units.py", "tests/recording/test_missing_units.py"),
     f"{RECORDING}copies.py": ("tests/recording/test_copies.py",),
     f"{RECORDING}selection.py": ("tests/recording/test_selection.py",),
-    "python/rwn/model/toml_reader.py": ("tests/model/test_files.py", "tests/model/test_bad_models.py"),
+    "python/rwn/model/toml_reader.py": ("tests/model/test_recording_table.py", "tests/model/test_bad_models.py"),
     "python/rwn/model/formula.py": ("tests/model/test_formula.py", "tests/model/test_own_effects.py"),
     "python/rwn/decide/account.py": ("tests/decide/test_account_by_hand.py", "tests/decide/test_calibration.py"),
     "python/rwn/decide/verdict.py": ("tests/decide/test_verdict.py",),
