@@ -24,5 +24,7 @@ from rwn.networks.wavelets import Wavelet as Wavelet
 from rwn.recording.recording import Recording as Recording
 from rwn.recording.recording import read_recording as read_recording
 from rwn.report.diagnosis import Diagnosis as Diagnosis
+from rwn.report.overlay import plot as plot
+from rwn.report.saving import save as save
 from rwn.simulate.simulation import Simulation as Simulation
 from rwn.simulate.simulation import simulate as simulate

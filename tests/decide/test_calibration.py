@@ -52,6 +52,19 @@ def test_more_evidence_of_any_kind_does_not_make_an_effect_less_likely(name: str
     assert low < high
 
 
+def test_the_calibration_tells_what_acts_from_a_mimic() -> None:
+    certain = Evidence(share=0.999, unseen=0.99, part=0.999, odds=5000.0, curve=1.0)
+    mimic = Evidence(share=0.03, unseen=0.01, part=0.2, odds=0.5, curve=0.6)
+    assert calibration().probability(certain) > 0.95
+    assert calibration().probability(mimic) < 0.5, "it is not stated"
+    assert calibration().fitted_on
+
+
+def test_no_evidence_is_out_of_scale() -> None:
+    wild = Evidence(share=-np.inf, unseen=np.inf, part=0.0, odds=-np.inf, curve=0.0)
+    assert np.isfinite(features(wild)).all()
+
+
 def ranked(*fits: tuple[tuple[str, ...], float]) -> Any:
     return SimpleNamespace(fits=[SimpleNamespace(added=added, score=score) for added, score in fits])
 

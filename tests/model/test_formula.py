@@ -106,3 +106,88 @@ def test_formulas_that_the_core_has_no_room_for_are_refused() -> None:
         own("resistance", "x + (" * 40 + "x" + ")" * 40, x="1")
     with pytest.raises(InputError, match="9 parameters"):
         own("resistance", "x0", **{f"x{k}": "1" for k in range(9)})
+
+
+def _refused(text: str, names: dict[str, str]) -> InputError:
+    with pytest.raises(InputError) as refused:
+        expression.parse(text, names, where="here")
+    assert refused.value.where == "here"
+    return refused.value
+
+
+def test_a_formula_is_as_long_as_it_may_be() -> None:
+    longest = "x" + " " * (expression.MAX_LENGTH - 2) + "1"
+    assert "cannot read the formula 'x   " in _refused(longest, {"x": "1"}).what
+    assert expression.parse("x".ljust(expression.MAX_LENGTH), {"x": "1"}, where="here").names == ("x",)
+    said = _refused("x".ljust(expression.MAX_LENGTH + 1), {"x": "1"})
+    assert (said.what, said.expected) == ("the formula has 2001 characters", "at most 2000")
+
+
+def test_a_formula_holds_as_many_values_as_the_core_has_room_for() -> None:
+    most = _core.formula_depth
+    nested = "x + (" * (most - 1) + "x" + ")" * (most - 1)
+    assert expression.parse(nested, {"x": "1"}, where="here").evaluate({"x": 2.0}) == 2.0 * most
+    said = _refused(f"x + ({nested})", {"x": "1"})
+    assert said.what == f"the formula holds {most + 1} values at once"
+    assert said.expected == f"at most {most}"
+    calls = "max(x, " * (most - 1) + "x" + ")" * (most - 1)
+    assert expression.parse(calls, {"x": "1"}, where="here").evaluate({"x": 2.0}) == 2.0
+    flat = "sin(-x) + " * 3 * most + "x"  # each is added before the next
+    expression.parse(flat, {"x": "1"}, where="here")
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("+x", 3.0), ("-x", -3.0), ("--x", 3.0), ("2 ^ 3 ^ 2", 512.0), ("-x ^ 2", -9.0), ("x - 1 - 1", 1.0),
+     ("12 / x / 2", 2.0), ("min(x, 2)", 2.0), ("max(x, 2)", 3.0), ("x * -2", -6.0), ("pi", np.pi), ("1e3", 1e3),
+     (" x ", 3.0), ("mexican_hat(0)", 1.0), ("mexican_hat(1)", 0.0)],
+)  # fmt: skip
+def test_what_a_formula_says_is_what_it_is(text: str, value: float) -> None:
+    assert expression.parse(text, {"x": "1"}, where="here").evaluate({"x": 3.0}) == pytest.approx(value)
+
+
+def test_names_are_those_that_are_used_in_the_order_of_their_first_use() -> None:
+    read = expression.parse("y * sin(x) + y ^ 2 - pi", {"x": "1", "y": "1", "z": "1"}, where="here")
+    assert (read.names, read.text) == (("y", "x"), "y * sin(x) + y ^ 2 - pi")
+
+
+@pytest.mark.parametrize(
+    ("text", "what", "fix"),
+    [
+        ("x +", "cannot read the formula 'x +'", "see docs/own_effects.md"),
+        ("x if x else 2", "'x if x else 2' is not allowed in a formula", "see docs/own_effects.md"),
+        ("x % 2", "'x % 2' is not allowed in a formula", "see docs/own_effects.md"),
+        ("~x", "'~x' is not allowed in a formula", "see docs/own_effects.md"),
+        ("not x", "'not x' is not allowed in a formula", "see docs/own_effects.md"),
+        ("True", "'True' is not allowed in a formula", "see docs/own_effects.md"),
+        ("1e300", "'1e+300' is not allowed in a formula", "see docs/own_effects.md"),
+        ("'a'", "''a'' is not allowed in a formula", "see docs/own_effects.md"),
+        ("max(x, y=2)", "'max(x, y=2)' is not allowed in a formula", "did you mean 'max'?"),
+        ("x.real", "'x.real' is not allowed in a formula", "see docs/own_effects.md"),
+        ("z", "unknown name 'z'", "remove or rename 'z'"),
+        ("sinn(x)", "unknown function 'sinn'", "did you mean 'sin'?"),
+        ("sin(x, x)", "sin has 2 arguments", "see docs/own_effects.md"),
+        ("min(x)", "min has 1 arguments", "see docs/own_effects.md"),
+    ],
+)
+def test_what_is_no_formula_is_refused_with_its_remedy(text: str, what: str, fix: str) -> None:
+    said = _refused(text, {"x": "1"})
+    if "max(" not in text:
+        assert (said.what, said.fix) == (what, fix)
+    assert said.what == what
+
+
+def test_a_long_piece_that_is_not_allowed_is_cut_where_it_is_shown() -> None:
+    assert _refused(f"[{'x, ' * 50}x]", {"x": "1"}).what == f"'[{'x, ' * 19}x,' is not allowed in a formula"
+    assert _refused("x " * 60, {"x": "1"}).what == f"cannot read the formula '{'x ' * 40}'"
+
+
+def test_units_work_out_or_the_line_says_which_clash() -> None:
+    names = {"speed": "rad/s", "k": "N m s/rad", "t": "N m"}
+    read = expression.parse("k * speed + t", names, where="here")
+    expression.check_units(read, names, "N m", where="here")
+    for text, unit in (("k + t", "N m"), ("k * speed", "V"), ("sin(t)", "1")):
+        with pytest.raises(InputError) as refused:
+            expression.check_units(expression.parse(text, names, where="here"), names, unit, where="here")
+        assert refused.value.what.startswith(f"the units of '{text}' do not work out (")
+        assert (refused.value.where, refused.value.expected) == ("here", f"a formula in {unit}")

@@ -13,7 +13,7 @@ from rwn.model.files import read_model, write_model
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.files import output_folder
 from rwn.report.page import page, panels, pictures
-from rwn.report.plots import figure, unpacked
+from rwn.report.plots import drawn
 from rwn.report.sentences import sentences, verdict_sentence
 from rwn.report.text import estimate, likelihood, parameter_name, plain_name
 from rwn.values import table_of_rows
@@ -103,13 +103,7 @@ class Diagnosis(DiagnosisData):
         wanted = next(iter(known)) if name is None else name
         if wanted not in known:
             raise unknown("figure", wanted, known, where="plot")
-        try:
-            from plotly.graph_objects import Figure
-        except ModuleNotFoundError as error:
-            raise InputError("plotly is not installed", where="plot", expected="the extra 'plot'",
-                             fix="pip install 'rwn[plot]'") from error  # fmt: skip
-        drawn = figure(panels(self.curves, known[wanted]))
-        return Figure(data=[unpacked(line) for line in drawn["data"]], layout={**drawn["layout"], "title": wanted})
+        return drawn(panels(self.curves, known[wanted]), wanted)
 
     def write(self, folder: Path) -> None:
         """Write report.html, diagnosis.json, curves.json and corrected.toml into a folder that exists."""

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.errors import InputError
 from rwn.report import text as words
 from rwn.report.plot import Plot, Role, Trace
+
+if TYPE_CHECKING:
+    import plotly.graph_objects
 
 Array = NDArray[np.float64]
 
@@ -191,8 +195,21 @@ def _packed(values: Array) -> dict[str, str]:
     return {"dtype": "f4", "bdata": base64.b64encode(values.astype("<f4").tobytes()).decode("ascii")}
 
 
-def unpacked(line: dict[str, Any]) -> dict[str, Any]:
-    """A line of a figure with its values as arrays, for who works on with it."""
+def drawn(plots: Sequence[Plot], title: str) -> plotly.graph_objects.Figure:
+    """The figure of `figure` as an object of plotly, its values as arrays for who works on with it.
+
+    Raises InputError where plotly is not installed.
+    """
+    try:
+        from plotly.graph_objects import Figure
+    except ModuleNotFoundError as error:
+        raise InputError("plotly is not installed", where="plot", expected="the extra 'plot'",
+                         fix="pip install 'rwn[plot]'") from error  # fmt: skip
+    made = figure(plots)
+    return Figure(data=[_unpacked(line) for line in made["data"]], layout={**made["layout"], "title": title})
+
+
+def _unpacked(line: dict[str, Any]) -> dict[str, Any]:
     return {
         key: np.frombuffer(base64.b64decode(value["bdata"]), dtype="<f4")
         if isinstance(value, dict) and "bdata" in value

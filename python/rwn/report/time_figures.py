@@ -34,6 +34,29 @@ class _Model:
     error: Role | None = None
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Compared:
+    """What a recording shows of one signal: arrays (n,), SI; `left_out`: samples that are not compared."""
+
+    recording: str
+    time: Array
+    driven: str  # name of the input
+    input: Array
+    signal: str
+    measured: Array
+    left_out: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FreeRun:
+    """What a model makes (n,) of the input, and how its lines are drawn; without `error` its error is not."""
+
+    name: str
+    role: Role
+    values: Array
+    error: Role | None = None
+
+
 def over_time(ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], *, linear: bool) -> tuple[Plot, ...]:
     """Input, response and error over each recording, those that were not fitted first; at most three of each use."""
     whole = ranking.problem.in_free_run()
@@ -64,42 +87,57 @@ def _models(given: Hypothesis, ranking: Ranking, chosen: RankedFit) -> list[_Mod
 
 def _of_one(problem: Problem, run: Run, models: Sequence[_Model], use: Use, *, linear: bool) -> list[Plot]:
     signal = "speed" if run.speed.size else run.recorded[-1]
-    measured = run.signal(signal)
-    made = [problem.simulate(run, m.vector, m.active).signals[signal] for m in models]
-    made = [np.where(np.abs(y) < 1e6 * (1.0 + np.max(np.abs(measured))), y, np.nan) for y in made]
+    made = [
+        FreeRun(
+            name=m.name, role=m.role, error=m.error, values=problem.simulate(run, m.vector, m.active).signals[signal]
+        )
+        for m in models
+    ]
+    compared = Compared(
+        recording=run.name, time=run.time, driven=problem.drive.input, input=run.input, signal=signal,
+        measured=run.signal(signal), left_out=run.not_compared(signal),
+    )  # fmt: skip
+    return panels_of(compared, made, use, linear=linear)
+
+
+def panels_of(compared: Compared, runs: Sequence[FreeRun], use: Use | None, *, linear: bool) -> list[Plot]:
+    """Response, error and input over the time of one recording, with the free run of each model."""
+    signal, measured, name = compared.signal, compared.measured, compared.recording
+    made = [np.where(np.abs(r.values) < 1e6 * (1.0 + np.nanmax(np.abs(measured))), r.values, np.nan) for r in runs]
     errors = [measured - y for y in made]
-    begin, end = _shows_most(errors, run.not_compared(signal))
-    kept = thin_line([measured, run.input, *made[1:], errors[-1]], whole=(begin, end))
-    time, unit = run.time[kept], _unit(signal, linear=linear)
-    zoom = (float(run.time[begin]), float(run.time[end - 1]))
+    begin, end = _shows_most(errors, compared.left_out)
+    after_given = made[1:] or made
+    kept = thin_line([measured, compared.input, *after_given, errors[-1]], whole=(begin, end))
+    time, unit = compared.time[kept], unit_of(signal, linear=linear)
+    zoom = (float(compared.time[begin]), float(compared.time[end - 1]))
 
     def picture(slot: Slot, title: str, label: str, unit: str, lines: Sequence[tuple[str, Role, Array]]) -> Plot:
         return Plot(
-            slot=slot, title=title, x_label="time", x_unit="s", y_label=label, y_unit=unit, recording=run.name, use=use,
+            slot=slot, title=title, x_label="time", x_unit="s", y_label=label, y_unit=unit, recording=name, use=use,
             zoom=zoom, traces=tuple(Trace(name=n, role=r, x=time, y=y[kept]) for n, r, y in lines),
             shown=_shown(lines),
         )  # fmt: skip
 
-    driven = problem.drive.input
-    of_models = [(m.name, m.role, y) for m, y in zip(models, made, strict=True)]
-    of_errors = [(m.name, m.error, y) for m, y in zip(models, errors, strict=True) if m.error]
+    of_models = [(r.name, r.role, y) for r, y in zip(runs, made, strict=True)]
+    of_errors = [(r.name, r.error, y) for r, y in zip(runs, errors, strict=True) if r.error]
     return [
-        picture("response", f"{signal.capitalize()} in free run, {run.name}", signal, unit,
+        picture("response", f"{signal.capitalize()} in free run, {name}", signal, unit,
                 [("measured", "measured", measured), *of_models]),
-        picture("residual-time", f"Error of the {signal}, {run.name}", f"{signal} error", unit, of_errors),
-        picture("input", f"Input, {run.name}", driven, _unit(driven, linear=linear),
-                [("input", "reference", run.input)]),
+        picture("residual-time", f"Error of the {signal}, {name}", f"{signal} error", unit, of_errors),
+        picture("input", f"Input, {name}", compared.driven, unit_of(compared.driven, linear=linear),
+                [("input", "reference", compared.input)]),
     ]  # fmt: skip
 
 
-def _unit(signal: str, *, linear: bool) -> str:
+def unit_of(signal: str, *, linear: bool) -> str:
+    """The SI unit of a signal of a shaft, or of a linear axis."""
     entry = SIGNALS[signal]
     return (linear and entry.linear_unit) or entry.unit
 
 
 def _shows_most(errors: Sequence[Array], left_out: NDArray[np.bool_]) -> tuple[int, int]:
     """First sample and end of the stretch where the refitted model errs most beyond what is left in the end."""
-    refitted, last = errors[1], errors[-1]
+    refitted, last = (errors[1:] or errors)[0], errors[-1]
     more = refitted**2 - (last**2 if len(errors) > 2 else 0.0)
     more = np.where(np.isfinite(more) & ~left_out, more, 0.0)
     length = max(more.size // STRETCH, min(more.size, 50))

@@ -1,0 +1,139 @@
+"""The account of a mismatch and what remains, from fits and evidence that are written down."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rwn.decide import account as module
+from rwn.decide.account import ACTS, Account, Acting, Remainder, account, remainder
+from rwn.decide.calibration import calibration
+from rwn.decide.evidence import Evidence
+from rwn.simulate.run import Run
+
+CERTAIN = Evidence(share=0.999, unseen=0.99, part=0.999, odds=5000.0, curve=1.0)
+MODEL: Any = "the model"
+HELDOUT: Any = ["a run that was kept back"]
+WHITE = np.random.default_rng(3).standard_normal(400)
+SLOW = np.sin(0.02 * np.arange(400))
+
+
+def _ranked(*added: str, score: float = 0.0) -> Any:
+    return SimpleNamespace(added=added, score=score, final=f"fit of {added}")
+
+
+def _account(monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, Evidence]) -> tuple[Account, Any]:
+    """The account, and what the evidence was asked for."""
+    asked: dict[str, Any] = {"rivals": {}}
+
+    class Judge:
+        birge = 1.7
+
+        def __init__(self, _ranking: Any, leading: Any, heldout: Any, model: Any) -> None:
+            asked.update(leading=leading, heldout=heldout, model=model)
+
+        def evidence(self, name: str, rivals: Any) -> Evidence:
+            asked["rivals"][name] = rivals
+            return found[name]
+
+    monkeypatch.setattr(module, "Judge", Judge)
+    ranking: Any = SimpleNamespace(fits=fits, nothing_missing=next(f for f in fits if not f.added))
+    return account(ranking, HELDOUT, MODEL), asked
+
+
+def test_the_account_is_of_the_best_explanation_that_has_effects(monkeypatch: pytest.MonkeyPatch) -> None:
+    fits = [_ranked(score=5.0), _ranked("a", "b", score=4.0), _ranked("a", "c", score=3.0), _ranked("d", score=2.0)]
+    shares = {"a": replace(CERTAIN, share=0.2), "b": replace(CERTAIN, share=0.7)}
+    found, asked = _account(monkeypatch, fits, shares)
+    assert found.leading is fits[1]
+    assert asked["leading"] is fits[1]
+    assert (asked["heldout"], asked["model"]) == (HELDOUT, MODEL)
+    assert asked["rivals"] == {"a": set(), "b": {"c"}}
+    assert [(e.name, e.share, e.rivals) for e in found.effects] == [("b", 0.7, ("c",)), ("a", 0.2, ())]
+    assert [e.evidence for e in found.effects] == [shares["b"], shares["a"]]
+    assert found.effects[1].probability == calibration().probability(shares["a"])
+    assert found.birge == 1.7
+
+
+def test_where_no_effect_was_found_the_account_is_empty(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, asked = _account(monkeypatch, [_ranked()], {})
+    assert found.effects == found.stated == ()
+    assert not found.leading.added
+    assert asked["rivals"] == {}
+
+
+def _acting(name: str, together: float) -> Acting:
+    return Acting(name=name, probability=0.5 * together, together=together, share=0.5, evidence=CERTAIN, rivals=("z",))
+
+
+def test_names_not_told_apart_are_stated_together() -> None:
+    """More likely than not, it or one of these; by itself none need be."""
+    assert _acting("a", 0.8).stated
+    assert not _acting("a", 0.4).stated
+    assert not _acting("a", ACTS).stated
+    assert not Acting(name="a", probability=0.4, together=0.4, share=1.0, evidence=CERTAIN).rivals
+
+
+def test_what_was_kept_back_withdraws_what_is_stated_alone() -> None:
+    leading: Any = _ranked("a", "b")
+    found = Account(effects=(_acting("a", 0.9), _acting("b", 0.3)), leading=leading)
+    assert [e.name for e in found.stated] == ["a"]
+    assert found.birge == 1.0
+    withdrawn = found.withdrawn(["a"])
+    assert withdrawn.stated == ()
+    assert [(e.name, e.probability, e.together) for e in withdrawn.effects] == [("a", 0.0, 0.0), ("b", 0.15, 0.3)]
+    assert withdrawn.leading is leading
+
+
+@dataclass
+class _Problem:
+    """One run of one signal, where a fit is the residual that it leaves, in units of the noise."""
+
+    noise: dict[str, Any]
+    runs: tuple[Run, ...] = (Run(name="x", time=1e-3 * np.arange(400.0), input=np.zeros(400), speed=np.zeros(400)),)
+
+    def residuals(self, vector: np.ndarray, _active: Any) -> list[dict[str, np.ndarray]]:
+        return [{"speed": vector}]
+
+
+def _remainder(left: np.ndarray, nothing: np.ndarray) -> Remainder:
+    def fit(residual: np.ndarray) -> Any:
+        return SimpleNamespace(vector=residual, active=[])
+
+    none = SimpleNamespace(final=fit(nothing))
+    ranking: Any = SimpleNamespace(weighted=_Problem(noise={}), nothing_missing=none)
+    return remainder(ranking, fit(left))
+
+
+def _of(error: float, shape: np.ndarray = WHITE) -> np.ndarray:
+    return shape * np.sqrt(error / np.mean(shape**2))
+
+
+@pytest.mark.parametrize(
+    ("left", "nothing", "share"),
+    [
+        (3.0, 9.0, 0.25),  # 2 of 8 above the noise
+        (9.0, 9.0, 1.0),
+        (12.0, 9.0, 1.0),  # worse than nothing: all of it
+        (0.9, 9.0, 0.0),  # less than the noise: nothing
+        (0.9, 0.8, 0.0),
+        (1.5, 0.5, 1.0),
+    ],
+)
+def test_what_remains_is_counted_from_the_noise_up(left: float, nothing: float, share: float) -> None:
+    found = _remainder(_of(left), _of(nothing))
+    assert found.share == pytest.approx(share)
+    assert found.error == pytest.approx(left)
+
+
+def test_structure_in_what_remains_is_said_with_its_signal() -> None:
+    assert _remainder(_of(3.0, SLOW), _of(9.0)).signals == ("speed",)
+    assert _remainder(_of(3.0), _of(9.0, SLOW)).signals == ()
+
+
+def test_without_a_word_the_remainder_is_noise() -> None:
+    assert Remainder() == Remainder(share=0.0, error=1.0, signals=())
