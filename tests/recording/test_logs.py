@@ -163,6 +163,38 @@ def test_a_log_gives_the_recording_that_was_logged(kind: str, tmp_path: Path) ->
     np.testing.assert_allclose(read.signals["speed"], RADIANS, rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.parametrize(("kind", "module"), [("ROS 2 bag", "mcap"), ("TDMS", "tdms")])
+def test_more_samples_than_memory_is_meant_for_are_refused(
+    kind: str, module: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name, write, named, layout = LOGS[kind]
+    write(tmp_path / name)
+    monkeypatch.setattr(f"rwn.recording.formats.{module}.MAX_SAMPLES", TIME.size - 1)
+    with pytest.raises(InputError, match=r"80 samples are too many.*cut out the part"):
+        read_recording(tmp_path / named, layout=layout)
+
+
+def test_numbers_in_a_list_have_their_place_and_images_none(tmp_path: Path) -> None:
+    writer_of = _imported("mcap.writer").Writer
+    with (tmp_path / "a.mcap").open("wb") as file:
+        writer = writer_of(file)
+        writer.start()
+        channel = writer.register_channel("state", "json", writer.register_schema("State", "jsonschema", b"{}"))
+        for k in range(3):
+            writer.add_message(channel, k, json.dumps({"w": [k, {"fine": 2.0 * k}], "image": [0] * 99}).encode(), k)
+        writer.finish()
+    table = FORMATS[".mcap"](tmp_path / "a.mcap", {"state.w[0]", "state.w[1].fine"})
+    assert table.columns["state.w[1].fine"].tolist() == [0.0, 2.0, 4.0]
+    assert set(table.units) == {"time", "state.w[0]", "state.w[1].fine"}
+
+
+def test_channels_that_are_not_asked_for_are_named_and_not_read(tmp_path: Path) -> None:
+    _wpilog(tmp_path / "a.wpilog")
+    table = FORMATS[".wpilog"](tmp_path / "a.wpilog", {"voltage"})
+    assert set(table.columns) == {"time", "voltage"}
+    assert table.units == {"time": "s", "voltage": "volt", "speed": "rotation per second"}
+
+
 @pytest.mark.parametrize("ending", [".mcap", ".wpilog", ".tdms", pytest.param(".mf4", marks=pytest.mark.slow), ".json"])
 def test_a_damaged_log_is_refused_in_one_line(ending: str, tmp_path: Path) -> None:
     name, write, _, _ = next(log for log in LOGS.values() if log[0].endswith(ending))
