@@ -129,7 +129,9 @@ install-trust:
 # Lines and branches of Python; WHICH='not slow' leaves the long tests out.
 WHICH ?= slow or not slow
 coverage: install-trust
-	$(PY) -m coverage run --branch --source-pkgs=rwn -m pytest -q -m "$(WHICH)"
+	@mkdir -p build
+	$(PY) -m coverage run -m pytest -q -m "$(WHICH)"
+	$(PY) -m coverage combine -q
 	$(PY) -m coverage json -q -o build/coverage.json
 	$(TRUST).coverage build/coverage.json --which "$(WHICH)" $(PAGE)
 
