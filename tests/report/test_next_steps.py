@@ -24,7 +24,7 @@ def unexplained(**changed: object) -> Diagnosis:
 STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
     "a law over a signal": (
         unexplained(curves=(law(),)),
-        ("It is drawn over speed below.", "Nearest names, not stated: unbalance (31 %).", "Record again with more of the motion"),
+        ("It is drawn over speed below.", "Nearest names, not stated: unbalance (31 %).", "Record again with more"),
     ),
     "an experiment in its place": (
         unexplained(next_experiment="Turn it by hand.", curves=(), account=()),
@@ -45,7 +45,7 @@ STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
     ),
     "found, without a run of its own": (
         replace(made_up.found(), sources=made_up.SOURCES[:2]),
-        ("To tell it from", "corrected.toml holds the model with the effects that were found", "Keep one recording back"),
+        ("To tell it from", "corrected.toml holds the model with the effects", "Keep one recording back"),
     ),
     "too little motion": (
         replace(made_up.adequate(), verdict="insufficient-excitation"),
