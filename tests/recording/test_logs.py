@@ -174,20 +174,6 @@ def test_more_samples_than_memory_is_meant_for_are_refused(
         read_recording(tmp_path / named, layout=layout)
 
 
-def test_numbers_in_a_list_have_their_place_and_images_none(tmp_path: Path) -> None:
-    writer_of = _imported("mcap.writer").Writer
-    with (tmp_path / "a.mcap").open("wb") as file:
-        writer = writer_of(file)
-        writer.start()
-        channel = writer.register_channel("state", "json", writer.register_schema("State", "jsonschema", b"{}"))
-        for k in range(3):
-            writer.add_message(channel, k, json.dumps({"w": [k, {"fine": 2.0 * k}], "image": [0] * 99}).encode(), k)
-        writer.finish()
-    table = FORMATS[".mcap"](tmp_path / "a.mcap", {"state.w[0]", "state.w[1].fine"})
-    assert table.columns["state.w[1].fine"].tolist() == [0.0, 2.0, 4.0]
-    assert set(table.units) == {"time", "state.w[0]", "state.w[1].fine"}
-
-
 def test_channels_that_are_not_asked_for_are_named_and_not_read(tmp_path: Path) -> None:
     _wpilog(tmp_path / "a.wpilog")
     table = FORMATS[".wpilog"](tmp_path / "a.wpilog", {"voltage"})
