@@ -129,18 +129,33 @@ install-trust:
 # Lines and branches of Python; WHICH='not slow' leaves the long tests out.
 WHICH ?= slow or not slow
 coverage: install-trust
-	$(PY) -m coverage run --branch --source-pkgs=rwn -m pytest -q -m "$(WHICH)"
+	@mkdir -p build
+	$(PY) -m coverage run -m pytest -q -m "$(WHICH)"
+	$(PY) -m coverage combine -q
 	$(PY) -m coverage json -q -o build/coverage.json
 	$(TRUST).coverage build/coverage.json --which "$(WHICH)" $(PAGE)
 
-# Lines and branches of C++, with the kernels that any processor runs; a line of a template counts once.
-coverage-cpp: install-trust
-	cmake --preset dev -B build/coverage -DCMAKE_CXX_FLAGS="--coverage -O0" >/dev/null
-	cmake --build build/coverage -j $(JOBS) -- --quiet
-	build/coverage/rwn_tests --gtest_brief=1
-	$(PY) -m gcovr --root . --filter cpp/ --exclude cpp/tests/ --exclude-throw-branches --merge-lines \
-	  --json-summary build/coverage/found.json build/coverage
-	$(TRUST).coverage build/coverage/found.json --cpp --which "those of C++ alone" $(PAGE)
+# Lines and branches of C++, with the kernels that any processor runs, under the C++ tests and the Python tests of WHICH_CPP;
+# needs clang++ and llvm of one version: apt-get install clang-19 llvm-19 (LLVM= for the names without a number).
+LLVM ?= -19
+WHICH_CPP ?= not slow
+COVERED := build/coverage
+PROFILES := $(CURDIR)/$(COVERED)/profiles
+coverage-cpp: install-test install-trust
+	@command -v clang++$(LLVM) >/dev/null || { echo "coverage-cpp: no clang++$(LLVM): apt-get install clang$(LLVM) llvm$(LLVM)" >&2; exit 2; }
+	@$(PIP) pybind11 cmeel-eigen
+	cmake -G Ninja -B $(COVERED) -DCMAKE_CXX_COMPILER=clang++$(LLVM) -DCMAKE_BUILD_TYPE=Debug -DRWN_KERNELS_FOR=any \
+	  -DCMAKE_CXX_FLAGS="-O1 -fprofile-instr-generate -fcoverage-mapping" -DRWN_BUILD_TESTS=ON -DSKBUILD=ON \
+	  -DPython_EXECUTABLE=$(CURDIR)/$(PY) -Dpybind11_DIR=$$($(PY) -m pybind11 --cmakedir) >/dev/null
+	cmake --build $(COVERED) -j $(JOBS) -- --quiet
+	rm -rf $(COVERED)/python $(PROFILES) && cp -r python $(COVERED)/python
+	cp $(COVERED)/_core*.so $(COVERED)/python/rwn && cp $(COVERED)/_plant*.so $(COVERED)/python/rwn/studies/trials
+	for isa in baseline avx2 avx512; do RWN_ISA=$$isa LLVM_PROFILE_FILE=$(PROFILES)/$$isa $(COVERED)/rwn_tests --gtest_brief=1 || exit 1; done
+	LLVM_PROFILE_FILE=$(PROFILES)/python-%p PYTHONPATH=$(CURDIR)/$(COVERED)/python $(PY) -m pytest -q -p no:cacheprovider -m "$(WHICH_CPP)"
+	llvm-profdata$(LLVM) merge -sparse $(PROFILES)/* -o $(COVERED)/found.profdata
+	llvm-cov$(LLVM) export $(COVERED)/rwn_tests $$(printf -- '-object %s ' $(COVERED)/_*.so) \
+	  -instr-profile=$(COVERED)/found.profdata -ignore-filename-regex='cpp/tests|/usr/|site-packages' >$(COVERED)/found.json
+	$(TRUST).coverage $(COVERED)/found.json --cpp --which "those of C++, and of Python: $(WHICH_CPP)" $(PAGE)
 
 fuzz: install-trust
 	$(TRUST).fuzz $(TARGET) --seconds $(SECONDS) $(PAGE)

@@ -46,6 +46,20 @@ def test_coverage_counts_lines_and_branches(tmp_path: Path) -> None:
     assert "| fit | 10 | 90.0% | 4 | 50.0% |" in rows
     assert "| all | 20 | 70.0% | 4 | 50.0% |" in rows
     assert least.startswith("Most branches are not reached in fit/a.py (2 of 4)")
-    summary = {f"{kind}_{what}": 50 for kind in ("line", "function", "branch") for what in ("total", "percent")}
-    (tmp_path / "found.json").write_text(json.dumps(summary))
-    assert "| branches | 50 | 50.0% |" in of_cpp(tmp_path / "found.json")[0]
+
+
+def test_a_condition_of_a_template_counts_once(tmp_path: Path) -> None:
+    """Two instances of a template took one way each; a condition that only the compiler asks took none."""
+    branches = [[7, 3, 7, 9, 5, 0, 0, 0, 4], [7, 3, 7, 9, 0, 2, 0, 0, 4], [8, 3, 8, 9, 0, 0, 0, 0, 4]]
+    files = [
+        {"filename": f"/x/cpp/{name}", "summary": {"lines": {"count": 10, "covered": covered}}, "branches": found}
+        for name, covered, found in (
+            ("include/rwn/fit/a.hpp", 9, branches), ("src/fit/a.cpp", 10, []), ("kernels/b.cpp", 5, branches[:1]),
+        )
+    ]  # fmt: skip
+    (tmp_path / "found.json").write_text(json.dumps({"data": [{"files": files}]}))
+    rows, least = of_cpp(tmp_path / "found.json")
+    assert "| fit | 20 | 95.0% | 4 | 50.0% |" in rows
+    assert "| kernels | 10 | 50.0% | 2 | 50.0% |" in rows
+    assert "| all | 30 | 80.0% | 6 | 50.0% |" in rows
+    assert least.startswith("Most branches are not reached in include/rwn/fit/a.hpp (2 of 4)")

@@ -12,6 +12,7 @@ def _model(old: str, new: str) -> str:
     return MODEL.replace(old, new)
 
 
+LTI = '[motor]\nkind = "lti"\norder = 1\n'
 MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
     "empty model": ("", ("no table [motor]", 'kind = "dc"')),
     "not TOML": (_model("resistance = 0.81", "resistance = 0,81"), ("not valid TOML", "line 4")),
@@ -58,6 +59,20 @@ MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
     ),
     "effect without values": (MODEL + "[effects.coulomb-friction]\n", ("no coulomb_torque", "N m")),
     "unknown load": (MODEL + "[load.pendulm]\nmass = 1.0\n", ("'pendulm'", "did you mean 'pendulum'")),
+    "order of a motor": (_model('"dc"', '"dc"\norder = 2'), ("'order'", "[motor]")),
+    "pendulum on a transfer function": (
+        LTI + "[load.pendulum]\nmass = 1.0\nlength = 0.1\n",
+        ("without a shaft", "dc or axis", "[load.pendulum]"),
+    ),
+    "misspelt coefficients": (LTI + "denominater = [1.0, 2.0]\n", ("'denominater'", "did you mean 'denominator'")),
+    "coefficient that is no number": (
+        LTI + 'numerator = [1.0]\ndenominator = [1.0, "2"]\n',
+        ("denominator is [1.0, '2']", "highest power first"),
+    ),
+    "coefficients of another order": (
+        LTI + "numerator = [1.0]\ndenominator = [1.0, 2.0, 3.0]\n",
+        ("numerator has 1 and denominator 3", "1 to 1 and 2 for order 1"),
+    ),
     "weightless pendulum": (MODEL + "[load.pendulum]\nmass = 0.0\nlength = 0.1\n", ("mass is 0", "positive")),
     "map of an unknown signal": (
         MODEL + '[recording]\ncolumns.sped = { source = "x" }\n',
@@ -103,6 +118,12 @@ def test_missing_model(refuse: Refuse) -> None:
     line = refuse(csv_text(), None)
     assert "model.toml" in line
     assert "no such file" in line
+
+
+def test_a_recording_of_megabytes_given_as_model(refuse: Refuse) -> None:
+    line = refuse(csv_text(), "0.0,1.0\n" * 2**18)
+    assert "larger than 1 MB" in line
+    assert "was a recording given as --model?" in line
 
 
 def test_recording_given_as_model(refuse: Refuse) -> None:

@@ -9,6 +9,8 @@ import sys
 import pytest
 
 from command_line import Run
+from rwn.model.effect_search import effects_by_word
+from rwn.model.vocabulary import table
 
 
 @pytest.mark.parametrize(
@@ -62,3 +64,8 @@ def test_effects_prints_the_table(run: Run) -> None:
     code, out, _ = run("effects", "stribeck-friction")
     assert "stribeck_speed" in out
     assert "source:" in out
+
+
+def test_signs_alone_are_no_word() -> None:
+    assert effects_by_word("?! --", table()) == ()
+    assert effects_by_word("", table()) == ()

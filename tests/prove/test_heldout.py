@@ -58,6 +58,26 @@ def test_the_interval_of_a_gain_covers_it() -> None:
     assert high - low < 0.1
 
 
+def test_an_error_that_ran_away_has_no_gain_to_hope_for() -> None:
+    noise = np.random.default_rng(1).standard_normal(500)
+    for before, after in ((noise, 1e200 * noise), (1e200 * noise, noise)):
+        assert gain_interval(before, after, seed=0) == (-np.inf, -np.inf)
+
+
+@pytest.mark.parametrize(("samples", "judged"), [(900, False), (1100, True)])
+def test_the_driving_force_is_judged_where_the_filters_leave_samples(samples: int, judged: bool) -> None:
+    """Inverse dynamics filter the position at either end; a short recording has its free run alone."""
+    axis = rwn.Model(kind="axis", linear=True, parameters={"inertia": 95.0, "viscous_friction": 200.0})
+    time = 1e-3 * np.arange(samples)
+    given = rwn.Recording(name="run", time=time, linear=True, signals={"force": 50.0 * np.sin(20.0 * time)})
+    position = rwn.simulate(axis, given).signals["position"]
+    run = replace(given, signals={**given.signals, "position": position})
+    problem = prepare([run], axis)
+    nominal = problem.as_given()
+    rows = heldout_rows(problem, [judging_run(run, axis)], nominal, nominal, None, units={"position": "m"}, seed=0)
+    assert any(row.unit == "%" for row in rows) == judged
+
+
 def row(signal: str, before: float, after: float, interval: tuple[float, float], region: str = "all") -> HeldoutRow:
     return HeldoutRow(
         recording="run", region=region, signal=signal, unit="%" if signal == DRIVING_FORCE else "rad/s", samples=100,

@@ -49,3 +49,16 @@ def test_what_is_not_measured_has_no_delay(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace("delays.speed", "delays.voltage"))
     with pytest.raises(rwn.InputError, match="voltage"):
         rwn.read_model(path)
+
+
+def test_what_was_missing_is_missing_where_it_belongs_in_time() -> None:
+    lost = np.zeros(TIME.size, dtype=bool)
+    lost[100:103] = True
+    made = in_time(replace(RUN, missing={"speed": lost}), {"speed": 4e-3}).missing["speed"]
+    assert np.flatnonzero(made[:400]).tolist() == [96, 97, 98]
+
+
+def test_a_delay_is_reported_in_seconds() -> None:
+    found = Fault(name=SHIFT, signals=("speed",), meaning="", delay=-4, step=1e-3).found()
+    assert found.parameters["shift"].value == pytest.approx(-4e-3)
+    assert "factor" not in found.parameters

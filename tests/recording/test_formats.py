@@ -14,6 +14,7 @@ import scipy.io
 from rwn.errors import InputError
 from rwn.recording.columns import Column, Layout
 from rwn.recording.formats import FORMATS
+from rwn.recording.formats.nested import nested_table
 from rwn.recording.recording import Recording, read_recording
 
 TIME = np.arange(80) * 0.02
@@ -94,6 +95,26 @@ def test_a_format_gives_the_recording_that_was_written(kind: str, tmp_path: Path
     _as_meant(read_recording(tmp_path / f"run{ending}", layout=layout))
 
 
+@pytest.mark.parametrize(("kind", "module"), [("npz", "table"), ("parquet", "parquet"), ("mat 7", "mat")])
+def test_more_samples_than_memory_is_meant_for_are_refused(
+    kind: str, module: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ending, write, layout = WRITERS[kind]
+    write(tmp_path / f"run{ending}")
+    monkeypatch.setattr(f"rwn.recording.formats.{module}.MAX_SAMPLES", TIME.size)
+    _as_meant(read_recording(tmp_path / f"run{ending}", layout=layout))
+    monkeypatch.setattr(f"rwn.recording.formats.{module}.MAX_SAMPLES", TIME.size - 1)
+    with pytest.raises(InputError, match=r"80 samples are too many.*keep every k-th row"):
+        read_recording(tmp_path / f"run{ending}", layout=layout)
+
+
+def test_a_spreadsheet_that_is_too_large_is_not_unpacked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    _excel(tmp_path / "run.xlsx")
+    monkeypatch.setattr("rwn.recording.formats.excel.MAX_BYTES", 2**10)
+    with pytest.raises(InputError, match="export the sheet as CSV"):
+        read_recording(tmp_path / "run.xlsx")
+
+
 @pytest.mark.parametrize("ending", sorted(FORMATS))
 def test_what_is_no_such_file_is_refused_in_one_line(ending: str, tmp_path: Path) -> None:
     path = tmp_path / f"run{ending}"
@@ -153,6 +174,26 @@ def test_struct_arrays_and_matrices(tmp_path: Path) -> None:
     _as_meant(read_recording(tmp_path / "a.mat", layout=Layout(columns=columns)))
 
 
+def test_objects_and_cells_of_matlab_name_what_they_hold() -> None:
+    """As mat-io hands them over: an object has its properties, a cell array its elements by their number."""
+
+    class Log:
+        """An object of a class that is not known here."""
+
+        def __init__(self, **properties: Any) -> None:
+            self.properties = properties
+
+    cells, lone, deep = (np.empty(n, dtype=object) for n in (2, 1, 1))
+    cells[0], cells[1] = TIME, Log(w=RPM)
+    lone[0] = VOLTAGE
+    deep[0] = Log(a=Log(b=Log(c=Log(d=Log(e=Log(f=Log(g=VOLTAGE)))))))
+    content = {"log": Log(cells=cells, lone=lone), "deep": deep}
+    wanted = {"log.cells{1}", "log.cells{2}.w", "log.lone"}
+    table = nested_table("a.mat", content, content, wanted)
+    assert set(table.columns) == set(table.units) == wanted  # what lies deeper than a log does has no name
+    np.testing.assert_array_equal(table.columns["log.cells{2}.w"], RPM)
+
+
 def test_a_matrix_is_not_taken_for_a_signal(tmp_path: Path) -> None:
     scipy.io.savemat(tmp_path / "a.mat", {"M": np.ones((80, 2))})
     with pytest.raises(InputError, match=r"shape \(80, 2\).*'M\(:,1\)'"):
@@ -183,6 +224,16 @@ def _pandas_with_an_index() -> Any:
     return frame
 
 
+def _pandas_with_a_named_index() -> Any:
+    frame = _pandas()
+    return frame.set_index("time [s]")
+
+
+def _pandas_with_dates() -> Any:
+    instants = np.datetime64("2026-03-01T12:00:00", "ms") + np.round(1e3 * TIME).astype("timedelta64[ms]")
+    return _imported("pandas").DataFrame({**NAMED, "time [s]": instants}).rename(columns={"time [s]": "time"})
+
+
 def _polars() -> Any:
     return _imported("polars").DataFrame(NAMED)
 
@@ -202,6 +253,8 @@ def _xarray() -> Any:
 OBJECTS: dict[str, Callable[[], Any]] = {
     "pandas": _pandas,
     "pandas with times as its index": _pandas_with_an_index,
+    "pandas with a named index": _pandas_with_a_named_index,
+    "pandas with dates": _pandas_with_dates,
     "polars": _polars,
     "pyarrow": _pyarrow,
     "xarray": _xarray,
@@ -225,6 +278,7 @@ def test_tables_in_python_are_read_as_files_are(kind: str) -> None:
         ({"time [s]": TIME, "voltage [V]": VOLTAGE[:5]}, "5 samples"),
         ({"time [s]": TIME, "voltage": VOLTAGE}, "'voltage' has no unit"),
         ({"time [s]": TIME, "voltage [V]": ["a"] * 80}, "real numbers"),
+        ({"time [s]": TIME, "speed [rpm]": RPM, "speed [rad/s]": RPM}, "two columns are called 'speed'"),
         ({"time [s]": TIME, "speed [rpm]": np.where(TIME[7] == TIME, np.nan, RPM)}, "sample 8: speed is nan"),
     ],
 )

@@ -163,6 +163,24 @@ def test_a_log_gives_the_recording_that_was_logged(kind: str, tmp_path: Path) ->
     np.testing.assert_allclose(read.signals["speed"], RADIANS, rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.parametrize(("kind", "module"), [("ROS 2 bag", "mcap"), ("TDMS", "tdms")])
+def test_more_samples_than_memory_is_meant_for_are_refused(
+    kind: str, module: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name, write, named, layout = LOGS[kind]
+    write(tmp_path / name)
+    monkeypatch.setattr(f"rwn.recording.formats.{module}.MAX_SAMPLES", TIME.size - 1)
+    with pytest.raises(InputError, match=r"80 samples are too many.*cut out the part"):
+        read_recording(tmp_path / named, layout=layout)
+
+
+def test_channels_that_are_not_asked_for_are_named_and_not_read(tmp_path: Path) -> None:
+    _wpilog(tmp_path / "a.wpilog")
+    table = FORMATS[".wpilog"](tmp_path / "a.wpilog", {"voltage"})
+    assert set(table.columns) == {"time", "voltage"}
+    assert table.units == {"time": "s", "voltage": "volt", "speed": "rotation per second"}
+
+
 @pytest.mark.parametrize("ending", [".mcap", ".wpilog", ".tdms", pytest.param(".mf4", marks=pytest.mark.slow), ".json"])
 def test_a_damaged_log_is_refused_in_one_line(ending: str, tmp_path: Path) -> None:
     name, write, _, _ = next(log for log in LOGS.values() if log[0].endswith(ending))

@@ -28,3 +28,9 @@ def test_the_decimals_of_a_file_are_no_steps() -> None:
     rng = np.random.default_rng(0)
     assert quantum(np.round(100.0 * rng.standard_normal(4000), 3)) == 0.0
     assert quantum(100.0 * rng.standard_normal(4000)) == 0.0
+
+
+def test_a_handful_of_samples_says_nothing_about_steps() -> None:
+    stairs = 0.25 * np.arange(20.0)
+    assert quantum(np.repeat(stairs, 4)) == pytest.approx(0.25)
+    assert quantum(stairs[:19]) == 0.0

@@ -48,3 +48,7 @@ def test_too_few_samples_are_left_as_they_are() -> None:
     few = np.array([1.0, 2.0, 4.0, 3.0])
     np.testing.assert_array_equal(smooth(few, 31), few)
     np.testing.assert_array_equal(smooth(few, 31, derivative=1), np.zeros(4))
+
+
+def test_what_is_shorter_than_the_longest_window_is_taken_whole() -> None:
+    assert smoothing_length(RNG.standard_normal(LENGTHS[0])) == LENGTHS[0]

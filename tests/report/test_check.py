@@ -32,3 +32,13 @@ def test_a_start_in_motion_lost_rows_and_spikes_are_said() -> None:
     assert any("starts in motion" in line for line in lines)
     assert any("3 rows are missing" in line for line in lines)
     assert any("2 single samples of the speed" in line and "left out" in line for line in lines)
+
+
+def test_a_speed_that_is_a_difference_of_positions_is_said_to_be_one() -> None:
+    clean = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
+    position = np.cumsum(clean.signals["speed"]) * 1e-3
+    for window in (1, 8):
+        counted = np.round(position * 4000 / (2 * np.pi)) * 2 * np.pi / 4000
+        late = np.concatenate([np.zeros(window), counted[:-window]])
+        recording = replace(clean, signals={**clean.signals, "speed": (counted - late) / (window * 1e-3)})
+        assert any("the speed is a difference of positions" in line for line in checked([recording], MODEL))

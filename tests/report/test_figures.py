@@ -7,6 +7,9 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
+from rwn.report.plot import Plot, Trace
+from rwn.report.plot_text import in_words
+from rwn.report.plots import figure
 from rwn.report.thinning import MOST_POINTS, thin_cloud, thin_line, worth_seeing
 
 
@@ -45,6 +48,27 @@ def test_one_outlier_does_not_flatten_a_law() -> None:
     low, high = worth_seeing(points, law) or (0.0, 0.0)
     assert -0.01 < low < -4.5e-3
     assert 4.5e-3 < high < 0.01
+
+
+def test_points_without_a_line_have_their_range_and_nothing_has_none() -> None:
+    points = np.append(np.linspace(-1.0, 1.0, 2000), 50.0)
+    low, high = worth_seeing(points, np.array([np.nan])) or (0.0, 0.0)
+    assert -1.5 < low < -0.9
+    assert 0.9 < high < 1.5
+    assert worth_seeing(np.array([np.nan]), np.array([1.0])) is None
+
+
+def test_a_line_that_left_the_finite_numbers_is_drawn_and_said_as_one_without_values() -> None:
+    """A model that runs away beside nothing that was recorded in the stretch that is looked at."""
+    t = np.linspace(0.0, 1.0, 50)
+    gone = Trace(name="simulated", role="corrected", x=t, y=np.full(50, np.nan))
+    plot = Plot(
+        slot="response", title="run", x_label="time", x_unit="s", y_label="speed", y_unit="rad/s", traces=(gone,),
+        recording="run", zoom=(0.2, 0.4),
+    )  # fmt: skip
+    assert "simulated (line) without values" in in_words([plot])
+    axes = [axis for name, axis in figure([plot])["layout"].items() if name.startswith("yaxis")]
+    assert all(np.isfinite(axis.get("range", [0.0])).all() for axis in axes)
 
 
 @pytest.mark.slow

@@ -4,6 +4,7 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -95,6 +96,36 @@ def test_text_of_the_user_cannot_break_the_page(tmp_path: Path) -> None:
     plot = replace(found.curves[0], title=evil, traces=(replace(found.curves[0].traces[0], name=evil),))
     body = _body(_text(replace(found, curves=(plot,), warnings=(evil,), command=evil), tmp_path))
     assert "<script>alert" not in body
+
+
+@pytest.mark.parametrize(
+    ("changed", "said", "unsaid"),
+    [
+        ({"adequate_probability": None}, "noise floor of that signal", "probability that nothing is missing"),
+        ({"heldout": ()}, "probability that nothing is missing", "noise floor of that signal"),
+    ],
+)
+def test_facts_that_are_not_known_take_no_place(
+    changed: dict[str, Any], said: str, unsaid: str, tmp_path: Path
+) -> None:
+    body = _body(_text(replace(made_up.adequate(), **changed), tmp_path))
+    assert said in body
+    assert unsaid not in body
+
+
+def test_an_error_without_a_noise_floor_has_no_fact_of_it(tmp_path: Path) -> None:
+    found = made_up.adequate()
+    rows = (replace(found.heldout[0], noise_floor=None),)
+    assert "noise floor of that signal" not in _body(_text(replace(found, heldout=rows), tmp_path))
+
+
+def test_a_recording_without_a_stretch_that_shows_most_is_drawn_whole_alone(tmp_path: Path) -> None:
+    found = made_up.found()
+    whole = tuple(replace(plot, zoom=None) for plot in found.curves)
+    assert "Close-up: " in _body(_text(found, tmp_path))
+    body = _body(_text(replace(found, curves=whole), tmp_path))
+    assert "Whole recording" in body
+    assert "Close-up: " not in body
 
 
 def test_missing_numbers_are_dashes() -> None:

@@ -46,6 +46,11 @@ def test_equal_means_the_same_curves_too() -> None:
     assert found != replace(again, curves=(replace(plot, traces=(other, *plot.traces[1:])), *again.curves[1:]))
 
 
+def test_it_is_equal_to_nothing_else() -> None:
+    assert made_up.found() != "missing-physics"
+    assert made_up.found() != made_up.found().to_json()
+
+
 def test_it_can_be_pickled_with_its_corrected_model() -> None:
     found = replace(made_up.found(), corrected=rwn.read_model(DEMO / "model.toml"))
     assert pickle.loads(pickle.dumps(found)) == found

@@ -6,13 +6,16 @@ import io
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 import made_up
+from rwn.model.vocabulary import table
 from rwn.report.diagnosis import Diagnosis
+from rwn.report.effect_text import lines as effect_lines
 from rwn.report.progress import Progress, remaining
-from rwn.report.terminal import lines
+from rwn.report.terminal import lines, print_verdict
 
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -30,6 +33,25 @@ def test_the_account_the_findings_and_the_filters_are_said() -> None:
     assert re.search(r"No name here +█{20} +100 % +of the speed", said)
     assert "train_1.csv: 3 single samples of the speed are far off those beside them; left out" in said
     assert "first-order filter of 2.70 ± 0.10 ms" in said
+
+
+def test_warnings_are_kept_apart_from_what_may_be_piped(capsys: pytest.CaptureFixture[str]) -> None:
+    print_verdict(replace(made_up.found(), warnings=("a gap of 4 samples",)), Path("out"))
+    said = capsys.readouterr()
+    assert said.err == "warning: a gap of 4 samples\n"
+    assert said.out.startswith("The model lacks")
+    assert said.out.endswith("Report: out/report.html\n")
+
+
+@pytest.mark.parametrize("width", [70, 100])
+def test_a_list_of_effects_is_as_wide_as_the_terminal(width: int) -> None:
+    effects = list(table().values())
+    listed = list(effect_lines(effects, width=width))
+    assert [entry.split()[0] for entry in listed] == [effect.name for effect in effects]
+    rows = [row for entry in listed for row in entry.split("\n")]
+    assert max(map(len, rows)) <= width
+    assert len(rows) > len(effects)
+    assert "\n" not in "".join(effect_lines(effects))  # piped: a line each
 
 
 def test_names_agree_with_the_headline() -> None:

@@ -29,6 +29,9 @@ from rwn.report.sentences import before_after, headline, verdict_sentence
         (250.0, "rad/s", None, "250 rad/s"),
         (4.2e-5, "s", (4.1e-5, 4.3e-5), "42.0 ± 1.0 µs"),
         (0.43, "1", (0.38, 0.48), "0.43 ± 0.05"),
+        (0.43, "1", (0.43, 0.43), "0.430"),
+        (20.4, "N", (-math.inf, math.inf), "20.4 N"),
+        (math.nan, "N", None, "– N"),
     ],
 )
 def test_estimates_read_well(value: float, unit: str, interval: tuple[float, float] | None, text: str) -> None:
@@ -149,6 +152,40 @@ def test_a_place_is_said_in_words() -> None:
     )
     assert "from 403 rad/s² to 6500 rad/s²" in words.located([fast], [], linear=False)
     assert words.located([replace(fast, share=0.2)], [], linear=False) == ""
+
+
+@pytest.mark.parametrize(
+    ("coordinate", "low", "high", "said"),
+    [
+        ("direction", 0.0, 1.0, "in forward motion"),
+        ("direction", -1.0, 0.0, "in backward motion"),
+        ("angle", 0.0, math.pi / 2.0, "between 0° and 90° of a turn"),
+        ("time", 1.33, 1.67, "from 1.33 s to 1.67 s"),
+    ],
+)
+def test_directions_angles_and_times_are_said_in_their_own_words(
+    coordinate: str, low: float, high: float, said: str
+) -> None:
+    unit = "s" if coordinate == "time" else "rad"
+    region = Region(coordinate=coordinate, low=low, high=high, unit=unit, share=0.9, samples_share=0.2)
+    assert words.region_in_words(region) == said
+
+
+def test_a_correction_that_changes_nothing_is_not_given_two_numbers() -> None:
+    found = made_up.found()
+    same = replace(found.heldout[0], corrected=found.heldout[0].refitted, gain=1e-4)
+    said = verdict_sentence(replace(found, heldout=(same,)))
+    assert "changes nothing in the speed error on heldout_1.csv, not used for fitting, 6.31 rad/s" in said
+    assert "something larger is off there" in said
+
+
+def test_without_a_run_to_prove_it_on_no_error_is_said() -> None:
+    assert "error" not in verdict_sentence(replace(made_up.found(), heldout=()))
+
+
+def test_a_mistake_that_could_not_be_undone_says_nothing_beneath_it() -> None:
+    said = verdict_sentence(replace(made_up.mistake(), beneath=None))
+    assert said == "The recordings hold a mistake: speed in rpm taken for rad/s."
 
 
 def test_parameters_have_the_symbol_of_their_law() -> None:

@@ -114,3 +114,22 @@ def test_no_measured_signal_drives_a_free_run(name: str) -> None:
     )
     for k in free:
         np.testing.assert_array_equal(free[k], held[k])
+
+
+def test_a_transfer_function_without_values_is_not_simulated() -> None:
+    run = rwn.Recording(name="run", time=STEP * np.arange(99), signals={"voltage": np.ones(99)})
+    with pytest.raises(rwn.InputError, match=r"the model has no values.*numerator and denominator.*rwn identify"):
+        rwn.simulate(Model(kind="lti", order=2, parameters={}), run)
+
+
+def test_a_pendulum_hangs_where_the_motor_holds_it() -> None:
+    """Under a voltage that stalls it, Kt U / R = m g l sin(angle)."""
+    load = {"pendulum": {"mass": 0.2, "length": 0.1}}
+    model = Model(kind="dc", parameters={**MOTOR, "coulomb_friction": 0.0, "viscous_friction": 2e-2}, load=load)
+    time = 2e-3 * np.arange(4000)
+    run = rwn.Recording(name="hold", time=time, signals={"voltage": np.full(time.size, 9.0)})
+    angle = rwn.simulate(model, run).signals["position"][-1]
+    held = MOTOR["torque_constant"] * 9.0 / MOTOR["resistance"]
+    assert held == pytest.approx(0.2 * 9.80665 * 0.1 * np.sin(angle), rel=1e-3)
+    free = rwn.simulate(replace(model, load={}), run).signals["position"][-1]
+    assert free > 8.0 * np.pi

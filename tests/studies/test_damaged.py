@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import hashlib
 import json
+import os
 import zlib
 from pathlib import Path
 
@@ -56,3 +57,18 @@ def test_a_page_that_is_a_folder_is_refused(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     with pytest.raises(InputError, match="this is a folder"):
         thesis.table_20(page=tmp_path)
+
+
+def test_a_pipe_is_refused_before_it_is_read(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "answer.json")
+    said = r"answer\.json: this is not a regular file"
+    with pytest.raises(InputError, match=said), reading(tmp_path / "answer.json"):
+        pytest.fail("it would wait for ever")
+
+
+def test_a_file_that_the_system_refuses_says_so_itself(tmp_path: Path) -> None:
+    """The command line words these: no such file, permission denied."""
+    with pytest.raises(FileNotFoundError), reading(tmp_path):
+        (tmp_path / "nowhere.json").read_text()
+    with pytest.raises(InputError, match="this cannot be read"), reading(tmp_path):
+        raise OSError("a damaged archive")

@@ -25,6 +25,8 @@ LAWS: dict[str, Values] = {
     "drag": {"quadratic_drag": 2e-6, "cubic_drag": 1e-9},
     "shaft": {"load_inertia": 1e-4, "load_viscous": 1e-5, "stiffness": 3.0, "damping": 2e-3},
     "disturbance": {"load_torque": 0.05, "load_start": 0.25, "load_end": 0.45},
+    "limit": {"voltage_limit": 9.0},
+    "periodic": {"periodic_amplitude": 0.05, "periodic_frequency": 7.0, "periodic_phase": 0.6},
     "supply": {"voltage_limit": 9.0, "supply_resistance": 0.3},
 }
 
@@ -69,3 +71,19 @@ def test_a_step_gives_the_states_within_it() -> None:
     assert np.all(np.diff([state[1] for state in states]) > 0.0)
     judge.wait()
     assert judge.state()[1] > states[-1][1]
+
+
+def test_mujoco_limits_a_command_and_pushes_in_time() -> None:
+    """A supply that does not sag is a limit of the model's own; a torque of time comes from outside."""
+    mujoco = pytest.importorskip("mujoco", reason="the extra 'judges' (MuJoCo 4) is not installed")
+    assert JUDGES["mujoco"].missing() == ""
+    limited = mujoco.MjModel.from_xml_string(mjcf.model(MOTOR | {"voltage_limit": 9.0}, 1e-4))
+    assert limited.actuator_ctrlrange.tolist() == [[-9.0, 9.0]]
+    sagging = mujoco.MjModel.from_xml_string(mjcf.model(MOTOR | LAWS["supply"], 1e-4))
+    assert not sagging.actuator_ctrllimited.any()
+
+
+def test_a_judge_that_cannot_run_here_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rwn.studies.trials.judges.mujoco.find_spec", lambda _: None)
+    assert "pip install 'rwn[judges]'" in JUDGES["mujoco"].missing()
+    assert JUDGES["plant"].missing() == ""

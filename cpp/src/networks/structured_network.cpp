@@ -142,11 +142,6 @@ void StructuredRun::shift(const Vector& change) {
   }
 }
 
-bool StructuredRun::finite() const {
-  const auto good = [](double x) { return std::isfinite(x); };
-  return std::all_of(linear_.begin(), linear_.end(), good) && std::all_of(network_.begin(), network_.end(), good);
-}
-
 void check(const StructuredSignals& signals) {
   if (signals.input.size() != signals.speed.size() || signals.speed.size() < 2) {
     throw std::invalid_argument("input and speed: expected two arrays of one length, at least 2 samples; got " +

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <vector>
 
@@ -49,6 +50,47 @@ TEST(Formula, ProgramsThatDoNotWorkOutAreRefused) {
   refused({own(-1)});
   refused({variable(static_cast<Variable>(7))});
   refused(std::vector<Instruction>(formula_depth + 1, number(1.0)));
+}
+
+TEST(Formula, OperationsOfTwoTakeTheirValueAndItsSlopes) {
+  const S w = S::variable(11.0, 2), i = S::variable(0.7, 3);
+  const auto of = [](Steps left, const Steps& right, Operation operation) {
+    left.insert(left.end(), right.begin(), right.end());
+    left.push_back(op(operation));
+    return value(left);
+  };
+  const Steps speed{variable(Variable::speed)}, current{variable(Variable::current)}, two{number(2.0)}, three{number(3.0)};
+  const Steps lost{number(-1.0), op(Operation::log)};  // not a number
+  expect_equal(of(speed, current, Operation::min), i);
+  expect_equal(of(current, speed, Operation::min), i);
+  expect_equal(of(speed, current, Operation::max), w);
+  expect_equal(of(current, speed, Operation::max), w);
+  expect_equal(of(speed, current, Operation::multiply), w * i);
+  expect_equal(of(speed, two, Operation::power), w * w);
+  expect_equal(of(speed, three, Operation::power), w * w * w);
+  for (const Operation operation : {Operation::min, Operation::max}) {
+    EXPECT_TRUE(std::isnan(of(speed, lost, operation).v));
+    EXPECT_TRUE(std::isnan(of(lost, speed, operation).v));
+  }
+  Steps exponent{variable(Variable::speed), own(1), op(Operation::power)};  // an exponent of 2 that has a slope
+  EXPECT_NEAR(value(exponent).v, 121.0, 1e-12);
+  EXPECT_NEAR(value(exponent).d[1], 121.0 * std::log(11.0), 1e-10);
+  EXPECT_NEAR(value(exponent).d[2], 22.0, 1e-12);
+}
+
+TEST(Formula, SignsAndDirectionsGoBothWays) {
+  for (const double speed : {-3.0, 0.0, 3.0}) {
+    const double sign = (speed > 0.0) - (speed < 0.0);
+    Motion<double> x;
+    x.speed = speed;
+    x.direction = 0.0;  // nobody keeps it
+    EXPECT_EQ(direction_of(x), sign);
+    x.direction = -1.0;  // kept by dry friction
+    EXPECT_EQ(direction_of(x), -1.0);
+    EXPECT_EQ(value({number(speed), op(Operation::sign)}).v, sign);
+    EXPECT_EQ(value({number(speed), op(Operation::abs)}).v, std::abs(speed));
+  }
+  EXPECT_TRUE(std::isnan(value({number(-1.0), op(Operation::log), op(Operation::sign)}).v));
 }
 
 TEST(Formula, CurvesAreAnnouncedAndChangeNothing) {

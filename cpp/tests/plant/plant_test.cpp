@@ -174,6 +174,33 @@ TEST(Plant, RefusesAMachineWithoutSense) {
   p.load_inertia = 2.0 * p.inertia;
   EXPECT_THROW(Plant(p, sample_time, 5.0, fine, fineness), std::invalid_argument);
   EXPECT_THROW(Plant(motor(), 0.0, 5.0, fine, fineness), std::invalid_argument);
+  EXPECT_THROW(Plant(motor(), sample_time, 5.0, 0, fineness), std::invalid_argument);
+  EXPECT_THROW(Plant(motor(), sample_time, 5.0, fine, 0.0), std::invalid_argument);
+  p = motor();
+  p.inductance = 0.0;
+  EXPECT_THROW(Plant(p, sample_time, 5.0, fine, fineness), std::invalid_argument);
+  p = motor();
+  p.delay = -1e-3;
+  EXPECT_THROW(Plant(p, sample_time, 5.0, fine, fineness), std::invalid_argument);
+  p = motor();
+  p.wander_torque = 0.01;
+  p.wander_time = 0.0;
+  EXPECT_THROW(Plant(p, sample_time, 5.0, fine, fineness), std::invalid_argument);
+}
+
+TEST(Plant, FrictionHoldsInTheDirectionsThatHaveSome) {
+  // 0.4 V turn a motor of 0.0135 N m stall torque; a level of 0.02 N m holds it.
+  for (const bool forward : {false, true}) {
+    PlantParameters p = motor();
+    (forward ? p.coulomb_plus : p.coulomb_minus) = 0.02;
+    EXPECT_EQ(after(p, forward ? 0.4 : -0.4, 200).speed, 0.0);
+    EXPECT_GT(std::abs(after(p, forward ? -0.4 : 0.4, 200).speed), 1.0);
+  }
+  PlantParameters p = motor();
+  p.stribeck_excess = 0.02;  // at standstill alone
+  p.stribeck_speed = 2.0;
+  EXPECT_EQ(after(p, 0.4, 200).speed, 0.0);
+  EXPECT_NEAR(after(p, 1.0, 800).speed, after(motor(), 1.0, 800).speed, 1e-3);
 }
 
 }  // namespace

@@ -72,7 +72,6 @@ class StructuredRun {
   double speed() const { return linear(kX1); }
   /// Moves parameters and state together: theta += change, x += (dx/dtheta) change.
   void shift(const Vector& change);
-  bool finite() const;
 
  private:
   std::size_t at(int row, Eigen::Index j) const;

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.formats.table import MAX_SAMPLES, Table, table_of, too_long, vector
+from rwn.recording.formats.table import Table, table_of, vector
 from rwn.recording.signals import TIME
 
 Array = NDArray[np.float64]
@@ -39,8 +39,6 @@ def table_of_channels(
     told = {name: vector(where, name, channel.values) for name, channel in used.items()}
     longest = max(used, key=lambda name: len(told[name]))
     rows = used[longest].instants
-    if rows.size > MAX_SAMPLES:
-        raise too_long(where, rows.size)
     begins = max((channel.instants[0] if channel.instants.size else np.inf) for channel in used.values())
     kept = (rows >= begins) & (np.diff(rows, append=np.inf) > 0.0)
     rows = rows[kept]

@@ -151,11 +151,8 @@ def closed_loop(values: Mapping[str, float], servo: Servo, gain: float) -> Array
     ripple = [values.get(name, 0.0) for name in ("cogging", "cogging_order", "cogging_phase")]
     q, w = float(servo.position[0]) - offset, 0.0
     shown = np.empty(servo.time.size)
-    for k in range(servo.time.size):
-        shown[k] = q + offset
-        if k + 1 == servo.time.size:
-            break
-        span = float(servo.time[k + 1] - servo.time[k])
+    shown[0] = q + offset
+    for k, span in enumerate(np.diff(servo.time).tolist()):
         steps = max(1, round(span / SUBSTEP))
         h = span / steps
         bus = SUPPLY if gain == AUTHORS_GAIN else float(servo.bus[k])
@@ -168,6 +165,7 @@ def closed_loop(values: Mapping[str, float], servo: Servo, gain: float) -> Array
             limit = friction_level(values, motor, external, w)
             w += (motor + external - math.copysign(min(abs(stop), limit), stop)) / inertia * h
             q += w * h
+        shown[k + 1] = q + offset
     return shown
 
 

@@ -1,0 +1,71 @@
+"""What to do next is the first thing that the verdict leaves to do."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+import made_up
+from made_up_curves import law
+from rwn.report.diagnosis import Diagnosis
+from rwn.report.diagnosis_data import Beneath
+from rwn.report.next_steps import next_steps
+
+NEW = {"next_experiment": ""}
+
+
+def unexplained(**changed: object) -> Diagnosis:
+    """Something without a name, with no experiment that is known to tell."""
+    return replace(made_up.unexplained(), **{**NEW, **changed})  # type: ignore[arg-type]
+
+
+# the diagnosis, the beginning of each sentence in turn
+STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
+    "a law over a signal": (
+        unexplained(curves=(law(),)),
+        ("It is drawn over speed below.", "Nearest names, not stated: unbalance (31 %).", "Record again with more"),
+    ),
+    "an experiment in its place": (
+        unexplained(next_experiment="Turn it by hand.", curves=(), account=()),
+        ("Turn it by hand.",),
+    ),
+    "nothing near, nowhere in particular": (
+        unexplained(curves=(), account=(), location=replace(made_up.unexplained().location, regions=())),
+        (),
+    ),
+    "a network in its place": (
+        unexplained(curves=(), account=(), stand_in="a torque over angle"),
+        ("Record again", "corrected.toml holds the model with what stands for it: `rwn simulate"),
+    ),
+    "adequate": (made_up.adequate(), ("corrected.toml holds the model with the refitted parameters", "What these")),
+    "adequate, with an experiment": (
+        replace(made_up.adequate(), next_experiment="Reverse slowly."),
+        ("Reverse slowly.", "corrected.toml", "What these"),
+    ),
+    "found, without a run of its own": (
+        replace(made_up.found(), sources=made_up.SOURCES[:2]),
+        ("To tell it from", "corrected.toml holds the model with the effects", "Keep one recording back"),
+    ),
+    "too little motion": (
+        replace(made_up.adequate(), verdict="insufficient-excitation"),
+        ("Record a run that moves both ways",),
+    ),
+    "a mistake": (made_up.mistake(), ("Correct the recording, or the columns",)),
+    "a mistake that was not undone": (replace(made_up.mistake(), beneath=None), ("Correct the recording",)),
+    "a mistake with physics beneath": (
+        replace(
+            made_up.mistake(), beneath=Beneath(verdict="missing-physics", set=("a", "b")), next_experiment="Brake it."
+        ),
+        ("Correct the recording", "To tell the rivals apart: Brake it.", "What is said beneath the mistake"),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", STEPS)
+def test_what_to_do_next(case: str) -> None:
+    found, begins = STEPS[case]
+    said = next_steps(found)
+    assert len(said) == len(begins), said
+    for sentence, begin in zip(said, begins, strict=True):
+        assert sentence.startswith(begin)
