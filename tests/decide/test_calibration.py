@@ -44,6 +44,22 @@ def test_what_is_not_known_counts_as_usual() -> None:
     assert MADE.probability_by(**without) == pytest.approx(MADE.probability(usual))
 
 
+def test_each_feature_counts_by_its_weight_from_its_mean_in_deviations() -> None:
+    """Of log-odds 1 each, and odds and curve of 1: 0.3 + sum of weight (1 - mean) / deviation."""
+    made = Calibration(intercept=0.3, weights=(0.1, -0.2, 0.3, 0.4, -0.5), means=(0.2, 0.5, 2.0, -1.0, 3.0),
+                       deviations=(2.0, 0.5, 4.0, 1.5, 2.5))  # fmt: skip
+    one = np.e / (1.0 + np.e)
+    found = Evidence(share=one, unseen=one, part=one, odds=float(np.sinh(1.0)), curve=1.0)
+    terms = {"share": 0.04, "unseen": -0.2, "part": -0.075, "odds": 0.8 / 1.5, "curve": 0.4}
+
+    def logistic(z: float) -> float:
+        return float(1.0 / (1.0 + np.exp(-z)))
+
+    assert made.probability(found) == pytest.approx(logistic(0.3 + sum(terms.values())))
+    for name, term in terms.items():
+        assert made.probability_by(**{name: getattr(found, name)}) == pytest.approx(logistic(0.3 + term))
+
+
 @pytest.mark.parametrize("name", FEATURES)
 def test_more_evidence_of_any_kind_does_not_make_an_effect_less_likely(name: str) -> None:
     """Of the calibration that comes with rwn."""
@@ -70,7 +86,8 @@ def ranked(*fits: tuple[tuple[str, ...], float]) -> Any:
 
 
 def test_rivals_take_the_place_of_one_effect_beside_the_same_others() -> None:
-    ranking = ranked((("a", "b"), 10.0), (("a", "c"), 9.0), (("c", "b"), 8.5), (("d",), 9.9), (("a", "b", "e"), 9.9))
+    more = [(("a", "b", "e"), 9.9), (("a", "e", "f"), 9.8), (("b", "f", "g"), 9.8)]
+    ranking = ranked((("a", "b"), 10.0), (("a", "c"), 9.0), (("c", "b"), 8.5), (("d",), 9.9), *more)
     leading = ranking.fits[0]
     assert _rivals(ranking, leading, "b", {}) == {"c": pytest.approx(np.exp(-1.0))}
     assert _rivals(ranking, leading, "a", {}) == {"c": pytest.approx(np.exp(-1.5))}

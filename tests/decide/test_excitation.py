@@ -45,6 +45,40 @@ def test_what_a_recording_does_not_show_is_said(speed: np.ndarray, voltage: np.n
     assert said.endswith(f"; these recordings show {' and '.join(lacks)}." if lacks else "with pauses at standstill.")
 
 
+def levels(*speeds: float) -> np.ndarray:
+    """Equally long stretches of each speed, in both directions."""
+    each = TIME.size // (2 * len(speeds))
+    return np.concatenate([np.repeat(x, each) for x in (*speeds, *(-x for x in speeds))])
+
+
+@pytest.mark.parametrize(("factor", "one_speed"), [(1.2, True), (1.28, True), (1.32, False), (1.5, False)])
+def test_speeds_that_differ_by_a_third_are_several(factor: float, one_speed: bool) -> None:
+    assert missing([run(levels(50.0, 50.0 * factor), TURNS)]) == (["one speed only"] if one_speed else [])
+
+
+@pytest.mark.parametrize(("share", "one_speed"), [(0.08, True), (0.12, False)])
+def test_a_tenth_of_the_time_at_another_speed_counts(share: float, one_speed: bool) -> None:
+    some = np.where(np.arange(TIME.size) % 100 < 100 * share, 20.0, 50.0) * np.sign(TURNS + 1e-9)
+    assert missing([run(some, TURNS)]) == (["one speed only"] if one_speed else [])
+
+
+@pytest.mark.parametrize(("change", "lacks"), [(0.9e-3, ["an input that does not change"]), (1.1e-3, [])])
+def test_an_input_changes_from_a_thousandth_of_it(change: float, lacks: list[str]) -> None:
+    voltage = -12.0 + 12.0 * change * (np.arange(TIME.size) % 2)
+    assert missing([run(TURNS, voltage)]) == lacks
+    assert missing([run(TURNS, 0.0)]) == ["an input that does not change"]
+    assert missing([run(TURNS, 1e-6 * TURNS)]) == []
+
+
+@pytest.mark.parametrize(("level", "lacks"), [(2.0, ["no motion"]), (3.1, [])])
+def test_motion_stands_out_of_the_noise(level: float, lacks: list[str]) -> None:
+    """Steps of a few rad/s under noise of 1; what smoothing leaves of it adds half as much to their peak."""
+    noise = np.random.default_rng(0).standard_normal(TIME.size)
+    steps = levels(0.3 * level, level)
+    noisy = Run(name="x", time=TIME, input=TURNS, speed=steps + noise)
+    assert missing([noisy]) == lacks
+
+
 def test_one_recording_makes_up_for_what_another_lacks() -> None:
     forwards, backwards = run(np.abs(TURNS), TURNS), run(-np.abs(TURNS), 12.0)
     assert missing([forwards, backwards]) == []

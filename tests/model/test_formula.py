@@ -132,6 +132,8 @@ def test_a_formula_holds_as_many_values_as_the_core_has_room_for() -> None:
     assert said.expected == f"at most {most}"
     calls = "max(x, " * (most - 1) + "x" + ")" * (most - 1)
     assert expression.parse(calls, {"x": "1"}, where="here").evaluate({"x": 2.0}) == 2.0
+    said = _refused("-x + (" * most + "x" + ")" * most, {"x": "1"})
+    assert said.what == f"the formula holds {most + 1} values at once", "a sign takes no room and makes none"
     flat = "sin(-x) + " * 3 * most + "x"  # each is added before the next
     expression.parse(flat, {"x": "1"}, where="here")
 
@@ -191,3 +193,6 @@ def test_units_work_out_or_the_line_says_which_clash() -> None:
             expression.check_units(expression.parse(text, names, where="here"), names, unit, where="here")
         assert refused.value.what.startswith(f"the units of '{text}' do not work out (")
         assert (refused.value.where, refused.value.expected) == ("here", f"a formula in {unit}")
+    long = expression.parse("t + " * 30 + "speed", names, where="here")
+    with pytest.raises(InputError, match=rf"the units of '{'t . ' * 20}' do not work out"):
+        expression.check_units(long, names, "N m", where="here")

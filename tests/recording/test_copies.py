@@ -152,3 +152,33 @@ def test_nothing_is_a_piece_of_what_is_shorter_or_measures_nothing_of_it() -> No
     current = rwn.Recording(name="x", time=TIME, signals={"voltage": VOLTAGE, "current": run["current"]})
     speed = rwn.Recording(name="x", time=TIME, signals={"voltage": VOLTAGE, "speed": run["speed"]})
     assert not is_piece(current, speed)
+
+
+@pytest.mark.parametrize("lost", [1, 2, 3])
+def test_a_piece_is_found_at_either_end_of_a_recording_a_little_longer(lost: int) -> None:
+    run = _run(1)
+    for rows in (slice(lost, None), slice(None, -lost)):
+        assert is_piece(_recording({name: x[rows] for name, x in run.items()}), _recording(run))
+
+
+def test_what_lies_half_way_may_be_rounded_either_way() -> None:
+    """As programs do: away from zero, to even digits, or as the number in binary happens to lie."""
+    fine, rounded = np.full(60, 0.5), np.full(60, 0.5)
+    fine[:4], rounded[:4] = [0.25, 0.35, 1.25, 1.35], [0.3, 0.3, 1.3, 1.3]
+    assert is_piece(_recording({"speed": rounded}), _recording({"speed": fine}))
+    rounded[0] = 0.2 - 1e-3  # more than a half off
+    assert not is_piece(_recording({"speed": rounded}), _recording({"speed": fine}))
+
+
+def test_numbers_far_below_1_are_not_taken_for_single_precision() -> None:
+    values = 1e-9 * np.array([1.0 / 3.0, 2.0 / 3.0, 4.0 / 7.0])
+    made = rwn.Recording(name="x", time=np.arange(3.0), signals={"current": values})
+    assert np.all(_steps(made, "current") < 1e-20)
+    single = values.astype(np.float32)
+    coarse = rwn.Recording(name="x", time=np.arange(3.0), signals={"current": single.astype(float)})
+    np.testing.assert_allclose(_steps(coarse, "current"), np.spacing(single))
+
+
+def test_an_empty_recording_is_no_piece() -> None:
+    nothing = rwn.Recording(name="x", time=[], signals={"speed": []})
+    assert not is_piece(nothing, _recording(_run(1)))

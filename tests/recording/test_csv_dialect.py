@@ -181,3 +181,91 @@ def test_a_file_without_anything_is_empty(lines: list[str]) -> None:
 def test_a_line_that_no_reader_splits_is_refused() -> None:
     with pytest.raises(InputError, match="cannot be split into cells"):
         split('"' + "x" * 200_000 + '"', ",", "x.csv")
+
+
+@pytest.mark.parametrize(
+    ("odd", "even", "encoding"),
+    [(85, 5, "utf-16-le"), (5, 85, "utf-16-be"), (75, 0, None), (0, 75, None), (85, 15, None), (15, 85, None)],
+)
+def test_a_text_of_two_bytes_a_sign_has_zeros_in_one_of_them(odd: int, even: int, encoding: str | None) -> None:
+    """In 100 pairs; signs of other scripts, and of the line's end, keep some of them from being 0."""
+    start = b"".join(bytes([0 if k < even else 65, 0 if k < odd else 65]) for k in range(100))
+    if encoding is None:
+        with pytest.raises(InputError, match="not a text file"):
+            encoding_of(start, "x.csv")
+    else:
+        assert encoding_of(start, "x.csv") == encoding
+    assert encoding_of(b"A", "x.csv") == "utf-8"
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_names_may_stand_up_to_four_rows_above_the_numbers(count: int) -> None:
+    above = ["time,voltage,speed", *["alpha,beta,gamma"] * (count - 1)]
+    assert told(*above, *rows()).names == ("time", "voltage", "speed")
+    assert told(*above, *rows()).first == count
+
+
+def test_rows_farther_above_are_not_names() -> None:
+    assert told("time,voltage,speed", *["alpha,beta,gamma"] * 4, *rows()).names == ("alpha", "beta", "gamma")
+
+
+def test_a_row_of_another_width_ends_the_rows_of_names() -> None:
+    found = told("time,voltage,speed", "bench,3", "alpha,beta,gamma", *rows())
+    assert found.names == ("alpha", "beta", "gamma")
+    assert told("time,voltage,speed", "# bench,3", "alpha,beta,gamma", *rows()).names == ("time", "voltage", "speed")
+    assert told("time,voltage,speed,", *rows()).names == ("time", "voltage", "speed")
+    with pytest.raises(InputError, match="no row names the columns"):
+        told("alpha,beta,gamma,delta", *rows())
+
+
+def test_units_are_short() -> None:
+    """A cell of 30 signs is no unit, however it reads."""
+    long, short = "m" + "*m" * 15, "m" + "*m" * 14
+    assert (len(long), len(short)) == (31, 29)
+    assert told("s,V,rpm", f"{short},{short},{short}", *rows()).names == ("s", "V", "rpm"), "both are units"
+    assert told("s,V,rpm", f"{long},{long},{long}", *rows()).names == (long, long, long)
+    edge = short + " "
+    assert told("s,V,rpm", f"a{edge},{edge},b", *rows()).names[0] == f"a{short}"
+
+
+def test_half_of_a_rows_numbers_do_not_make_it_data() -> None:
+    """A row above that is half filled with numbers belongs to the header."""
+    found = told("time,voltage", "1,x", *[f"{k},{k}" for k in range(20)])
+    assert found.first == 2
+    assert told("time,voltage,speed", "1,2,x", *rows()).first == 1
+
+
+def test_rows_are_judged_by_the_end_of_the_sample() -> None:
+    """Keys and values above may outnumber a few rows; half of the lines from the end tell how rows look."""
+    keys = [f"key {k};{k}" for k in range(9)]
+    found = told(*keys, "time,voltage,speed", *rows(count=12))
+    assert (found.delimiter, found.names, found.first) == (",", ("time", "voltage", "speed"), 10)
+
+
+@pytest.mark.parametrize(
+    ("lines", "delimiter"),
+    [
+        (["time;speed", *[f"{k},5;{k},25" for k in range(20)]], ";"),
+        (["time,speed", *[f"{k},{k}" for k in range(20)]], ","),
+        (["time\tspeed,x", *[f"{k}\t{k}" for k in range(20)]], "\t"),
+        (["a,b;c", *["x,y;z"] * 20], ","),
+    ],
+)
+def test_cells_are_told_apart_by_what_leaves_most_numbers(lines: list[str], delimiter: str) -> None:
+    assert told(*lines).delimiter == delimiter
+
+
+@pytest.mark.parametrize(
+    ("width", "names", "decimal"),
+    [(3, 2, False), (4, 2, True), (5, 2, False), (4, 3, False), (5, 3, True), (6, 3, True), (7, 3, False)],
+)
+def test_decimal_commas_at_most_double_the_cells(width: int, names: int, decimal: bool) -> None:
+    header = ",".join(["time", "voltage", "speed"][:names])
+    line = ",".join(str(k + 1) for k in range(width))
+    with pytest.raises(InputError) as refused:
+        told(header, *[line] * 20)
+    assert refused.value.where == "x.csv, line 2"
+    whole = f"{width} values in {names} columns"
+    assert refused.value.what == (
+        f"{whole}: decimal commas between cells that commas separate" if decimal else whole
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -12,7 +13,7 @@ from rwn import cli
 from rwn.errors import InputError
 from rwn.model.files import read_model, write_model
 from rwn.recording.columns import Column, Layout
-from rwn.recording.profiles import PROFILES, profile
+from rwn.recording.profiles import PROFILES, Profile, ProfileColumn, Wanted, profile, sources
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import COLUMNS
 from rwn.recording.units import is_unit
@@ -197,3 +198,50 @@ def test_the_command_line_and_model_files_take_a_profile(
     (tmp_path / "motor.toml").write_text('recording.profile = "moto"\nmotor.kind = "dc"\n' + motor)
     with pytest.raises(InputError, match=r"\[recording\] profile: unknown profile 'moto'"):
         read_model("motor.toml")
+
+
+def _profile(*names: str) -> Profile:
+    return Profile(source="here", columns={"speed": ProfileColumn(names=names), "time": ProfileColumn(names=("t",))})
+
+
+def test_a_name_stands_for_itself_and_for_the_end_of_a_longer_one() -> None:
+    known = _profile("Vel")
+    assert sources(known, ["t", "a.b.vel", "x"], where="x") == {"time": "t", "speed": "a.b.vel"}
+    assert sources(known, ["VEL"], where="x") == {"speed": "VEL"}
+    assert sources(known, ["level", "a-vel", "vel.a"], where="x") == {}
+    assert sources(_profile("vel", "w"), ["w", "a.vel"], where="x") == {"speed": "a.vel"}, "the likeliest first"
+
+
+def test_a_signal_that_two_columns_may_be_is_asked_for() -> None:
+    with pytest.raises(InputError) as refused:
+        sources(_profile("vel"), [f"{k}.vel" for k in range(6)], where="run.csv")
+    assert refused.value.what == "0.vel and 1.vel and 2.vel and 3.vel may both be the speed"
+    assert refused.value.fix == "add to [recording]: rename = { '0.vel' = 'speed' }"
+    assert refused.value.where == "run.csv"
+
+
+def test_a_profile_holds_nothing_but_what_it_may_and_stays_as_it_is() -> None:
+    column = {"names": [], "scales": 1.0}
+    for wrong in ({"source": "x", "columns": {}, "nots": ""}, {"source": "x", "columns": {"speed": column}}):
+        with pytest.raises(msgspec.ValidationError):
+            msgspec.convert(wrong, Profile)
+    known = profile("odrive")
+    for frozen, name in ((known, "note"), (known.columns["speed"], "unit")):
+        with pytest.raises(AttributeError):
+            setattr(frozen, name, "x")
+
+
+def test_wanted_names_are_whole_or_the_end_of_a_longer_one() -> None:
+    wanted = Wanted.of({"Run"}, {"Vel"})
+    for name in ("Run", "Vel", "vel", "a.VEL"):
+        assert name in wanted
+    for other in ("run", "a.Run", "level", 3):
+        assert other not in wanted
+
+
+def test_an_unknown_profile_is_refused_where_it_stands() -> None:
+    with pytest.raises(InputError) as refused:
+        profile("odriv", where="motor.toml")
+    assert refused.value.where == "motor.toml"
+    with pytest.raises(InputError, match=r"^profile: unknown profile"):
+        profile("x")
