@@ -56,6 +56,8 @@ def test_every_key_is_read() -> None:
         ("from = 2\nto = 2", "from is 2 s, to is 2 s", "motor.toml, [recording]"),
         ("from = 3\nto = 2", "from is 3 s, to is 2 s", "motor.toml, [recording]"),
         ("filters.speed = 0", "the filter of the speed has a time constant of 0 s", "motor.toml, [recording] filters"),
+        ("filters.speed = -1", "the filter of the speed has a time constant of -1 s",
+         "motor.toml, [recording] filters"),
         ("filters.speed = inf", "the filter of the speed has a time constant of inf s",
          "motor.toml, [recording] filters"),
         ("delays.voltage = 0.1", "unknown measured signal 'voltage'", "motor.toml, [recording] delays"),

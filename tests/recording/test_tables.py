@@ -176,6 +176,16 @@ def test_nesting_ends_somewhere() -> None:
             value = outer
         return value
 
+    def in_cells(levels: int) -> Any:
+        value: Any = ROWS
+        for _ in range(levels):
+            outer = np.empty(2, dtype=object)
+            outer[:] = [value, 1.0]
+            value = outer
+        return value
+
+    assert _names({"c": in_cells(7)})[0] == "c" + "{1}" * 7
+    assert "c" + "{1}" * 8 not in _names({"c": in_cells(8)})
     assert _names({"s": nested(7)}) == ["s" + ".a" * 7, "n"]
     assert _names({"s": nested(8)}) == ["n"]
 
