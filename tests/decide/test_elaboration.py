@@ -10,6 +10,7 @@ import pytest
 from rwn.decide.calibration import calibration
 from rwn.decide.elaboration import elaborated
 from rwn.decide.evidence import Evidence
+from rwn.name.weights import RankedFit
 
 ADDS = Evidence(share=0.9, unseen=0.9, part=0.99, odds=100.0, curve=1.0)
 IDLE = Evidence(share=0.01, unseen=0.0, part=0.1, odds=0.5, curve=0.5)
@@ -19,7 +20,8 @@ PLAIN, TWO_LEVELS, STRIBECK = "coulomb-friction", "asymmetric-friction", "stribe
 def explained(leading: tuple[str, ...], *others: tuple[str, ...], adding: tuple[str, ...] = ()) -> Any:
     """Explanations, likeliest first, of whose elaborate laws those of `adding` add to their plain ones."""
     fits = [
-        SimpleNamespace(added=added, score=10.0 - k, final=added) for k, added in enumerate((leading, *others))
+        RankedFit(fit=SimpleNamespace(added=added), final=added, score=10.0 - k, probability=0.1)  # type: ignore[arg-type]
+        for k, added in enumerate((leading, *others))
     ]
     compared = []
 
@@ -46,6 +48,7 @@ def test_an_elaborate_law_that_adds_stays_and_the_plain_one_is_its_rival() -> No
 def test_one_that_adds_nothing_gives_way_to_its_plain_law_and_stays_a_rival() -> None:
     found, _ = explained((TWO_LEVELS, "drag"), ("other",), ("drag", PLAIN))
     assert found.leading.added == ("drag", PLAIN)
+    assert found.leading.score == 10.0, "rivals in the place of friction gain nothing by it"
     adds = calibration().probability(IDLE)
     assert found.odds == {(PLAIN, TWO_LEVELS): pytest.approx(adds / (1.0 - adds))}
 

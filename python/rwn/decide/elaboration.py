@@ -7,7 +7,7 @@ the elaborate law adds to the plain one in its place. A mimic adds little, or on
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rwn.decide.calibration import calibration
 from rwn.decide.evidence import Judge
@@ -42,7 +42,9 @@ def elaborated(ranking: Ranking, leading: RankedFit, judge_of: Callable[[RankedF
             idle[name] = adds
             alike = [n for n in elaborations() if plainer([n]) == {plain_name} and n not in idle]
             found = [_explained(ranking, others, n) for n in alike]
-            leading = max([plain, *(f for f in found if f)], key=lambda r: r.score)
+            instead = max([plain, *(f for f in found if f)], key=lambda r: r.score)
+            # the evidence against rivals is that of the plain claim, which the idle law made too
+            leading = replace(instead, score=max(leading.score, instead.score))
             judge = judge_of(leading)
             (name,) = set(leading.added) - others
         of_plain = odds.get((name, plain_name), 1.0)
