@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from rwn.errors import InputError
-from rwn.recording.formats import channels as channels_module
 from rwn.recording.formats import table as table_module
 from rwn.recording.formats.channels import Channel, table_of_channels
 from rwn.recording.formats.nested import nested_table
@@ -114,7 +113,7 @@ def test_a_time_among_the_channels_is_not_that_of_the_rows() -> None:
 
 
 def test_too_many_rows_of_channels_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(channels_module, "MAX_SAMPLES", 3)
+    monkeypatch.setattr(table_module, "MAX_SAMPLES", 3)
     assert _channels(u=([0.0, 1.0, 2.0], [1.0] * 3))["time"] == [0.0, 1.0, 2.0]
     with pytest.raises(InputError, match="4 samples are too many"):
         _channels(u=([0.0, 1.0, 2.0, 3.0], [1.0] * 4))
