@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -50,7 +51,9 @@ def test_it_is_found_beside_steps_of_a_motor_and_taken_off(mains: float) -> None
     (found,), findings = inspected([noisy])
     (said,) = findings
     assert (said.kind, said.signals, said.done) == ("hum", ("speed",), "taken off")
-    assert f"{mains:.0f}, {3 * mains:.0f} Hz" in said.words
+    seen = re.fullmatch(r"the speed has a mains hum of (\d+), (\d+) Hz, ([\d.]+) rad/s rms", said.words)
+    assert seen is not None
+    assert [float(x) for x in seen.groups()] == [round(mains), round(3 * mains), pytest.approx(0.2, rel=0.1)]
     left = np.std(found.signals["speed"] - clean.signals["speed"])
     assert left < 0.2 * np.std(hum), "the rest of a line, known as well as noise allows"
     np.testing.assert_array_equal(found.signals["voltage"], u)

@@ -14,9 +14,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.recording.columns import si_unit
 from rwn.recording.inspection.finding import Finding
 from rwn.recording.recording import ENOUGH, Recording
-from rwn.recording.signals import MEASURED
+from rwn.recording.signals import MEASURED, SIGNALS
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -56,10 +57,11 @@ def without_hum(recording: Recording) -> tuple[Recording, list[Finding]]:
 
 
 def _finding(recording: Recording, signal: str, lines: Sequence[Line], rms: float) -> Finding:
+    unit = si_unit(SIGNALS[signal], recording.linear)
     at = ", ".join(f"{f:g}" for f in sorted({round(line.frequency) for line in lines}))
     return Finding(
         kind="hum", recording=recording.name, signals=(signal,), count=len(recording),
-        words=f"the {signal} has a mains hum of {at} Hz, {rms:.3g} rms (SI)", done="taken off",
+        words=f"the {signal} has a mains hum of {at} Hz, {rms:.3g} {unit} rms", done="taken off",
     )  # fmt: skip
 
 
