@@ -85,6 +85,15 @@ def test_what_a_controller_lets_through_does_not_hide_it() -> None:
     assert [f.kind for f in without_hum(noisy)[1]] == ["hum"]
 
 
+def test_a_speed_that_is_new_50_times_a_second_has_no_hum_of_its_updates() -> None:
+    u = steps(6)
+    this = recorded(u, driven(u))
+    held = np.repeat(this.signals["speed"][::20], 20)
+    (found,), findings = inspected([replace(this, signals={**this.signals, "speed": held})])
+    assert [f.kind for f in findings] == ["held"]
+    np.testing.assert_array_equal(found.signals["speed"][::20], held[::20])
+
+
 def test_rows_may_be_lost() -> None:
     u = steps(1)
     noisy, hum = with_hum(recorded(u, driven(u)))

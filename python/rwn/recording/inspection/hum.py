@@ -45,14 +45,16 @@ def without_hum(recording: Recording) -> tuple[Recording, list[Finding]]:
     signals, findings = dict(recording.signals), []
     for signal in (s for s in MEASURED if s in signals):
         x, found = np.array(signals[signal]), list[Line]()
-        for part in _parts(len(recording)):
+        # of samples that measure: values that are held between updates have a line at the rate of these
+        known = np.flatnonzero(~recording.missing.get(signal, np.zeros(x.size, dtype=bool)))
+        for part in (known[p] for p in _parts(known.size)):
             time = recording.time[part] - recording.time[part][:1]
             lines = _hum(time, x[part], [signals[s][part] for s in signals if s not in MEASURED])
             x[part] -= _sum(lines, time)
             found += lines
         if found:
-            findings.append(_finding(recording, signal, found, float(np.std(signals[signal] - x))))
-            signals[signal] = x
+            findings.append(_finding(recording, signal, found, float(np.std((signals[signal] - x)[known]))))
+            signals[signal] = np.interp(recording.time, recording.time[known], x[known])
     return (replace(recording, signals=signals) if findings else recording), findings
 
 
