@@ -96,6 +96,18 @@ def test_a_position_that_is_new_50_times_a_second_has_no_hum_of_its_updates() ->
     np.testing.assert_array_equal(found.signals["position"][::4], held[::4])
 
 
+def test_a_clipped_sample_keeps_its_value_but_for_the_hum_beside_it() -> None:
+    u = steps(7)
+    noisy, hum = with_hum(recorded(u, driven(u)))
+    clipped = np.zeros(u.size, dtype=bool)
+    clipped[1500:1520] = True
+    found, findings = without_hum(replace(noisy, missing={"speed": clipped}))
+    assert findings
+    off = found.signals["speed"] - noisy.signals["speed"]
+    assert np.max(np.abs(off[clipped])) < 1.1 * np.max(np.abs(hum))
+    assert np.std(off[~clipped] + hum[~clipped]) < 0.2 * np.std(hum)
+
+
 def test_rows_may_be_lost() -> None:
     u = steps(1)
     noisy, hum = with_hum(recorded(u, driven(u)))

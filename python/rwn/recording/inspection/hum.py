@@ -29,7 +29,7 @@ CLOCK = 0.002  # how far a line may lie off, relatively: the mains 0.1 Hz, and a
 LEVEL = 0.001  # chance of hum in a signal without it: 1 % of a diagnosis, of some ten signals
 TAPERS = 7  # of which the odd ones see a line; each line takes a band of (TAPERS + 1) / length
 FINER = 4  # frequencies looked at per 1 / length
-CYCLES = 25  # fewest of the mains in what is looked at, so that this band leaves out what moves slowly
+CYCLES = 25  # fewest of the mains in what is looked at: this band is then a third of its frequency at most
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,8 +53,10 @@ def without_hum(recording: Recording) -> tuple[Recording, list[Finding]]:
             x[part] -= _sum(lines, time)
             found += lines
         if found:
-            findings.append(_finding(recording, signal, found, float(np.std((signals[signal] - x)[known]))))
-            signals[signal] = np.interp(recording.time, recording.time[known], x[known])
+            hum = (signals[signal] - x)[known]
+            findings.append(_finding(recording, signal, found, float(np.std(hum))))
+            # what stands in for samples that measure nothing goes with those beside them
+            signals[signal] = signals[signal] - np.interp(recording.time, recording.time[known], hum)
     return (replace(recording, signals=signals) if findings else recording), findings
 
 
