@@ -67,6 +67,20 @@ std::string reason(const std::function<void()>& call) {
 
 using Change = std::function<void(Case&)>;
 
+/// Expects that `call` is refused after each change with these words in the reason; not refused where there are none.
+void expect_reasons(const std::vector<std::pair<Change, std::string>>& changes, const Change& call) {
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    Case c;
+    changes[k].first(c);
+    const std::string said = reason([&] { call(c); });
+    if (changes[k].second.empty()) {
+      EXPECT_EQ(said, "") << k;
+    } else {
+      EXPECT_NE(said.find(changes[k].second), std::string::npos) << k << ": " << said;
+    }
+  }
+}
+
 TEST(Simulation, TasksThatDoNotFitAreRefusedForTheirReason) {
   const std::vector<std::pair<Change, std::string>> changes{
       {[](Case&) {}, ""},
@@ -94,16 +108,7 @@ TEST(Simulation, TasksThatDoNotFitAreRefusedForTheirReason) {
       {[](Case& c) { c.by = {inertia}, c.d_speed.resize(samples + 1); }, "derivatives must be"},
       {[](Case& c) { c.by = {inertia}, c.d_speed.resize(samples); }, ""},
   };
-  for (std::size_t k = 0; k < changes.size(); ++k) {
-    Case c;
-    changes[k].first(c);
-    const std::string said = reason([&] { c.run(); });
-    if (changes[k].second.empty()) {
-      EXPECT_EQ(said, "") << k;
-    } else {
-      EXPECT_NE(said.find(changes[k].second), std::string::npos) << k << ": " << said;
-    }
-  }
+  expect_reasons(changes, [](Case& c) { c.run(); });
 }
 
 TEST(UnknownInputs, MotionsThatDoNotFitAreRefusedForTheirReason) {
@@ -122,16 +127,7 @@ TEST(UnknownInputs, MotionsThatDoNotFitAreRefusedForTheirReason) {
       {[](Case& c) { c.parameters.pop_back(); }, "wrong number of parameters"},
       {[](Case& c) { c.drive = drive_of("lti"); }, "no equations of motion"},
   };
-  for (std::size_t k = 0; k < changes.size(); ++k) {
-    Case c;
-    changes[k].first(c);
-    const std::string said = reason([&] { c.look(); });
-    if (changes[k].second.empty()) {
-      EXPECT_EQ(said, "") << k;
-    } else {
-      EXPECT_NE(said.find(changes[k].second), std::string::npos) << k << ": " << said;
-    }
-  }
+  expect_reasons(changes, [](Case& c) { c.look(); });
 }
 
 TEST(UnknownInputs, EachOfTheThreeSignalsOfAMotionHasItsLength) {
