@@ -14,12 +14,13 @@ from rwn.fit.identify import Identification
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
+from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording, read_recording
-from rwn.recording.signals import MEASURED
+from rwn.recording.signals import MEASURED, SIGNALS
 from rwn.report.plot import Plot, Role, Trace
 from rwn.report.plots import drawn
 from rwn.report.thinning import thin_line
-from rwn.report.time_figures import Compared, FreeRun, panels_of, unit_of
+from rwn.report.time_figures import Compared, FreeRun, panels_of
 from rwn.simulate.simulation import simulate
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def _signals(run: Recording, wanted: str | None) -> list[Plot]:
     return [
         Plot(
             slot="response" if name in MEASURED else "input", title=name, x_label="time", x_unit="s", y_label=name,
-            y_unit=unit_of(name, linear=run.linear), recording=run.name,
+            y_unit=si_unit(SIGNALS[name], run.linear), recording=run.name,
             traces=(Trace(name=name, role="measured", x=run.time[kept], y=values[kept]),),
         )
         for name, values in measured.items()

@@ -12,6 +12,7 @@ from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.problem import Problem
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
+from rwn.recording.columns import si_unit
 from rwn.recording.signals import SIGNALS
 from rwn.report.plot import Plot, Role, Slot, Trace, Use
 from rwn.report.thinning import thin_line
@@ -108,7 +109,7 @@ def panels_of(compared: Compared, runs: Sequence[FreeRun], use: Use | None, *, l
     begin, end = _shows_most(errors, compared.left_out)
     after_given = made[1:] or made
     kept = thin_line([measured, compared.input, *after_given, errors[-1]], whole=(begin, end))
-    time, unit = compared.time[kept], unit_of(signal, linear=linear)
+    time, unit = compared.time[kept], si_unit(SIGNALS[signal], linear)
     zoom = (float(compared.time[begin]), float(compared.time[end - 1]))
 
     def picture(slot: Slot, title: str, label: str, unit: str, lines: Sequence[tuple[str, Role, Array]]) -> Plot:
@@ -124,15 +125,9 @@ def panels_of(compared: Compared, runs: Sequence[FreeRun], use: Use | None, *, l
         picture("response", f"{signal.capitalize()} in free run, {name}", signal, unit,
                 [("measured", "measured", measured), *of_models]),
         picture("residual-time", f"Error of the {signal}, {name}", f"{signal} error", unit, of_errors),
-        picture("input", f"Input, {name}", compared.driven, unit_of(compared.driven, linear=linear),
+        picture("input", f"Input, {name}", compared.driven, si_unit(SIGNALS[compared.driven], linear),
                 [("input", "reference", compared.input)]),
     ]  # fmt: skip
-
-
-def unit_of(signal: str, *, linear: bool) -> str:
-    """The SI unit of a signal of a shaft, or of a linear axis."""
-    entry = SIGNALS[signal]
-    return (linear and entry.linear_unit) or entry.unit
 
 
 def _shows_most(errors: Sequence[Array], left_out: NDArray[np.bool_]) -> tuple[int, int]:
