@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from rwn.decide import account as module
-from rwn.decide.account import ACTS, Account, Acting, Remainder, account, remainder
-from rwn.decide.calibration import calibration
+from rwn.decide.account import Account, Acting, Remainder, account, remainder
+from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.evidence import Evidence
 from rwn.simulate.run import Run
 
@@ -30,7 +30,7 @@ def _account(monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, 
     """The account, and what the evidence was asked for."""
     asked: dict[str, Any] = {"rivals": {}}
 
-    class Judge:
+    class Validation:
         birge = 1.7
 
         def __init__(self, _ranking: Any, leading: Any, heldout: Any, model: Any) -> None:
@@ -40,7 +40,7 @@ def _account(monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, 
             asked["rivals"][name] = rivals
             return found[name]
 
-    monkeypatch.setattr(module, "Judge", Judge)
+    monkeypatch.setattr(module, "Validation", Validation)
     ranking: Any = SimpleNamespace(fits=fits, nothing_missing=next(f for f in fits if not f.added))
     return account(ranking, HELDOUT, MODEL), asked
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rwn.decide.calibration import calibration
+from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.elaboration import elaborated
-from rwn.decide.evidence import Evidence, Judge
+from rwn.decide.evidence import Evidence, Validation
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import join, structured, variance
 from rwn.model.model import Model
@@ -21,7 +21,6 @@ from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
 
-ACTS = 0.5  # probability from which an effect is stated: it is more likely there than not
 RIVAL = 0.05  # evidence against that of the leading explanation, from which a name is among those not told apart
 LARGEST_SET = 3  # names that are still an answer
 
@@ -74,13 +73,13 @@ class Account:
 def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     """What acts, of the best explanation that has effects at all; empty where none was found."""
     best = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
-    found = elaborated(ranking, best, lambda this: Judge(ranking, this, heldout, model))
-    leading, judge = found.leading, found.judge
+    found = elaborated(ranking, best, lambda this: Validation(ranking, this, heldout, model))
+    leading, validation = found.leading, found.validation
     rivals = {name: _rivals(ranking, leading, name, found.odds) for name in leading.added}
     instead = {name: {*rivals[name], *(rival for one, rival in found.odds if one == name)} for name in leading.added}
-    evidence = side_by_side(lambda name: judge.evidence(name, instead[name]), leading.added)
+    evidence = side_by_side(lambda name: validation.evidence(name, instead[name]), leading.added)
     rows = [_acting(name, e, rivals[name]) for name, e in zip(leading.added, evidence, strict=True)]
-    return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading, birge=judge.birge)
+    return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading, birge=validation.birge)
 
 
 def _acting(name: str, found: Evidence, rivals: Mapping[str, float]) -> Acting:

@@ -18,6 +18,7 @@ from rwn.decide.evidence import Evidence
 
 Array = NDArray[np.float64]
 
+ACTS = 0.5  # probability from which an effect is stated: it is more likely there than not
 FEATURES = ("share", "unseen", "part", "odds", "curve")
 
 

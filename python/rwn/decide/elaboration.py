@@ -7,15 +7,13 @@ the elaborate law adds to the plain one in its place. A mimic adds little, or on
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
-from rwn.decide.calibration import calibration
-from rwn.decide.evidence import Judge
+from rwn.decide.calibration import ACTS, calibration
+from rwn.decide.evidence import Validation
 from rwn.name.backward import elaborations, plainer
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
-
-HOLDS = 0.5  # probability from which a claim is more likely true than not
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,20 +21,20 @@ class Elaborated:
     """An explanation whose elaborate laws each add to the plain ones."""
 
     leading: RankedFit
-    judge: Judge  # of it
-    odds: dict[tuple[str, str], float] = field(default_factory=dict)  # of a rival against a name of it
+    validation: Validation  # of it
+    odds: dict[tuple[str, str], float]  # of a rival against a name of it
 
 
-def elaborated(ranking: Ranking, leading: RankedFit, judge_of: Callable[[RankedFit], Judge]) -> Elaborated:
+def elaborated(ranking: Ranking, leading: RankedFit, validated: Callable[[RankedFit], Validation]) -> Elaborated:
     """The explanation, with the next best law in the place of each elaborate one that adds nothing to its plain one."""
-    judge, odds = judge_of(leading), dict[tuple[str, str], float]()
+    validation, odds = validated(leading), dict[tuple[str, str], float]()
     for name in leading.added:
         others, idle = frozenset(leading.added) - {name}, dict[str, float]()
         (plain_name,) = plainer([name])
         plain = _explained(ranking, others, plain_name)
         while name != plain_name and plain is not None:
-            adds = calibration().probability(judge.evidence(name, (), without=plain.final))
-            if adds >= HOLDS:
+            adds = calibration().probability(validation.evidence(name, (), without=plain.final))
+            if adds > ACTS:
                 odds[name, plain_name] = (1.0 - adds) / adds
                 break
             idle[name] = adds
@@ -45,11 +43,11 @@ def elaborated(ranking: Ranking, leading: RankedFit, judge_of: Callable[[RankedF
             instead = max([plain, *(f for f in found if f)], key=lambda r: r.score)
             # the evidence against rivals is that of the plain claim, which the idle law made too
             leading = replace(instead, score=max(leading.score, instead.score))
-            judge = judge_of(leading)
+            validation = validated(leading)
             (name,) = set(leading.added) - others
         of_plain = odds.get((name, plain_name), 1.0)
         odds |= {(name, n): of_plain * p / (1.0 - p) for n, p in idle.items()}
-    return Elaborated(leading=leading, judge=judge, odds=odds)
+    return Elaborated(leading=leading, validation=validation, odds=odds)
 
 
 def _explained(ranking: Ranking, others: frozenset[str], name: str) -> RankedFit | None:
