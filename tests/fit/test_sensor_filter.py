@@ -25,17 +25,17 @@ MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_e
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
 
-def _problem(share: float, samples: int = 4000, *, analog: bool = False) -> Problem:
+def _problem(share: float, samples: int = 4000, *, analog: bool = False, step: float = STEP) -> Problem:
     """A run whose speed, with its noise, went through a filter."""
-    rng, time = np.random.default_rng(7), STEP * np.arange(samples)
+    rng, time = np.random.default_rng(7), step * np.arange(samples)
     voltage = np.repeat(3.0 * rng.uniform(-1.0, 1.0, samples // 50), 50)
     run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
-    lag = {"speed-sensor-lag": {"time_constant": -STEP / np.log(share)}} if analog else {}
+    lag = {"speed-sensor-lag": {"time_constant": -step / np.log(share)}} if analog else {}
     speed = rwn.simulate(replace(MODEL, effects=lag), run).signals["speed"]
     noise = 0.2 * rng.standard_normal(samples)
-    shown = speed + as_filtered(time, noise, -STEP / np.log(share)) if share else speed + noise
+    shown = speed + as_filtered(time, noise, -step / np.log(share)) if share else speed + noise
     if share and not analog:
-        shown = as_filtered(time, speed + noise, -STEP / np.log(share))
+        shown = as_filtered(time, speed + noise, -step / np.log(share))
     return prepare([replace(run, signals={"voltage": voltage, "speed": shown})], MODEL)
 
 
@@ -53,6 +53,21 @@ def test_a_sensor_with_a_lag_of_its_own_is_no_filter_of_samples() -> None:
     (found,) = sensor_filters(problem, nominal)
     assert not found.digital
     assert found.time_constant == pytest.approx(-STEP / np.log(0.6), rel=0.35)
+
+
+def test_a_spring_that_was_found_in_place_of_a_filter_does_not_hide_it() -> None:
+    """At few rows a time constant a second mass beside a lag of the sensor does what the filter did."""
+    step = 5e-3
+    problem, nominal = weighted_by_nominal(_problem(0.4, 2000, step=step))
+    start = {
+        "shaft-compliance": {"stiffness": 2.0, "damping": 1e-3, "load_inertia": 1e-5, "load_viscous_share": 0.5},
+        "speed-sensor-lag": {"time_constant": step},
+    }
+    mimic = fit(problem, hypothesis(problem.prior, tuple(start), problem.scales, start, nominal.motor))
+    assert mimic.cost < 0.1 * nominal.cost
+    (found,) = sensor_filters(problem, mimic)
+    assert found.digital
+    assert found.share == pytest.approx(0.4, abs=0.02)
 
 
 def test_white_noise_shows_no_filter_and_neither_does_a_model_that_is_wrong() -> None:

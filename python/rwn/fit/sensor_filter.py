@@ -166,11 +166,15 @@ def _with_lags(problem: Problem, this: Fit) -> Fit:
 
 
 def _without_lags(problem: Problem, this: Fit) -> Iterator[Fit]:
-    """An explanation without lags of the sensors, and without delays too: both stand in for a filter."""
+    """An explanation without lags of the sensors, without delays too, and the nominal model: all stand in for a filter.
+
+    At few samples per time constant a spring behind the motor does as well as a lag, and then a filter of samples is
+    never met beside the model that needs nothing else.
+    """
     table = problem.prior.table
     without_lags = tuple(name for name in this.added if name not in LAGS.values())
     without_ends = tuple(name for name in without_lags if not table[name].at_an_end)
-    for kept in dict.fromkeys((without_lags, without_ends)):
+    for kept in dict.fromkeys((without_lags, without_ends, ())):
         if kept == this.added:
             yield this
             continue
