@@ -43,9 +43,14 @@ def _run(model: rwn.Model, voltage: np.ndarray, time: np.ndarray = TIME) -> rwn.
     return done
 
 
-def _with(name: str) -> rwn.Model:
-    """The motor with one effect at the size that the effect's own table starts a search from."""
+def _with(name: str, *, offset: bool = True) -> rwn.Model:
+    """The motor with one effect at the size that the effect's own table starts a search from.
+
+    `offset`: with what has a sign beside the effect's strength, as the preload of a spring.
+    """
     values = {p.name: p.start if p.start else 0.1 * (p.lower + min(p.upper, 1.0)) for p in table()[name].parameters}
+    offsets = {p.name for p in table()[name].parameters if p.lower < 0.0 and not p.strength}
+    values |= {} if offset else dict.fromkeys(offsets, 0.0)
     return rwn.Model(kind="dc", parameters=MOTOR, effects={name: VALUES.get(name, values)})
 
 
@@ -63,7 +68,7 @@ def _applicable() -> list[str]:
 @pytest.mark.parametrize("name", [n for n in _applicable() if n not in ONE_SIDED])
 def test_the_mirror_image_of_a_symmetric_drive(name: str) -> None:
     """Minus the voltage is minus every signal, where an effect does not tell one direction from the other."""
-    model = _with(name)
+    model = _with(name, offset=False)
     there, back = _run(model, _voltage()), _run(model, -_voltage())
     for signal, values in there.signals.items():
         scale = float(np.abs(values).max())

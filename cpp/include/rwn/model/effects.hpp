@@ -18,6 +18,7 @@
 #include "rwn/model/effects/input_delay.hpp"
 #include "rwn/model/effects/load_dependent_friction.hpp"
 #include "rwn/model/effects/load_disturbance.hpp"
+#include "rwn/model/effects/load_spring.hpp"
 #include "rwn/model/effects/magnetic_saturation.hpp"
 #include "rwn/model/effects/position_dependent_friction.hpp"
 #include "rwn/model/effects/power_law_drag.hpp"
@@ -30,6 +31,7 @@
 #include "rwn/model/effects/shaft_compliance.hpp"
 #include "rwn/model/effects/speed_sensor_lag.hpp"
 #include "rwn/model/effects/stribeck_friction.hpp"
+#include "rwn/model/effects/supply_sag.hpp"
 #include "rwn/model/effects/torque_ripple.hpp"
 #include "rwn/model/effects/unbalance.hpp"
 #include "rwn/model/effects/viscous_asymmetry.hpp"
@@ -41,10 +43,10 @@ namespace rwn {
 using Effects =
     std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
                PowerLawDrag, LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque,
-               Unbalance, ConstantLoad, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation, BrushVoltageDrop,
-               CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation,
-               AmplifierGainCurve, InputDelay, SpeedSensorLag, CurrentSensorLag, SensorRectification, SensorBias,
-               SensorQuantization>;
+               Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation,
+               BrushVoltageDrop, CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone,
+               VoltageSaturation, SupplySag, AmplifierGainCurve, InputDelay, SpeedSensorLag, CurrentSensorLag,
+               SensorRectification, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

@@ -166,6 +166,7 @@ EFFECTS = (
         scale=times("internal_resistance", power=0.5),
         rivals=("amplifier-compression", "quadratic-drag", "magnetic-saturation"),
         named=False,
+        known_as="supply-sag",
     ),
     Effect(
         name="torque-constant-warming",
@@ -222,6 +223,7 @@ EFFECTS = (
         scale=times("stiffness"),
         rivals=("unbalance", "load-disturbance"),
         named=False,
+        known_as="load-spring",
     ),
     Effect(
         name="second-resonance",
