@@ -79,7 +79,8 @@ def diagnose(
         made = assemble(correction, found.faults, model, unseen, seed=seed, elapsed=time.perf_counter() - began)
         layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
         made = replace(made, corrected=replace(made.corrected, recording=layout))
-        return replace(made, findings=(*findings, *found.findings, *unseen_findings))
+        enabled = (one.as_finding(model.drive.input) for one in late)
+        return replace(made, findings=(*findings, *found.findings, *unseen_findings, *enabled))
 
 
 def _check_options(seed: int, jobs: int | None, effort: float) -> None:

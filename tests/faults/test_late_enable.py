@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import rwn
-from rwn.faults.late_enable import late_beside, late_enables, powered
-from rwn.fit.fit import fit_nominal
+from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered, retimed
+from rwn.fit.fit import fit, fit_nominal
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 
@@ -33,8 +36,31 @@ def test_a_late_enable_is_found_to_the_sample_or_two(friction: float) -> None:
     (late,) = late_enables([recording], MODEL)
     assert abs(late.samples - 130) <= 2
     (made,) = powered([recording], [late], MODEL)
-    assert not np.any(made.signals["voltage"][: late.samples])
+    assert not np.any(made.signals["voltage"][: late.samples - 1])
     assert np.array_equal(made.signals["voltage"][late.samples :], STEPS[late.samples :])
+
+
+def test_a_late_enable_between_two_rows_is_found_to_a_tenth_of_their_time() -> None:
+    fine = _run(STEPS, 263)
+    rows = slice(0, None, 5)
+    signals = {name: fine.signals[name][rows] for name in ("voltage", "speed")}
+    (late,) = late_enables([rwn.Recording(name="run", time=fine.time[rows], signals=signals)], MODEL)
+    assert late.time == pytest.approx(0.263, abs=5e-4)
+    assert late.samples == 53
+
+
+def test_an_explanation_with_a_delay_moves_a_late_enable() -> None:
+    """A delay that the other recording shows made it seem later than it was."""
+    delay = 8
+    on, off = (_run(np.concatenate([np.zeros(delay), STEPS[:-delay]]), begins) for begins in (0, 130 + delay))
+    recordings = [replace(r, signals={**r.signals, "voltage": STEPS}) for r in (on, off)]
+    late = LateEnable(place=1, recording="run", samples=138, time=0.138)
+    problem = prepare(powered(recordings, [late], MODEL), MODEL)
+    starts = {"input-delay": {"delay": 7e-3}}
+    delayed = fit(problem, hypothesis(problem.prior, ("input-delay",), problem.scales, starts))
+    (moved,) = retimed([late], recordings, MODEL, problem, delayed)
+    assert moved.time == pytest.approx(0.130, abs=1e-3)
+    assert retimed([moved], recordings, MODEL, problem, delayed) == (moved,)
 
 
 def test_two_recordings_of_one_name_are_told_apart() -> None:
@@ -42,7 +68,7 @@ def test_two_recordings_of_one_name_are_told_apart() -> None:
     (late,) = late_enables(recordings, MODEL)
     on, off = powered(recordings, [late], MODEL)
     assert np.array_equal(on.signals["voltage"], STEPS)
-    assert not np.any(off.signals["voltage"][: late.samples])
+    assert not np.any(off.signals["voltage"][: late.samples - 1])
 
 
 def test_a_drive_that_is_on_from_the_beginning_has_none() -> None:
@@ -66,6 +92,14 @@ def test_a_recording_that_was_not_fitted_stands_still_where_the_explanation_woul
     (late,) = late_beside([_run(STEPS, 130), _run(STEPS, 0)], MODEL, problem, fit_nominal(problem))
     assert late.place == 0
     assert abs(late.samples - 130) <= 2
+
+
+def test_a_late_enable_of_what_was_not_fitted_is_said() -> None:
+    on, off = _run(STEPS[:800], 0), _run(STEPS[800:1600], 130)
+    done = rwn.diagnose([on], MODEL, heldout=[replace(off, name="kept back")], effort=0.1)
+    (said,) = (f for f in done.findings if f.kind == "late-enable")
+    assert said.recording == "kept back"
+    assert abs(said.count - 130) <= 2
 
 
 def test_an_input_that_is_late_throughout_is_a_delay() -> None:

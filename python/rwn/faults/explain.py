@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.fault import Fault
-from rwn.faults.late_enable import LateEnable, late_enables, needed, powered
+from rwn.faults.late_enable import LateEnable, late_enables, needed, powered, retimed
 from rwn.faults.resolve import resolved
 from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
 from rwn.fit.sensor_filter import stating_filters
@@ -33,14 +33,7 @@ class Explained:
     def findings(self) -> tuple[Finding, ...]:
         """How the input acted and the motion began, as a check of recordings says it."""
         given = self.model.drive.input
-        found = [
-            Finding(
-                kind="late-enable", recording=late.recording, signals=(given,), count=late.samples,
-                words=f"it stands still under its {given} for the first {late.time:.3g} s, as before an enable",
-                done=f"the {given} is taken as 0 until then",
-            )
-            for late in self.late
-        ]  # fmt: skip
+        found = [late.as_finding(given) for late in self.late]
         found += [
             Finding(
                 kind="in-motion", recording=run.name, signals=(), count=0, words="it starts in motion",
@@ -79,6 +72,7 @@ def explained(
     faults, ranking = resolved(_as_acted(on, stated), stated, say=say, effort=effort)
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
+    still = retimed(still, recordings, stated, ranking.problem, best)
     again = stated
     if stated is not model and stated.recording.intersample != HELD:  # what is missing may look like another law
         again = stating(stated, likeliest(ranking.problem, best))

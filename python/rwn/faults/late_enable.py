@@ -23,6 +23,7 @@ from rwn.model.initial_state import CERTAIN, resolution
 from rwn.model.model import Model
 from rwn.name.observable import observable
 from rwn.name.screening import screen
+from rwn.recording.inspection import Finding
 from rwn.recording.recording import Recording, beginnings
 from rwn.simulate.run import Run, run_of
 
@@ -32,16 +33,25 @@ FEWEST = 3  # samples that stand still: fewer are what an inductance and an iner
 DELAY = "input-delay"
 HOLDING = ("coulomb-friction", "stribeck-friction", "actuator-deadzone")  # under which a drive stands still too
 TRIED = 64  # instants of enabling that are compared at a time
+EXACT = 0.01  # of the time between rows, to which the best of them is found
 
 
 @dataclass(frozen=True, kw_only=True)
 class LateEnable:
-    """The first `samples` of a recording had no power."""
+    """A recording that had no power until some time after its first sample."""
 
     place: int  # of the recording among those that were given
     recording: str
-    samples: int
-    time: float  # [s] after its first sample
+    samples: int  # before that time
+    time: float  # [s] after the first sample
+
+    def as_finding(self, given: str) -> Finding:
+        """As a check of recordings says it. `given`: the input."""
+        return Finding(
+            kind="late-enable", recording=self.recording, signals=(given,), count=self.samples,
+            words=f"it stands still under its {given} for the first {self.time:.3g} s, as before an enable",
+            done=f"the {given} is taken as 0 until then",
+        )  # fmt: skip
 
 
 def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEnable, ...]:
@@ -52,7 +62,8 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
     still = [_standing_samples(r, model) for r in recordings]
     if model.drive.coefficients or not any(still):
         return ()
-    problem, nominal = nominal_of([_without_input(r, model, k) for r, k in zip(recordings, still, strict=True)], model)
+    without = [_powered_from(_since_start(r)[k], r, model) for r, k in zip(recordings, still, strict=True)]
+    problem, nominal = nominal_of(without, model)
     found = _enabled_late(recordings, model, problem, nominal, problem.runs)
     return _worthwhile(found, recordings, model) if found else ()
 
@@ -71,17 +82,16 @@ def _enabled_late(
     for k, (recording, run) in enumerate(zip(recordings, runs, strict=True)):
         samples = _standing_samples(recording, model)
         if samples and _would_move(problem, this, recording, model, run, samples):
-            enabled = _enabling_sample(problem, this, recording, model, run, samples)
-            time = float(recording.time[enabled] - recording.time[0])
-            if enabled >= FEWEST:
-                found.append(LateEnable(place=k, recording=recording.name, samples=enabled, time=time))
+            late = _enabled_at(_Beginning(problem, this, recording, model, run, samples).enabling_time(), k, recording)
+            if late.samples >= FEWEST:
+                found.append(late)
     return tuple(found)
 
 
 def powered(recordings: Sequence[Recording], found: Sequence[LateEnable], model: Model) -> list[Recording]:
     """The recordings with no input where they had no power."""
-    samples = {late.place: late.samples for late in found}
-    return [_without_input(r, model, samples.get(k, 0)) for k, r in enumerate(recordings)]
+    times = {late.place: late.time for late in found}
+    return [_powered_from(times.get(k, 0.0), r, model) for k, r in enumerate(recordings)]
 
 
 def needed(
@@ -93,6 +103,24 @@ def needed(
         for late in found
         if _would_move(problem, this, recordings[late.place], model, problem.whole[late.place], late.samples)
     )
+
+
+def retimed(
+    found: Sequence[LateEnable], recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit
+) -> tuple[LateEnable, ...]:
+    """Each at the time that an explanation asks for, where the recordings are far likelier with that.
+
+    What was missing when it was found, such as a delay, moves it. `problem`: of `powered` recordings.
+    """
+    enough, made = 2.0 * worth(problem, this) * DECISIVE, []
+    for late in found:
+        recording = recordings[late.place]
+        samples, run = _standing_samples(recording, model), problem.whole[late.place]
+        beginning = _Beginning(problem, this, recording, model, run, samples)
+        time = beginning.enabling_time()
+        better = beginning.error(late.time) - beginning.error(time) > enough
+        made.append(_enabled_at(time, late.place, recording) if better else late)
+    return tuple(made)
 
 
 def _standing_samples(recording: Recording, model: Model) -> int:
@@ -150,17 +178,29 @@ def _cost(this: Fit) -> float:
 
 
 def _waiting_time(recording: Recording, late: LateEnable, model: Model) -> float:
-    """From the first input to the power [s], between two rows: at a row a delay has two slopes."""
+    """From the first input to the power [s]."""
     begins = int(np.argmax(np.asarray(recording.signals[model.drive.input]) != 0.0))
-    before, after = recording.time[late.samples - 1], recording.time[late.samples]
-    return float(max(0.5 * (before + after) - recording.time[begins], 0.0))
+    return float(max(late.time - _since_start(recording)[begins], 0.0))
 
 
-def _without_input(recording: Recording, model: Model, samples: int) -> Recording:
-    if not samples:
+def _since_start(recording: Recording) -> Array:
+    """Time [s] of each sample after the first, (n + 1,): the last is the end of the last one's step."""
+    time = recording.time - recording.time[0]
+    return np.append(time, 2.0 * time[-1] - time[-2])
+
+
+def _enabled_at(time: float, place: int, recording: Recording) -> LateEnable:
+    before = int(np.searchsorted(_since_start(recording)[:-1], time))
+    return LateEnable(place=place, recording=recording.name, samples=before, time=time)
+
+
+def _powered_from(time: float, recording: Recording, model: Model) -> Recording:
+    """The recording with no input before a time [s]; in the step in which it comes the input acts for a part."""
+    if time == 0.0:
         return recording
-    given = np.array(recording.signals[model.drive.input])
-    given[:samples] = 0.0
+    steps = _since_start(recording)
+    acts = np.clip((steps[1:] - time) / np.diff(steps), 0.0, 1.0)
+    given = acts * np.asarray(recording.signals[model.drive.input])
     return replace(recording, signals={**recording.signals, model.drive.input: given})
 
 
@@ -174,17 +214,35 @@ def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model,
     return any(np.max(e) > CERTAIN * problem.noise[s].deviation for s, e in error.items())
 
 
-def _enabling_sample(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> int:
-    """The sample at which power came: that under which the fit errs least, until twice the time that it stood still."""
+@dataclass(frozen=True)
+class _Beginning:
+    """A recording until twice the time that it stood still, and a fit that would move under its input."""
 
-    def error(k: int) -> float:
-        run = replace(run_of(_without_input(recording, model, k), model).until(2 * samples), own=beside.own)
-        return replace(problem, runs=(run,)).error(this.vector, this.active)
+    problem: Problem
+    this: Fit
+    recording: Recording
+    model: Model
+    beside: Run  # the same as it is simulated
+    samples: int  # that stand still
 
-    low, high = 0, samples
-    while True:
-        tried = np.unique(np.linspace(low, high, TRIED).astype(int))
-        best = int(np.argmin([error(int(k)) for k in tried]))
-        low, high = int(tried[max(best - 1, 0)]), int(tried[min(best + 1, tried.size - 1)])
-        if high - low <= 2:
-            return int(tried[best])
+    def error(self, time: float) -> float:
+        """Weighted squared error of the fit with power from a time [s] on."""
+        run = run_of(_powered_from(time, self.recording, self.model), self.model).until(2 * self.samples)
+        on = replace(self.problem, runs=(replace(run, own=self.beside.own),))
+        return on.error(self.this.vector, self.this.active)
+
+    def enabling_time(self) -> float:
+        """When power came [s]: where the fit errs least."""
+        from scipy.optimize import minimize_scalar  # late: the command line starts without it
+
+        times, low, high = _since_start(self.recording), 0, self.samples
+        while True:
+            tried = np.unique(np.linspace(low, high, TRIED).astype(int))
+            best = int(np.argmin([self.error(float(times[k])) for k in tried]))
+            low, high = int(tried[max(best - 1, 0)]), int(tried[min(best + 1, tried.size - 1)])
+            if high - low <= 2:
+                break
+        around = (float(times[low]), float(times[high]))
+        exact = {"xatol": EXACT * (around[1] - around[0])}
+        found = minimize_scalar(self.error, bounds=around, method="bounded", options=exact)
+        return min((float(times[tried[best]]), float(found.x)), key=self.error)
