@@ -59,6 +59,14 @@ def test_the_account_is_of_the_best_explanation_that_has_effects(monkeypatch: py
     assert found.birge == 1.7
 
 
+def test_a_law_that_elaborates_an_effect_is_no_evidence_against_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A drag by any power of the speed that explains less by far is no rival, and says no less that a drag acts."""
+    fits = [_ranked("quadratic-drag", score=9.0), _ranked("power-law-drag", score=1.0), _ranked(score=0.0)]
+    found, asked = _account(monkeypatch, fits, {"quadratic-drag": CERTAIN})
+    assert asked["rivals"] == {"quadratic-drag": {"power-law-drag"}}
+    assert found.effects[0].rivals == ()
+
+
 def test_where_no_effect_was_found_the_account_is_empty(monkeypatch: pytest.MonkeyPatch) -> None:
     found, asked = _account(monkeypatch, [_ranked()], {})
     assert found.effects == found.stated == ()

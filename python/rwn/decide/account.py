@@ -16,6 +16,7 @@ from rwn.decide.evidence import Evidence, Validation
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import join, structured, variance
 from rwn.model.model import Model
+from rwn.name.backward import family
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
@@ -76,7 +77,7 @@ def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     found = elaborated(ranking, best, lambda this: Validation(ranking, this, heldout, model))
     leading, validation = found.leading, found.validation
     rivals = {name: _rivals(ranking, leading, name, found.odds) for name in leading.added}
-    instead = {name: {*rivals[name], *(rival for one, rival in found.odds if one == name)} for name in leading.added}
+    instead = {name: {*rivals[name], *family(name)} - {name} for name in leading.added}
     evidence = side_by_side(lambda name: validation.evidence(name, instead[name]), leading.added)
     rows = [_acting(name, e, rivals[name]) for name, e in zip(leading.added, evidence, strict=True)]
     return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading, birge=validation.birge)

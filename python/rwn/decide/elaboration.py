@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.evidence import Validation
-from rwn.name.backward import elaborations, plainer
+from rwn.name.backward import family, plainer
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 
@@ -38,8 +38,7 @@ def elaborated(ranking: Ranking, leading: RankedFit, validated: Callable[[Ranked
                 odds[name, plain_name] = (1.0 - adds) / adds
                 break
             idle[name] = adds
-            alike = [n for n in elaborations() if plainer([n]) == {plain_name} and n not in idle]
-            found = [_explained(ranking, others, n) for n in alike]
+            found = [_explained(ranking, others, n) for n in sorted(family(plain_name) - {plain_name, *idle})]
             instead = max([plain, *(f for f in found if f)], key=lambda r: r.score)
             # the evidence against rivals is that of the plain claim, which the idle law made too
             leading = replace(instead, score=max(leading.score, instead.score))

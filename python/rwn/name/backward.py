@@ -80,6 +80,11 @@ def elaborations() -> list[str]:
     return [n for n in table() if plainer([n]) != {n}]
 
 
+def family(name: str) -> set[str]:
+    """The law and those that are the same made plain: dry friction of any kind, a load with and without a spring."""
+    return {name} | {n for n in table() if plainer([n]) == plainer([name])}
+
+
 def _plain_values(this: Fit) -> dict[str, float]:
     """Plain friction of the level that the elaborate law of an explanation has."""
     (plain,) = (p for p in table()[PLAIN].parameters if p.replaces)
