@@ -133,3 +133,25 @@ def test_a_pendulum_hangs_where_the_motor_holds_it() -> None:
     assert held == pytest.approx(0.2 * 9.80665 * 0.1 * np.sin(angle), rel=1e-3)
     free = rwn.simulate(replace(model, load={}), run).signals["position"][-1]
     assert free > 8.0 * np.pi
+
+
+@pytest.mark.parametrize("saturation_current", [0.05, 0.074, 0.15, 0.5])
+def test_a_winding_that_saturates_between_two_rows_is_followed(saturation_current: float) -> None:
+    """Its transient is seven times shorter than a row, and the current that follows a step of the voltage saturates it.
+
+    At the start of that step nothing says so yet. Compared with rows 50 times shorter.
+    """
+    motor = {"resistance": 20.0, "inductance": 7.5e-3, "torque_constant": 0.0247, "back_emf_constant": 0.0247,
+             "inertia": 1.14e-6, "viscous_friction": 3.2e-7}  # fmt: skip
+    model = rwn.Model(
+        kind="dc", parameters=motor, effects={"magnetic-saturation": {"saturation_current": saturation_current}}
+    )
+    voltage, finer = np.repeat([2.3, -2.5, 0.5, -1.0, 2.5], 60), 50
+
+    def speed(rows: int) -> np.ndarray:
+        time = 2.5e-3 / rows * np.arange(voltage.size * rows)
+        run = rwn.Recording(name="run", time=time, signals={"voltage": np.repeat(voltage, rows)})
+        return rwn.simulate(model, run).signals["speed"][::rows]
+
+    exact = speed(finer)
+    np.testing.assert_allclose(speed(1), exact, atol=0.015 * float(np.abs(exact).max()))

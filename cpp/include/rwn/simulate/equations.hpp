@@ -102,11 +102,16 @@ class Equations {
   }
 
   /// A winding that has become faster than R/L (saturation, brush contact) is linearised at R 2^level, which keeps the
-  /// remainder stable; `t` are the terms at s.
-  int choose_level(const State& s, const Terms<S>& t) const {
+  /// remainder stable; `t` are the terms at s. Where its transient is over within h, so is that of where it settles.
+  int choose_level(const State& s, const Terms<S>& t, double h) const {
     if constexpr (Drive::states > 0) {
       if (!electrical()) return 0;
-      const double ratio = electrics_.speed_up(t, t.drop_slope + effects_.own_drop_slope(s));
+      double ratio = speed_up(s, t);
+      if (h * electrics_.rate(t) > angle_of_a_winding) {
+        State settled = s;
+        electrics_.settle(settled.x, s.x[w], input());
+        ratio = std::max(ratio, speed_up(settled, terms_of(settled, s.position)));
+      }
       return ratio > 1.3 ? static_cast<int>(std::min(12.0, std::ceil(std::log2(ratio)))) : 0;
     }
     return 0;
@@ -234,6 +239,11 @@ class Equations {
   }
 
   const S& input() const { return effects_.input(); }
+
+  /// How much faster than R/L the winding is in a state, whose terms are `t`.
+  double speed_up(const State& s, const Terms<S>& t) const {
+    return electrics_.speed_up(t, t.drop_slope + effects_.own_drop_slope(s));
+  }
 
   Terms<S> terms_of(const State& s, const S& start) const {
     Terms<S> t;

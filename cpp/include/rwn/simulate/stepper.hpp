@@ -41,10 +41,10 @@ class Stepper {
     if (!equations_.varies()) return linear_step(s, h);
     if (!start_known_) start(s, 0);
     start_known_ = false;
-    const int level = equations_.choose_level(s, t0_);
+    const double length = value_of(h);
+    const int level = equations_.choose_level(s, t0_, length);
     if (level != 0) start(s, level);
     const Regime regime = equations_.regime(s, level);
-    const double length = value_of(h);
     ++operators_.counts.nonlinear;
     if (equations_.electrical()) ++operators_.counts.electrical;
     if (use_ == Use::intervals) return nonlinear_step(s, h, level, operators_.of_interval(length, regime));
