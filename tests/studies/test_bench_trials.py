@@ -238,6 +238,18 @@ def test_corrected_worse_than_refitted(folder: Path) -> None:
     assert score.missed(found)
 
 
+def test_between_the_updates_of_a_slow_bus_no_model_is_compared(folder: Path) -> None:
+    """The true speed rises row by row and is shown every second row: a model that follows it is no worse for that."""
+    held = [{"kind": "values-held", "speed": 2, "current": 1}]
+    answer = the_answer(heldout_clean_speed=[[0.0, 0.0, 2.0]], noise={"kind": "white", "recorded_speed_rms": 0.01})
+    for name, speeds in (("simulated", (0.0, 1.0, 2.0)), ("refitted", (0.1, 0.1, 2.1))):
+        rows = "".join(f"{k},{w}\n" for k, w in enumerate(speeds))
+        (folder / "out" / f"heldout_1_{name}.csv").write_text("time [s],speed [rad/s]\n" + rows)
+    said = stated(("quadratic-drag", 0.9))
+    assert graded(folder, answer | {"imperfections": held}, said).worse == (False,)
+    assert graded(folder, answer, said).worse == (True,)
+
+
 def test_no_diagnosis_states_nothing(folder: Path) -> None:
     found = graded(folder, the_answer(), None)
     assert found.verdict == "no-result"

@@ -9,9 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rwn.studies.trials.adapter import heldout_files, refitted_file, simulated_file
 from rwn.studies.trials.bench_trials.also_true import also_true
+from rwn.studies.trials.bench_trials.imperfections import held
 from rwn.studies.trials.bench_trials.plan import BACKGROUND_ALONE, NOTHING
 from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.effects import known_as
@@ -26,6 +28,9 @@ from rwn.studies.trials.grade import (
 )
 from rwn.studies.trials.run import out_of, trial_folders
 from rwn.studies.trials.trial_files import read_columns
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 WORSE = 1.01  # times the error of the refitted model, noise included
 
@@ -190,9 +195,17 @@ def _worse(answer: Mapping[str, Any], trial: Path, out: Path) -> list[bool]:
         if not corrected.exists() or not refitted.exists():
             continue
         true = clean_speed(answer, heldout)
+        new = _updates(answer, true)
         errors = [
-            float(np.hypot(sigma, np.sqrt(np.mean((read_columns(path)["speed"] - true) ** 2))))
+            float(np.hypot(sigma, np.sqrt(np.mean((read_columns(path)["speed"] - true)[new] ** 2))))
             for path in (corrected, refitted)
         ]
         found.append(not errors[0] <= WORSE * errors[1])
     return found
+
+
+def _updates(answer: Mapping[str, Any], speed: Array) -> Flags:
+    """Whether each row (n,) has a speed of its own: between the updates of a slow bus it is the last one, held."""
+    is_held = any(each["kind"] == held.KIND.name and each["speed"] > 1 for each in answer["imperfections"])
+    changed: Flags = np.concatenate([[True], np.diff(speed) != 0.0])
+    return changed if is_held else np.ones(speed.size, dtype=bool)
