@@ -86,6 +86,9 @@ class Equations {
   /// The mass behind a joint, where there are two.
   const auto& second() const { return second_; }
 
+  /// Of a single mass that slides or has no friction that holds.
+  Regime regime(int level, bool stick) const { return {level, stick, false}; }
+
   Regime regime(const Moving& s, int level) const {
     return {level, dry_ && s.direction == 0.0, masses == 2 && s.contact != 0.0};
   }
@@ -166,6 +169,18 @@ class Equations {
     if constexpr (Drive::forced) {
       if (!stick) f[w] += input() * inverse_inertia_;
     }
+    return f;
+  }
+
+  /// What accelerates a single mass besides the input where no effect varies and no friction holds.
+  S steady_acceleration(const State& s) { return constants(s, s.direction).acceleration; }
+
+  /// `constant_part` with that.
+  Vector plain_part(const S& steady, const S& input) const {
+    Vector f{};
+    f[w] = steady;
+    if constexpr (Drive::states > 0) electrics_.drive(f, input);
+    if constexpr (Drive::forced) f[w] += input * inverse_inertia_;
     return f;
   }
 

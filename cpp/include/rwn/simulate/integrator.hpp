@@ -45,6 +45,30 @@ class Integrator {
     dry_ || play_ ? advance_with_events(s, h) : advance_smoothly(s, h);
   }
 
+  /// Whether nothing but friction happens between samples: constant terms, one mass.
+  bool plain() const { return masses == 1 && exact_; }
+  bool dry() const { return dry_; }
+
+  /// Where that is so, what accelerates a shaft that slides in `s.direction` besides the input.
+  S steady_acceleration(const State& s) { return equations_.steady_acceleration(s); }
+
+  /// `advance` of a sliding shaft where that is so, done where it returns true: it slides on. `dry`: with friction.
+  template <bool dry>
+  bool slides_on(typename State::Moving& s, double h, const S& steady, const S& input) {
+    if constexpr (!dry) {
+      stepper_.plain_update(s.x, s.position, h, steady, input);
+      return true;
+    }
+    if (s.direction == 0.0) return false;
+    auto x = s.x;
+    S position = s.position;
+    stepper_.plain_update(x, position, h, steady, input);
+    if (s.direction * value_of(x[w]) < 0.0) return false;
+    s.x = x;
+    s.position = position;
+    return true;
+  }
+
  private:
   void advance_smoothly(State& s, const S& h) {
     const int steps = stepper_.step_count(s, value_of(h));

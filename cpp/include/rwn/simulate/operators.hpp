@@ -112,11 +112,14 @@ class Operators {
     return steps_[k];
   }
 
+  /// Whether two lengths are one, as far as clocks count.
+  static bool same(double h, double other) { return std::abs(other - h) <= same_length * h; }
+
   /// The step of an interval between samples: made for a length that comes back, between those of a grid for one that
   /// does not, as of rows that are off their clock.
   const Step<S>& of_interval(double h, const Regime& regime) {
     if (const Step<S>* known = find(h, regime)) return *known;
-    const bool again = std::any_of(missed_.begin(), missed_.end(), [h](double m) { return std::abs(m - h) <= same_length * h; });
+    const bool again = std::any_of(missed_.begin(), missed_.end(), [h](double m) { return same(h, m); });
     if (!again) next_of(missed_, next_missed_) = h;
     const System& s = system(regime);
     return again || made_ < most_returning || s.fastest * h > longest_between ? over(h, regime) : between(h, s);
@@ -230,7 +233,7 @@ class Operators {
 
   const Step<S>* find(double h, const Regime& regime) const {
     for (std::size_t k = 0; k < made_; ++k) {
-      if (std::abs(lengths_[k] - h) <= same_length * h && steps_[k].regime == regime) return &steps_[k];
+      if (same(h, lengths_[k]) && steps_[k].regime == regime) return &steps_[k];
     }
     return nullptr;
   }

@@ -69,6 +69,17 @@ class Stepper {
     }
   }
 
+  /// The same over an interval between samples of a run in which nothing changes but the input: the step is looked up
+  /// where the length is another one than before. `steady`: what accelerates the shaft besides.
+  void plain_update(Vector& x, S& position, double h, const S& steady, const S& input) {
+    if (!All::same(h, plain_length_)) {
+      plain_ = &operators_.of_interval(h, equations_.regime(0, false));
+      plain_length_ = h;
+    }
+    ++operators_.counts.linear;
+    go(*plain_, x, equations_.plain_part(steady, input), x, position);
+  }
+
   /// `s` a little later, in which its rates of change last; memories of effects stay.
   State moved(const State& s, const S& later) {
     Terms<S> t;
@@ -89,6 +100,7 @@ class Stepper {
 
  private:
   using Value = typename S::Value;
+  using All = Operators<S, Drive, masses>;
 
   State linear_step(const State& s, const S& h) {
     State next = s;
@@ -108,18 +120,23 @@ class Stepper {
     (use_ == Use::search ? operators_.counts.series_of_values : operators_.counts.series) += parts;
   }
 
-  using All = Operators<S, Drive, masses>;
-
   template <class T>
   static void go(const typename All::template Step<T>& o, const State& s, const Vector& constant, Vector& x, S& position) {
-    const auto& before = All::template in<T>(s.x);
+    position = s.position;
+    go(o, s.x, constant, x, position);
+  }
+
+  /// From the state `from`, which may be `x`; the position goes on from where it is.
+  template <class T>
+  static void go(const typename All::template Step<T>& o, const Vector& from, const Vector& constant, Vector& x, S& position) {
+    const auto& before = All::template in<T>(from);
     const auto& f = All::template in<T>(constant);
     SmallVector<T, n> after{};
     add_product<T, n>(after, o.e, before);
     add_product<T, n>(after, o.p1, f);
     T travelled(0.0);
     for (std::size_t j = 0; j < n; ++j) travelled += o.p1[w * n + j] * before[j] + o.p2[w * n + j] * f[j];
-    position = s.position + as_scalar<S>(travelled);
+    position += as_scalar<S>(travelled);
     x = All::template as<S>(after);
   }
 
@@ -220,6 +237,8 @@ class Stepper {
   Operators<S, Drive, masses> operators_;
   Vector f0_{};  // at the start of a step, with its terms
   Terms<S> t0_{};
+  const typename All::template Step<S>* plain_ = nullptr;  // of intervals as long as this
+  double plain_length_ = 0.0;
   bool start_known_ = false;
   Use use_ = Use::intervals;
 };
