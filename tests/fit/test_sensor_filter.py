@@ -10,6 +10,7 @@ import pytest
 import rwn
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
+from rwn.fit.levenberg_marquardt import prior_cost
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
@@ -24,19 +25,25 @@ MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_e
          "viscous_friction": 2e-5}  # fmt: skip
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
+UNCERTAIN = {
+    "resistance": 0.1, "torque_constant": 0.04, "back_emf_constant": 0.04, "inertia": 0.06, "viscous_friction": 0.7
+}  # fmt: skip
 
-def _problem(share: float, samples: int = 4000, *, analog: bool = False, step: float = STEP) -> Problem:
+
+def _problem(
+    share: float, samples: int = 4000, *, analog: bool = False, step: float = STEP, model: Model = MODEL
+) -> Problem:
     """A run whose speed, with its noise, went through a filter."""
     rng, time = np.random.default_rng(7), step * np.arange(samples)
     voltage = np.repeat(3.0 * rng.uniform(-1.0, 1.0, samples // 50), 50)
     run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
     lag = {"speed-sensor-lag": {"time_constant": -step / np.log(share)}} if analog else {}
-    speed = rwn.simulate(replace(MODEL, effects=lag), run).signals["speed"]
+    speed = rwn.simulate(replace(model, effects=lag), run).signals["speed"]
     noise = 0.2 * rng.standard_normal(samples)
     shown = speed + as_filtered(time, noise, -step / np.log(share)) if share else speed + noise
     if share and not analog:
         shown = as_filtered(time, speed + noise, -step / np.log(share))
-    return prepare([replace(run, signals={"voltage": voltage, "speed": shown})], MODEL)
+    return prepare([replace(run, signals={"voltage": voltage, "speed": shown})], model)
 
 
 @pytest.mark.parametrize("share", [0.4, 0.6])
@@ -58,7 +65,8 @@ def test_a_sensor_with_a_lag_of_its_own_is_no_filter_of_samples() -> None:
 def test_a_spring_that_was_found_in_place_of_a_filter_does_not_hide_it() -> None:
     """At few rows a time constant a second mass beside a lag of the sensor does what the filter did."""
     step = 5e-3
-    problem, nominal = weighted_by_nominal(_problem(0.4, 2000, step=step))
+    model = replace(MODEL, uncertainty={"inertia": 0.02, "viscous_friction": 0.1})
+    problem, nominal = weighted_by_nominal(_problem(0.4, 2000, step=step, model=model))
     start = {
         "shaft-compliance": {"stiffness": 2.0, "damping": 1e-3, "load_inertia": 1e-5, "load_viscous_share": 0.5},
         "speed-sensor-lag": {"time_constant": step},
@@ -68,6 +76,24 @@ def test_a_spring_that_was_found_in_place_of_a_filter_does_not_hide_it() -> None
     (found,) = sensor_filters(problem, mimic)
     assert found.digital
     assert found.share == pytest.approx(0.4, abs=0.02)
+
+
+@pytest.mark.parametrize(("step", "share"), [(4e-3, 0.65), (8e-3, 0.54), (12e-3, 0.65)])
+def test_parameters_that_leave_the_data_sheet_are_no_filter(step: float, share: float) -> None:
+    """At few rows a time constant several times the inertia does what the filter did, against all that is declared."""
+    model = replace(MODEL, uncertainty=UNCERTAIN)
+    problem, nominal = weighted_by_nominal(_problem(share, 2000, step=step, model=model))
+    assert nominal.value("inertia") > 4.0 * MOTOR["inertia"]
+    (found,) = sensor_filters(problem, nominal)
+    assert found.digital
+    assert found.share == pytest.approx(share, abs=0.01)
+
+
+def test_what_priors_cost_is_what_a_fit_pays_for_them() -> None:
+    problem, nominal = weighted_by_nominal(_problem(0.54, 2000, step=8e-3, model=replace(MODEL, uncertainty=UNCERTAIN)))
+    paid = (nominal.minimum.cost - nominal.minimum.chi2) / problem.colour
+    assert paid > 100.0
+    assert prior_cost(nominal.hypothesis.unknowns, nominal.minimum.values) == pytest.approx(paid, rel=1e-9)
 
 
 def test_white_noise_shows_no_filter_and_neither_does_a_model_that_is_wrong() -> None:

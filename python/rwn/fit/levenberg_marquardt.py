@@ -158,6 +158,13 @@ def _prior_weight(u: Unknown) -> float:
     return 1.0 / max(scale, 1e-12) ** 2
 
 
+def prior_cost(unknowns: tuple[Unknown, ...], values: Array) -> float:
+    """Squared deviations of values (p,) from their priors, and of tied ones from each other."""
+    z = np.array([u.coordinate(float(v)) for u, v in zip(unknowns, values, strict=True)])
+    off = z - np.array([u.coordinate(u.prior) if u.prior is not None else 0.0 for u in unknowns])
+    return float(np.sum(np.array([_prior_weight(u) for u in unknowns]) * off**2) + z @ _ties(unknowns) @ z)
+
+
 def minimise(
     evaluate: Evaluate,
     start: Array,

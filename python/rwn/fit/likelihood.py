@@ -1,7 +1,8 @@
 """How likely what a fit leaves is, for choosing how recordings were made before it is known what physics is missing.
 
 What a model leaves out moves slowly against the sample time and is the same under every choice, so the errors are
-compared by what is new in them: their likelihood as autoregressions.
+compared by what is new in them: their likelihood as autoregressions. A choice under which the parameters have to leave
+what was declared of them pays for that.
 """
 
 from __future__ import annotations
@@ -9,10 +10,16 @@ from __future__ import annotations
 import numpy as np
 
 from rwn.fit.fit import Fit
+from rwn.fit.levenberg_marquardt import prior_cost
 from rwn.fit.problem import Problem
 
 ORDER = 8  # of the autoregressions
 DECISIVE = float(np.log(1000.0))  # how much likelier another choice has to be than what is usual
+
+
+def log_posterior(problem: Problem, this: Fit) -> float:
+    """Of a fit, by what it leaves and by how far its parameters are from what was declared; up to a constant."""
+    return log_likelihood(problem, this) - 0.5 * prior_cost(this.hypothesis.unknowns, this.minimum.values)
 
 
 def log_likelihood(problem: Problem, this: Fit) -> float:

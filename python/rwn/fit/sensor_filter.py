@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.budget import one_stage, shares_by_rank
-from rwn.fit.fit import Fit, fit, refit
+from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.likelihood import log_likelihood
+from rwn.fit.likelihood import log_posterior
 from rwn.fit.prior import Nuisance
+from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.model.model import Model
@@ -34,6 +35,8 @@ CERTAIN = 5.0  # standard deviations of the autocorrelation of white noise
 LEAST, MOST = 0.1, 0.95  # of phi: a filter faster than half a sample changes nothing, a slower one is physics
 NOISE_ALONE = 2.0  # variance of what is new in a residual against its rough noise, up to which it is noise alone
 ITERATIONS = 8  # of a fit that begins near its end
+SHARES = 24  # values of phi that are compared: at few rows a time constant the right one is told to a few per cent
+DIPS = 3  # of the likelihood between them, that are refined
 EXACT = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
 ROUNDS = 2  # in which the filters of several signals are estimated beside each other
 
@@ -80,7 +83,7 @@ def _filters_beside(
     this = _refitted(base, on)
     shown = sum(_samples(problem, f.signal) * float(np.log(1.0 - f.share)) for f in found.values() if f.digital)
     unknowns = len(this.hypothesis.unknowns) + len(on.filters)
-    return tuple(found.values()), log_likelihood(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
+    return tuple(found.values()), log_posterior(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
 
 
 def _samples(problem: Problem, signal: str) -> int:
@@ -183,9 +186,13 @@ def _without_lags(problem: Problem, this: Fit) -> Iterator[Fit]:
 
 
 def _refitted(this: Fit, problem: Problem) -> Fit:
-    """The same explanation fitted to a problem that may hold other filters."""
+    """The same explanation fitted to a problem that may hold other filters.
+
+    A motor that has left what is declared of it may have done so in place of a filter: it begins anew.
+    """
     starts = {name: this.values_of(name) for name in this.added}
-    begun = hypothesis(problem.prior, this.added, problem.scales, starts, this.motor)
+    motor = this.motor if this.farthest_move < BELIEVABLE else None
+    begun = hypothesis(problem.prior, this.added, problem.scales, starts, motor)
     return fit(problem, begun, max_iterations=ITERATIONS)
 
 
@@ -198,8 +205,8 @@ def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFi
     analog = filtered(problem, [lag])
     sampled, score = _digital(problem, this, seen)
     scores: dict[SensorFilter | None, float] = {
-        lag: log_likelihood(analog, _refitted(this, analog)),
-        None: log_likelihood(problem, this) + 0.5 * np.log(problem.samples),
+        lag: log_posterior(analog, _refitted(this, analog)),
+        None: log_posterior(problem, this) + 0.5 * np.log(problem.samples),
         sampled: score,
     }
     return max(scores, key=lambda which: scores[which])
@@ -211,15 +218,21 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFil
 
     samples = _samples(problem, seen.signal)
 
-    def negative_log_likelihood(logarithm: float) -> float:
+    def negative_log_posterior(logarithm: float) -> float:
         time_constant = float(np.exp(logarithm))
         on = _undone(problem, seen.signal, time_constant)
         shown = 1.0 - _share_kept(problem, seen.signal, time_constant)  # of what is new in a sample
-        return samples * float(np.log(shown)) - log_likelihood(on, refit(this, on, iterations=ITERATIONS))
+        return samples * float(np.log(shown)) - log_posterior(on, _refitted(this, on))
 
     one = float(np.log(seen.time_constant * -np.log(seen.share)))  # of the time of a sample
-    bounds = (one - float(np.log(-np.log(LEAST))), one - float(np.log(-np.log(MOST))))
-    found = minimize_scalar(negative_log_likelihood, bounds=bounds, method="bounded", options={"xatol": EXACT})
+    tried = one - np.log(-np.log(np.linspace(LEAST, MOST, SHARES)))
+    scores = np.array([negative_log_posterior(float(t)) for t in tried])
+    beside = np.concatenate([[np.inf], scores, [np.inf]])
+    dips = np.flatnonzero((scores <= beside[:-2]) & (scores <= beside[2:]))  # another motor may do with another filter
+    around = [tried[[max(k - 1, 0), min(k + 1, SHARES - 1)]] for k in dips[np.argsort(scores[dips])][:DIPS]]
+    exact = {"xatol": EXACT}
+    refined = [minimize_scalar(negative_log_posterior, bounds=b, method="bounded", options=exact) for b in around]
+    found = min(refined, key=lambda each: float(each.fun))
     time_constant = float(np.exp(found.x))
     share = _share_kept(problem, seen.signal, time_constant)
     return replace(seen, digital=True, time_constant=time_constant, share=share), -float(found.fun)
