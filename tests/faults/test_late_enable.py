@@ -102,6 +102,18 @@ def test_a_late_enable_of_what_was_not_fitted_is_said() -> None:
     assert abs(said.count - 130) <= 2
 
 
+def test_a_friction_that_is_a_little_more_than_fitted_is_no_late_enable() -> None:
+    """A slow ramp moves the drive where its voltage overcomes friction, which is 5 % more on that day."""
+    problem = prepare([_run(STEPS, 0, friction=0.02)], MODEL)
+    names = ("coulomb-friction",)
+    start = {"coulomb-friction": {"coulomb_torque": 0.02}}
+    dry = fit(problem, hypothesis(problem.prior, names, problem.scales, start))
+    ramp = _run(np.linspace(0.0, 3.0, 3000), 0, friction=0.021)
+    assert late_beside([ramp], MODEL, problem, dry) == ()
+    (late,) = late_beside([_run(np.linspace(0.0, 3.0, 3000), 800, friction=0.02)], MODEL, problem, dry)
+    assert abs(late.samples - 800) <= 2
+
+
 def test_an_input_that_is_late_throughout_is_a_delay() -> None:
     """A voltage that steps once from 0, and a drive that answers late: either would do; a delay says more."""
     step = np.where(np.arange(3000) < 100, 0.0, 3.0)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.fit import Fit, fit, fit_nominal
+from rwn.fit.fit import Fit, fit, fit_nominal, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.likelihood import DECISIVE
 from rwn.fit.nominal import nominal_of
@@ -33,6 +33,7 @@ FEWEST = 3  # samples that stand still: fewer are what an inductance and an iner
 DELAY = "input-delay"
 HOLDING = ("coulomb-friction", "stribeck-friction", "actuator-deadzone")  # under which a drive stands still too
 TRIED = 64  # instants of enabling that are compared at a time
+ITERATIONS = 8  # of a fit that begins near its end
 EXACT = 0.01  # of the time between rows, to which the best of them is found
 
 
@@ -69,10 +70,17 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
 
 
 def late_beside(recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit) -> tuple[LateEnable, ...]:
-    """What stood still, of recordings that were not fitted, where an explanation `this` of others would have moved."""
+    """What stood still, of recordings that were not fitted, where an explanation `this` of others would have moved.
+
+    A friction that is a little more on that day holds a drive too: with a late enable the recording is far likelier
+    also where the explanation is fitted to it alone.
+    """
     if model.drive.coefficients:
         return ()
-    return _enabled_late(recordings, model, problem, this, [run_of(r, model) for r in recordings])
+    runs, enough = [run_of(r, model) for r in recordings], 2.0 * worth(problem, this) * DECISIVE
+    found = _enabled_late(recordings, model, problem, this, runs)
+    each = {late: _beginning(problem, this, recordings[late.place], model, runs[late.place]) for late in found}
+    return tuple(late for late, of in each.items() if of.cost(0.0) - of.cost(late.time) > enough)
 
 
 def _enabled_late(
@@ -82,7 +90,8 @@ def _enabled_late(
     for k, (recording, run) in enumerate(zip(recordings, runs, strict=True)):
         samples = _standing_samples(recording, model)
         if samples and _would_move(problem, this, recording, model, run, samples):
-            late = _enabled_at(_Beginning(problem, this, recording, model, run, samples).enabling_time(), k, recording)
+            time = _beginning(problem, this, recording, model, run).enabling_time()
+            late = _enabled_at(time, k, recording)
             if late.samples >= FEWEST:
                 found.append(late)
     return tuple(found)
@@ -115,8 +124,7 @@ def retimed(
     enough, made = 2.0 * worth(problem, this) * DECISIVE, []
     for late in found:
         recording = recordings[late.place]
-        samples, run = _standing_samples(recording, model), problem.whole[late.place]
-        beginning = _Beginning(problem, this, recording, model, run, samples)
+        beginning = _beginning(problem, this, recording, model, problem.whole[late.place])
         time = beginning.enabling_time()
         better = beginning.error(late.time) - beginning.error(time) > enough
         made.append(_enabled_at(time, late.place, recording) if better else late)
@@ -214,6 +222,10 @@ def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model,
     return any(np.max(e) > CERTAIN * problem.noise[s].deviation for s, e in error.items())
 
 
+def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> _Beginning:
+    return _Beginning(problem, this, recording, model, beside, _standing_samples(recording, model))
+
+
 @dataclass(frozen=True)
 class _Beginning:
     """A recording until twice the time that it stood still, and a fit that would move under its input."""
@@ -227,9 +239,15 @@ class _Beginning:
 
     def error(self, time: float) -> float:
         """Weighted squared error of the fit with power from a time [s] on."""
+        return self._with_power_from(time).error(self.this.vector, self.this.active)
+
+    def cost(self, time: float) -> float:
+        """The same, fitted to this alone, with priors."""
+        return refit(self.this, self._with_power_from(time), iterations=ITERATIONS).cost
+
+    def _with_power_from(self, time: float) -> Problem:
         run = run_of(_powered_from(time, self.recording, self.model), self.model).until(2 * self.samples)
-        on = replace(self.problem, runs=(replace(run, own=self.beside.own),))
-        return on.error(self.this.vector, self.this.active)
+        return replace(self.problem, runs=(replace(run, own=self.beside.own),))
 
     def enabling_time(self) -> float:
         """When power came [s]: where the fit errs least."""
