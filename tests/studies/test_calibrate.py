@@ -16,6 +16,7 @@ from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.calibrate import HALF_WIDTH, Names, _bias_in, _bias_needed, calibrated, names_of, origin
 from rwn.studies.trials.cli import app
+from rwn.studies.trials.grade import nearest_turn
 
 SHARE = 0.04  # of the mismatch that is left
 
@@ -116,3 +117,9 @@ def test_the_command_line_fits_says_and_writes_a_calibration(tmp_path: Path) -> 
     assert CliRunner().invoke(app, ["calibrate", str(folder)]).output == done.output
     wrong = CliRunner().invoke(app, ["calibrate", str(folder), "--check", "b"])
     assert "unknown set 'b'" in str(wrong.exception)
+
+
+def test_a_phase_is_known_but_for_whole_turns() -> None:
+    assert nearest_turn("phase", -3.1, 3.1) == pytest.approx(-3.1 + 2.0 * np.pi)
+    assert nearest_turn("phase", 0.2, 0.3) == 0.2
+    assert nearest_turn("amplitude", -3.1, 3.1) == -3.1

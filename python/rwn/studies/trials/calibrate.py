@@ -19,7 +19,7 @@ from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.bench_trials.also_true import also_true
 from rwn.studies.trials.effects import known_as
-from rwn.studies.trials.grade import load_answers
+from rwn.studies.trials.grade import load_answers, nearest_turn
 from rwn.studies.trials.origins import TIMING, codes, results_of, timing_of
 from rwn.studies.trials.run import out_of, trial_folders
 
@@ -94,7 +94,9 @@ def bias_of(folders: Sequence[Path], *, results: Path | None = None, check: Coll
     Such that 95 % of all intervals cover; 0 where there are none. `check`: names of sets that do not count in it.
     """
     needed = [
-        _bias_needed(estimate, float(answered["value"]), diagnosis.remainder, _bias_in(place))
+        _bias_needed(
+            estimate, nearest_turn(name, float(answered["value"]), estimate.value), diagnosis.remainder, _bias_in(place)
+        )
         for answer, diagnosis, place in _diagnosed(folders, results, check)
         for effect in diagnosis.effects
         for true in (e.get("parameters", {}) for e in answer["effects"] if e["name"] == effect.name)

@@ -21,6 +21,7 @@ from rwn.studies.trials.seal import ANSWERS, unseal
 from rwn.studies.trials.trial_files import read_columns
 
 NO_RESULT = "no-result"  # the diagnosis failed or was never run
+PHASE = "phase"  # of an effect of the angle, known but for whole turns
 CONFIDENT = 0.5  # a single name with at least this probability
 LARGEST_SET = 3
 REMOVABLE = 1.0  # held-out error of the refitted nominal model, in noise units, from which removal counts
@@ -207,16 +208,20 @@ def parameter_estimates(answer: Mapping[str, Any], effects: list[dict[str, Any]]
             said = found.get(effect["name"], {}).get(name)
             if said is None or said["unit"] != true["unit"]:
                 continue
-            out.append(_estimated(effect["name"], name, float(true["value"]), said, cyclic=name == "phase"))
+            out.append(_estimated(effect["name"], name, float(true["value"]), said))
     return out
 
 
-def _estimated(effect: str, name: str, true: float, said: Mapping[str, Any], *, cyclic: bool) -> Estimated:
-    off = float(said["value"]) - true
-    turn = 2.0 * math.pi * round(off / (2.0 * math.pi)) if cyclic else 0.0
-    error = abs(off - turn) / (math.pi if cyclic else max(abs(true), 1e-300))
+def nearest_turn(parameter: str, true: float, said: float) -> float:
+    """The true value of a parameter, of an angle the one among its equals that is nearest to what was said."""
+    return true + 2.0 * math.pi * round((said - true) / (2.0 * math.pi)) if parameter == PHASE else true
+
+
+def _estimated(effect: str, name: str, true: float, said: Mapping[str, Any]) -> Estimated:
+    near = nearest_turn(name, true, float(said["value"]))
+    error = abs(float(said["value"]) - near) / (math.pi if name == PHASE else max(abs(true), 1e-300))
     interval = said.get("interval")
-    covered = None if interval is None else bool(interval[0] <= true + turn <= interval[1])
+    covered = None if interval is None else bool(interval[0] <= near <= interval[1])
     return Estimated(effect, name, error, covered)
 
 
