@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +12,20 @@ from typer.testing import CliRunner
 
 from made_up import acting
 from rwn.decide.account import Remainder
+from rwn.decide.calibration import calibration
 from rwn.errors import InputError
 from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
-from rwn.studies.trials.calibrate import HALF_WIDTH, Names, _bias_in, _bias_needed, calibrated, names_of, origin
+from rwn.studies.trials.calibrate import (
+    HALF_WIDTH,
+    Names,
+    _bias_in,
+    _bias_needed,
+    calibrated,
+    names_of,
+    origin,
+    with_bias,
+)
 from rwn.studies.trials.cli import app
 from rwn.studies.trials.grade import nearest_turn
 
@@ -123,3 +134,11 @@ def test_a_phase_is_known_but_for_whole_turns() -> None:
     assert nearest_turn("phase", -3.1, 3.1) == pytest.approx(-3.1 + 2.0 * np.pi)
     assert nearest_turn("phase", 0.2, 0.3) == 0.2
     assert nearest_turn("amplitude", -3.1, 3.1) == -3.1
+
+
+def test_a_bias_of_its_own_keeps_the_probabilities() -> None:
+    once = with_bias(1.25, "trials of today")
+    again = replace(once, bias=calibration().bias, fitted_on=calibration().fitted_on)
+    assert again == calibration()
+    assert once.bias == 1.25
+    assert once.fitted_on.endswith("; bias by trials of today")

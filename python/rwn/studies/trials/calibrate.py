@@ -169,6 +169,12 @@ def _left_out(names: Names, fold: NDArray[np.int64], ridge: float) -> Array:
     return unseen
 
 
+def with_bias(bias: float, what: str) -> Calibration:
+    """The calibration that comes with rwn, with another bias. `what`: it was fitted on."""
+    now = calibration()
+    return replace(now, bias=bias, fitted_on=f"{now.fitted_on.split('; bias by')[0]}; bias by {what}")
+
+
 def write(found: Calibration, path: Path) -> None:
     """calibration.json."""
     path.write_bytes(msgspec.json.format(msgspec.json.encode(asdict(found)), indent=1) + b"\n")

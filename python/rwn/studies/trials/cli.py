@@ -121,10 +121,13 @@ def calibrate(
     check: Annotated[
         list[str] | None, typer.Option(help="Name of a set whose intervals check the bias and do not count in it.")
     ] = None,
+    bias_alone: Annotated[
+        bool, typer.Option("--bias-alone", help="Fit the bias of intervals anew and keep the probabilities that are.")
+    ] = False,
 ) -> None:
     """Fit the probability that an effect acts to the evidence and answers of development trials."""
     from rwn.errors import unknown
-    from rwn.studies.trials.calibrate import bias_of, calibrated, names_of, origin, words, write
+    from rwn.studies.trials.calibrate import bias_of, calibrated, names_of, origin, with_bias, words, write
 
     check, known = check or [], [f.name for f in folders]
     for name in check:
@@ -135,7 +138,7 @@ def calibrate(
     bias = bias_of(folders, results=results, check=check)
     found = calibrated(names, what=what, bias=bias)
     if out is not None:
-        write(found.calibration, out)
+        write(with_bias(bias, what) if bias_alone else found.calibration, out)
     typer.echo(words(found))
 
 
