@@ -91,7 +91,6 @@ lint: install-test
 lint-only:
 	$(PY) -m ruff check python tests bench tools
 	$(PY) -m mypy
-	$(PY) -m mypy bench
 	PYTHONPATH=python .venv/bin/lint-imports
 
 clean:

@@ -12,6 +12,7 @@ from hypothesis import settings
 
 from bad_input import Refuse, refusing
 from command_line import Run, running
+from rwn import _core
 
 SHARED = Path(os.environ.get("RWN_SHARED", Path(__file__).resolve().parents[2] / "shared"))
 
@@ -19,6 +20,11 @@ SHARED = Path(os.environ.get("RWN_SHARED", Path(__file__).resolve().parents[2] /
 # `pytest --hypothesis-profile default`.
 settings.register_profile("repeatable", derandomize=True)
 settings.load_profile("repeatable")
+
+
+def pytest_report_header() -> str:
+    """`make test` builds the kernels of this processor alone, beside the plainest."""
+    return f"rwn: kernels of {_core.isa()}"
 
 
 @pytest.fixture

@@ -26,19 +26,21 @@ def plant(voltage: Array, torque: Torque, *, step: float = 1e-3, parts: int = 6)
     """Current, speed and position (n, 3) of the motor with one more torque: plain Runge-Kutta."""
     r, inductance, kt, ke, inertia, b = MOTOR.values()
 
-    def slope(x: Array, v: float) -> Array:
-        i, w, angle = x
-        return np.array([(v - r * i - ke * w) / inductance, (kt * i - b * w + torque(w, angle)) / inertia, w])
+    def slope(i: float, w: float, angle: float, v: float) -> tuple[float, float, float]:
+        return (v - r * i - ke * w) / inductance, (kt * i - b * w + torque(w, angle)) / inertia, w
 
-    x, rows, h = np.zeros(3), [], step / parts
-    for v in voltage:
-        rows.append(x)
+    i = w = angle = 0.0
+    rows, h = [], step / parts
+    for v in voltage.tolist():  # plain numbers: arrays of three take several times as long
+        rows.append((i, w, angle))
         for _ in range(parts):
-            k1 = slope(x, v)
-            k2 = slope(x + h / 2 * k1, v)
-            k3 = slope(x + h / 2 * k2, v)
-            k4 = slope(x + h * k3, v)
-            x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+            a1, b1, c1 = slope(i, w, angle, v)
+            a2, b2, c2 = slope(i + h / 2 * a1, w + h / 2 * b1, angle + h / 2 * c1, v)
+            a3, b3, c3 = slope(i + h / 2 * a2, w + h / 2 * b2, angle + h / 2 * c2, v)
+            a4, b4, c4 = slope(i + h * a3, w + h * b3, angle + h * c3, v)
+            i += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+            w += h / 6 * (b1 + 2 * b2 + 2 * b3 + b4)
+            angle += h / 6 * (c1 + 2 * c2 + 2 * c3 + c4)
     return np.array(rows)
 
 

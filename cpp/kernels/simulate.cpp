@@ -25,9 +25,10 @@ int run(int drive, const SimulationSlice& slice) {
     if constexpr ((N == 0 || N == width_of_two_masses) && !Drive::coefficients) {
       if (slice.masses == 2) return run_masses<N, Drive, 2>(slice);
     }
-    constexpr int most = width_for<Drive>(1000), width = N > 0 && few_widths ? most : N;
-    if constexpr (width % RWN_VECTOR_WIDTH == 0 && width_for<Drive>(N) == N) return run_masses<width, Drive, 1>(slice);
-    return 0;  // never called: narrower vectors hold so many without a rest, or no run asks for so many
+    constexpr int whole = (N + RWN_VECTOR_WIDTH - 1) / RWN_VECTOR_WIDTH * RWN_VECTOR_WIDTH;  // vectors, the last half empty
+    constexpr int width = N > 0 && few_widths ? width_for<Drive>(1000) : whole;
+    if constexpr (width_for<Drive>(N) == N) return run_masses<width, Drive, 1>(slice);
+    return 0;  // never called: no run of this drive asks for so many
   });
 }
 

@@ -21,7 +21,9 @@ NOMINAL = Model(
 
 def drag(power: int) -> Ranking:
     """A motor whose drag grows with a power of its speed, explained with quadratic drag at hand."""
-    runs = [recorded(seed, lambda w, _: -0.03 * w * abs(w / 90.0) ** (power - 1) / 90.0) for seed in range(2)]
+    runs = [
+        recorded(seed, lambda w, _: -0.03 * w * abs(w / 90.0) ** (power - 1) / 90.0, samples=1200) for seed in range(2)
+    ]
     return rank(prepare(runs, NOMINAL), progress=lambda *_: None, names=["quadratic-drag"])
 
 

@@ -21,9 +21,9 @@ DECLARED = {"inertia": 0.1, "resistance": 0.05, "torque_constant": 0.05, "back_e
 
 def _runs(seed: int, effects: dict[str, dict[str, float]]) -> list[rwn.Recording]:
     """Voltage and speed under random steps and under a sweep."""
-    rng, time = np.random.default_rng(seed), 1e-3 * np.arange(2000)
+    rng, time = np.random.default_rng(seed), 1e-3 * np.arange(1000)
     truth, made = Model(kind="dc", parameters=MOTOR, effects=effects), []
-    voltages = (np.repeat(rng.uniform(-10.0, 10.0, 20), 100), 8.0 * np.sin(2 * np.pi * (time + 1.2 * time**2)))
+    voltages = (np.repeat(rng.uniform(-10.0, 10.0, 10), 100), 8.0 * np.sin(2 * np.pi * (time + 1.2 * time**2)))
     for name, voltage in zip(("steps", "sweep"), voltages, strict=True):
         bare = rwn.Recording(name=name, time=time, signals={"voltage": voltage})
         speed = rwn.simulate(truth, bare).signals["speed"]
@@ -38,18 +38,18 @@ def _sheet(**off: float) -> Model:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("off", "effects", "named"),
+    ("off", "effects", "named", "effort"),  # one with all that a search tries, the others with single effects
     [
-        ({"inertia": 5.0}, {"coulomb-friction": {"coulomb_torque": 6e-3}}, "coulomb-friction"),
-        ({"inertia": 0.3}, {"quadratic-drag": {"drag_coefficient": 1.5e-6}}, "quadratic-drag"),
-        ({"resistance": 0.4}, {"coulomb-friction": {"coulomb_torque": 6e-3}}, "coulomb-friction"),
+        ({"inertia": 5.0}, {"coulomb-friction": {"coulomb_torque": 6e-3}}, "coulomb-friction", 1.0),
+        ({"inertia": 0.3}, {"quadratic-drag": {"drag_coefficient": 1.5e-6}}, "quadratic-drag", 0.3),
+        ({"resistance": 0.4}, {"coulomb-friction": {"coulomb_torque": 6e-3}}, "coulomb-friction", 0.3),
     ],
     ids=["5 times the inertia", "0.3 times the inertia", "0.4 times the resistance"],
 )
 def test_a_wrong_data_sheet_is_said_first_and_bends_no_parameter(
-    off: dict[str, float], effects: dict[str, dict[str, float]], named: str
+    off: dict[str, float], effects: dict[str, dict[str, float]], named: str, effort: float
 ) -> None:
-    found = rwn.diagnose(_runs(101, effects), _sheet(**off))
+    found = rwn.diagnose(_runs(101, effects), _sheet(**off), jobs=1, effort=effort)
     ((name, factor),) = off.items()
     assert [e.name for e in found.effects] == [named]
     assert str(found).startswith(f"Data sheet and recordings contradict each other in {name}")

@@ -120,11 +120,11 @@ def test_nothing_is_doubted_where_nothing_is_wrong(model: rwn.Model, right: rwn.
     assert wrong_scale([unseen], model) is None
 
 
-@pytest.mark.slow
 def test_missing_physics_is_no_mistake(model: rwn.Model) -> None:
+    """tests/test_diagnose.py holds the verdict on this recording."""
     recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
     assert wrong_scale([recording], model) is None
-    assert rwn.diagnose([recording], model).verdict == "missing-physics"
+    assert suspected([recording], model) is None
 
 
 @pytest.mark.slow
@@ -202,8 +202,6 @@ def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rw
     suspect = suspected([altered(right, ("current",), delay=6)], model)
     assert suspect is not None
     assert (suspect.fault.name, suspect.fault.delay) == ("time-shift", 6)
-    friction = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    assert suspected([friction], model) is None, "missing physics is none"
 
 
 def test_a_gear_of_the_size_of_a_unit_is_not_told_from_it(model: rwn.Model, right: rwn.Recording) -> None:

@@ -28,7 +28,12 @@ Isa chosen_isa() {
     return best;
   }
   const std::string_view name{wish};
-  const Isa asked = name == "baseline" ? Isa::baseline : name == "avx2" ? Isa::avx2 : Isa::avx512;
+#ifdef RWN_AVX2
+  constexpr Isa avx2 = Isa::avx2;
+#else
+  constexpr Isa avx2 = Isa::baseline;  // the best below AVX-512 that was built
+#endif
+  const Isa asked = name == "baseline" ? Isa::baseline : name == "avx2" ? avx2 : Isa::avx512;
   return std::min(asked, best);
 }
 

@@ -41,11 +41,13 @@ const std::array<int, effect_count + 1>& offsets() {
 }
 
 int simulate_slice(int drive, const SimulationSlice& slice) {
-#ifdef RWN_AVX512
+#if defined(RWN_AVX512) && defined(RWN_AVX2)
   if (isa() == Isa::avx512 && slice.width % 8 == 0) return avx512::simulate_slice(drive, slice);
-#endif
-#ifdef RWN_AVX2
   if (isa() != Isa::baseline) return avx2::simulate_slice(drive, slice);  // vectors that would stay half empty
+#elif defined(RWN_AVX512)
+  if (isa() == Isa::avx512) return avx512::simulate_slice(drive, slice);
+#elif defined(RWN_AVX2)
+  if (isa() == Isa::avx2) return avx2::simulate_slice(drive, slice);
 #endif
   return baseline::simulate_slice(drive, slice);
 }
