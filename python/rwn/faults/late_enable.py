@@ -128,7 +128,7 @@ def retimed(
         time = beginning.enabling_time()
         better = beginning.error(late.time) - beginning.error(time) > enough
         made.append(_enabled_at(time, late.place, recording) if better else late)
-    return tuple(made)
+    return tuple(late for late in made if late.samples >= FEWEST)
 
 
 def _standing_samples(recording: Recording, model: Model) -> int:
