@@ -42,6 +42,7 @@ from tools.trust import page
 from tools.trust.cases import MODEL
 from tools.trust.short_trials import short_trial
 from tools.trust.soak import recording
+from tools.trust.stopping import until_stopped
 
 LOADED = (thesis_cli, thesis_page, trials_cli)  # in the process that commands are forked from
 TICK = 1.0 / os.sysconf("SC_CLK_TCK")  # s, in which Linux states processor time
@@ -198,6 +199,7 @@ def _start(work: Work, folder: Path, *, change: int | None = None, calls: int = 
         changes = _Changes(change, calls)
         try:
             cli.main()
+            code = 0
         except SystemExit as end:
             code = end.code if isinstance(end.code, int) else int(end.code is not None)
         sys.stdout.flush()
@@ -304,7 +306,7 @@ def main() -> int:
     names = [name for name in WORK if options.only in (None, name)]
     draw, tallies = random.Random(options.seed), dict[str, Tally]()
     shares = {name: (options.count + k) // len(names) for k, name in enumerate(names)}
-    with page.until_stopped() as stopped:
+    with until_stopped() as stopped:
         for name in names:
             tallies[name] = undisturbed(WORK[name])
         while left := [name for name in names if tallies[name].kills < shares[name] and len(tallies[name].lost) < 10]:

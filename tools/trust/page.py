@@ -6,9 +6,7 @@ A section stands between `<!-- make NAME -->` and `<!-- end -->` of docs/testing
 from __future__ import annotations
 
 import argparse
-import signal
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 
 from rwn.studies.made import made
@@ -25,24 +23,6 @@ def parsed(parser: argparse.ArgumentParser, name: str) -> argparse.Namespace:
     if given.page is not None:
         check_sections(given.page, COMMAND, [name])
     return given
-
-
-@contextmanager
-def until_stopped() -> Iterator[list[str]]:
-    """Ctrl-C or SIGTERM ends the block alone, so that what was found until then is shown; the list then says so."""
-
-    def stop(*_: object) -> None:
-        raise KeyboardInterrupt
-
-    stopped: list[str] = []
-    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield stopped
-    except KeyboardInterrupt:
-        stopped.append("stopped")
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 def show(name: str, page: Path | None, *parts: str) -> None:
