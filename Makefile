@@ -175,5 +175,6 @@ long-csv:
 	$(TRUST).long_csv --count $(COUNT) $(PAGE)
 
 # Two builds of the wheel, one in another folder, and what they hold and answer.
-wheels:
+wheels: install-cmake
+	@$(PY) -c 'import scikit_build_core, pybind11' 2>/dev/null || $(PIP) scikit-build-core pybind11 cmeel-eigen
 	$(TRUST).wheels $(PAGE)

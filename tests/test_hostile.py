@@ -17,7 +17,7 @@ from rwn import cli
 from rwn.errors import InputError, plain
 from rwn.model.files import read_model
 from rwn.model.vocabulary import table
-from rwn.report.files import output_file, output_folder
+from rwn.report.files import check_file, check_folder, output_file, output_folder
 
 HEADER = "time [s],voltage [V],speed [rad/s]\n"
 Refused = Callable[..., str]
@@ -282,6 +282,16 @@ def test_what_a_killed_process_left_is_swept_and_what_a_living_one_writes_is_not
     with output_file(tmp_path / "a.toml") as aside:
         aside.write_text("x")
     assert sorted(p.name for p in tmp_path.iterdir()) == [alive.name, "a.toml"]
+
+
+@pytest.mark.parametrize("check", [check_folder, check_file])
+def test_what_a_process_left_that_was_killed_while_it_looked_is_swept_by_the_next_look(
+    check: Callable[[Path], None], tmp_path: Path
+) -> None:
+    """`rwn thesis` and `rwn trials` look where they may write, and write by other means: nothing else would sweep."""
+    (tmp_path / ".rwn-99999999-x").mkdir()
+    check(tmp_path / "out")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_messages_hold_no_control_characters() -> None:

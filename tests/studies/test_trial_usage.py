@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from rwn.studies.trials.bench_trials.grade import grade_folders
 from rwn.studies.trials.cli import app
 from rwn.studies.trials.make import WORK, make, make_bench
 from rwn.studies.trials.score import Bin, Share, brier
+from rwn.studies.trials.seal import ANSWERS, seal, unseal
 from rwn.studies.trials.tables import heading, reliability_plot
 from rwn.studies.trials.trial_files import read_columns, write_recording
 
@@ -39,6 +42,55 @@ def test_an_unfinished_set_is_not_gone_on_with_as_another(tmp_path: Path) -> Non
     with pytest.raises(FileExistsError, match="holds an unfinished set of another seed, count or kind; remove it"):
         make(3, 1, tmp_path)
     assert json.loads((tmp_path / WORK / "set.json").read_text())["seed"] == 4
+
+
+def test_a_seal_that_was_killed_half_way_does_not_look_finished(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Wherever it stops: the set either is not finished, or has answers and hash that belong together."""
+
+    class KilledError(Exception):
+        pass
+
+    moved: list[str] = []
+    replace = Path.replace
+
+    def killed(self: Path, target: Path) -> Path:
+        moved.append(self.name)
+        if len(moved) == 2:
+            raise KilledError
+        return replace(self, target)
+
+    monkeypatch.setattr(Path, "replace", killed)
+    with pytest.raises(KilledError):
+        seal(tmp_path, {"answers": {"a": 1}})
+    assert not (tmp_path / ANSWERS).exists()
+    assert len(moved) == 2
+    seal(tmp_path, {"answers": {"a": 1}})
+    assert unseal(tmp_path) == {"answers": {"a": 1}}
+
+
+def test_a_finished_set_keeps_no_answers_in_the_clear(tmp_path: Path) -> None:
+    """A run that was killed after sealing left them beside the seal; the next one says finished and removes them."""
+    seal(tmp_path, {"answers": {"a": 1}})
+    (tmp_path / WORK).mkdir()
+    (tmp_path / WORK / "trial_0001.json").write_text("{}")
+    with pytest.raises(FileExistsError, match="already holds a finished set"):
+        make(3, 1, tmp_path)
+    assert not (tmp_path / WORK).exists()
+
+
+def test_resuming_a_set_does_not_write_what_it_is_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Written anew with every start, set.json would be empty for a moment in which a kill leaves it so."""
+    (tmp_path / WORK).mkdir()
+    (tmp_path / WORK / "set.json").write_text(json.dumps({"seed": 3, "count": 1}))
+    before = (tmp_path / WORK / "set.json").stat()
+    (tmp_path / WORK / "trial_0001.json").write_text("{}")
+    monkeypatch.setattr("rwn.studies.trials.make.workers", lambda _: nullcontext(SimpleNamespace(map=lambda *_: [])))
+    monkeypatch.setattr("rwn.studies.trials.make.shutil.rmtree", lambda *_, **__: None)
+    make(3, 1, tmp_path)
+    after = (tmp_path / WORK / "set.json").stat()
+    assert (after.st_ino, after.st_mtime_ns) == (before.st_ino, before.st_mtime_ns)
 
 
 def test_a_finished_trial_is_not_made_again(tmp_path: Path) -> None:

@@ -107,29 +107,38 @@ TARGETS: dict[str, Target] = {
 def main() -> int:
     """Fuzzes one target, or every in turn, each in a process of its own; 1 where one found something."""
     from tools.trust import page
+    from tools.trust.stopping import until_stopped
 
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("target", choices=(*TARGETS, "every"))
     parser.add_argument("--seconds", type=int, default=60, help="for each target")
     options = page.parsed(parser, "fuzz")
     targets = TARGETS if options.target == "every" else (options.target,)
-    rows, crashes = [], []
-    for target in targets:
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        code = f"from tools.trust.fuzz import fuzz; fuzz({target!r}, {options.seconds})"
-        done = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True, check=False)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        tried = re.findall(r"stat::number_of_executed_units:\s*(\d+)|^#(\d+)\s", done.stderr, re.MULTILINE)
-        inputs = max((int(a or b) for a, b in tried), default=0)
-        if done.returncode:
-            crashes.append(f"{target}: exit code {done.returncode}: {done.stderr[-2000:]}")
-        rows.append((target, f"{took:.0f}", inputs, len(list((CORPUS / target).iterdir())), int(done.returncode != 0)))
-        print(*rows[-1], file=sys.stderr, flush=True)
+    rows: list[tuple[str, str, int, int, int]] = []
+    crashes: list[str] = []
+    with until_stopped() as stopped:
+        for target in targets:
+            _fuzzed(target, options.seconds, rows, crashes)
     rows.append(("all", f"{sum(float(row[1]) for row in rows):.0f}", *(sum(row[k] for row in rows) for k in (2, 3, 4))))
     heading = ("target", "processor time [s]", "inputs tried", "kept in the corpus", "findings")
-    page.show("fuzz", options.page, page.table(heading, rows), *crashes)
+    how = f"{options.seconds} s a target, {len(rows) - 1} of {len(targets)} targets{', stopped' if stopped else ''}."
+    page.show("fuzz", options.page, how, page.table(heading, rows), *crashes)
     return 1 if crashes else 0
+
+
+def _fuzzed(target: str, seconds: int, rows: list[tuple[str, str, int, int, int]], crashes: list[str]) -> None:
+    """Fuzzes a target in a process of its own; its row of the table, and what it found."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    code = f"from tools.trust.fuzz import fuzz; fuzz({target!r}, {seconds})"
+    done = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True, check=False)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    tried = re.findall(r"stat::number_of_executed_units:\s*(\d+)|^#(\d+)\s", done.stderr, re.MULTILINE)
+    inputs = max((int(a or b) for a, b in tried), default=0)
+    if done.returncode:
+        crashes.append(f"{target}: exit code {done.returncode}: {done.stderr[-2000:]}")
+    rows.append((target, f"{took:.0f}", inputs, len(list((CORPUS / target).iterdir())), int(done.returncode != 0)))
+    print(*rows[-1], file=sys.stderr, flush=True)
 
 
 def fuzz(target: str, seconds: int) -> None:

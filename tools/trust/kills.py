@@ -1,142 +1,324 @@
-"""Kills running commands at random moments and asks whether anything was lost: `make kills COUNT=40`.
+"""Kills running commands at random moments and asks whether anything was lost: `make kills COUNT=200`.
 
-diagnose over an old result: the old one is whole until the new one is; the next run gives the same bytes as one that
-was never killed, and sweeps what was left. trials make and thesis run: what was finished stays, and the run that
-resumes ends with the same seal or the same numbers.
+A command is started and killed (SIGKILL) again and again in one folder, until it once gets to its end. After each kill
+no result is half a file, and what was finished stays and is not made again; the end gives the same bytes as a run that
+was never killed, and sweeps what was left. Half of the kills come at a random moment, in processor time, which other
+work on the machine does not stretch; half a few calls after a random change of a file, where things are moved into
+place. Commands are forked from a process that has loaded rwn. What they work on is short: trials are a sine instead of
+a simulated bench, experiments a sum; what writes, keeps, resumes and seals is the command's own.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import random
-import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
+import numpy as np
+
 import rwn
+from rwn import cli
 from rwn.recording.recording import write_csv
+from rwn.studies.thesis import cli as thesis_cli
+from rwn.studies.thesis import page as thesis_page
+from rwn.studies.thesis import registry
+from rwn.studies.thesis.experiment import Outcome, Row, Settings
+from rwn.studies.trials import cli as trials_cli
+from rwn.studies.trials import make as trials_make
+from rwn.studies.trials.seal import ANSWERS, HASH, unseal
 from tools.trust import page
 from tools.trust.cases import MODEL
+from tools.trust.short_trials import short_trial
 from tools.trust.soak import recording
+from tools.trust.stopping import until_stopped
 
-RWN = (sys.executable, "-m", "rwn")
+LOADED = (thesis_cli, thesis_page, trials_cli)  # in the process that commands are forked from
+TICK = 1.0 / os.sysconf("SC_CLK_TCK")  # s, in which Linux states processor time
+BEYOND = 1.2  # the last moment of a kill, as a part of a whole run: one of some runs gets to its end
+CALLS = 12  # of Python and C, at most, from a change of a file to the kill
+WRITES = os.O_WRONLY | os.O_RDWR
+CHANGES = ("os.rename", "os.mkdir", "os.remove", "os.rmdir")  # and "open" to write; `sys.addaudithook`
 
 
 @dataclass(frozen=True)
 class Work:
-    """A command in a folder; `result`: what a finished run left, `whole`: whether a killed one left nothing half."""
+    """A command in a folder.
+
+    result: what a finished run left.  check: raises ValueError or OSError where a file is half.
+    finished: files that later runs keep.  begin: in the process of the command, before it begins.
+    """
 
     command: tuple[str, ...]
     result: Callable[[Path], Any]
-    whole: Callable[[Path], bool]
+    check: Callable[[Path], None]
+    prepare: Callable[[Path], None] = lambda _: None
+    finished: Callable[[Path], list[Path]] = lambda _: []
+    begin: Callable[[], None] = lambda: None
+
+
+@dataclass
+class Tally:
+    """expected, seconds, changes: the result, processor time and changes of files of a run that is not killed.
+    kills: of a run at work.  ends: runs that got to their end, after some kills.  lost: what was wrong."""
+
+    expected: Any
+    seconds: float
+    changes: int
+    kills: int = 0
+    ends: int = 0
+    lost: list[str] = field(default_factory=list)
+
+
+def _drive(folder: Path) -> None:
+    (folder / "motor.toml").write_text(MODEL)
+    made = recording(rwn.read_model(folder / "motor.toml"))
+    write_csv(folder / "run.csv", made.time, made.signals)
+    (folder / "out").mkdir()
+    (folder / "out" / "diagnosis.json").write_text("old")
 
 
 def _diagnosis(folder: Path) -> Any:
     return [(folder / "out" / name).read_bytes() for name in ("diagnosis.json", "corrected.toml")]
 
 
-def _old_or_new(folder: Path) -> bool:
+def _old_or_new(folder: Path) -> None:
     text = (folder / "out" / "diagnosis.json").read_text()
-    return text == "old" or json.loads(text)["verdict"] != ""
+    if text != "old":
+        json.loads(text)
+
+
+def _short_trials() -> None:
+    trials_make.make_trial = short_trial  # type: ignore[assignment]
+    sys.modules["__main__"] = ModuleType("__main__")  # else the processes of the pool load this file
 
 
 def _seal(folder: Path) -> Any:
-    return (folder / "out" / "answers.sha256").read_text()
+    return (folder / "out" / HASH).read_text(), [path.read_bytes() for path in sorted(folder.rglob("*.csv"))]
 
 
-def _json_is_whole(folder: Path) -> bool:
-    for path in (folder / "out").rglob("*.json") if (folder / "out").exists() else ():
+def _answers(folder: Path) -> None:
+    _json_is_whole(folder)
+    if (folder / "out" / ANSWERS).exists():
+        unseal(folder / "out")
+
+
+def _trials(folder: Path) -> list[Path]:
+    """The files of trials whose answers are kept or sealed."""
+    out = folder / "out"
+    kept = {path.stem for path in (out / trials_make.WORK).glob("*.json")}
+    sealed = (out / ANSWERS).exists()
+    return [path for path in sorted(out.glob("trial_*/*")) if sealed or path.parent.name in kept]
+
+
+def _json_is_whole(folder: Path) -> None:
+    for path in (folder / "out").rglob("*.json"):
         json.loads(path.read_text())
-    return True
+
+
+def _short_experiment(settings: Settings, *, name: str) -> Outcome:
+    for k in range(20):
+        settings.progress(k / 20)
+        seen = float(np.sum(np.sin(np.arange(1e5))))
+    return Outcome(rows=[Row(where="Table 5", case=name, ours=seen, thesis=1.0)])
+
+
+def _short_experiments() -> None:
+    short = [replace(e, run=partial(_short_experiment, name=e.name)) for e in registry.EXPERIMENTS[:4]]
+    registry.select = lambda **_: short
 
 
 def _numbers(folder: Path) -> Any:
     found = {path.name: json.loads(path.read_text()) for path in (folder / "out").glob("*.json")}
-    return {name: content["rows"] for name, content in found.items()}
+    return {name: content["rows"] for name, content in found.items()}, (folder / "out" / "thesis.md").stat().st_size
 
 
 WORK = {
     "diagnose": Work(
-        ("diagnose", "run.csv", "--model", "motor.toml", "--out", "out", "--overwrite", "--jobs", "1"),
-        _diagnosis, _old_or_new,
+        ("diagnose", "run.csv", "--model", "motor.toml", "--out", "out", "--overwrite", "--jobs", "1",
+         "--effort", "0.1"),
+        _diagnosis, _old_or_new, prepare=_drive,
     ),
     "trials make": Work(
-        ("trials", "make", "--seed", "11", "--count", "4", "--out", "out", "--jobs", "1"), _seal, _json_is_whole
+        ("trials", "make", "--seed", "11", "--count", "6", "--out", "out", "--jobs", "1"),
+        _seal, _answers, finished=_trials, begin=_short_trials,
     ),
     "thesis run": Work(
-        ("thesis", "run", "--table", "5", "--quick", "--jobs", "1", "--out", "out"), _numbers, _json_is_whole
+        ("thesis", "run", "--table", "5", "--jobs", "1", "--out", "out"),
+        _numbers, _json_is_whole, finished=lambda folder: sorted((folder / "out").glob("*.json")),
+        begin=_short_experiments,
     ),
 }  # fmt: skip
 
 
-def trial(work: Work, seconds: float, expected: Any) -> tuple[bool, str]:
-    """Kills one run after `seconds` and finishes it; whether it was at work, and what was lost ("": nothing)."""
+class _Changes:
+    """Counts a process's changes of files; some `calls` after the one whose number is `at` it is killed."""
+
+    def __init__(self, at: int | None, calls: int) -> None:
+        self.seen, self.at, self.calls = 0, at, calls
+        sys.addaudithook(self._hear)
+
+    def _hear(self, event: str, arguments: tuple[Any, ...]) -> None:
+        if event in CHANGES or (event == "open" and isinstance(arguments[2], int) and arguments[2] & WRITES):
+            self.seen += 1
+            if self.seen == self.at:
+                sys.setprofile(self._count_down)
+
+    def _count_down(self, *_: object) -> None:
+        self.calls -= 1
+        if self.calls < 0:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+
+def _start(work: Work, folder: Path, *, change: int | None = None, calls: int = 0) -> int:
+    """The process of the command. It is killed at a change of a file, or writes how many it made into `changes`."""
+    child = os.fork()
+    if child:
+        return child
+    code = 70
+    try:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        os.chdir(folder)
+        said = os.open("said", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(said, 1)
+        os.dup2(said, 2)
+        sys.stdout, sys.stderr = open(1, "w", closefd=False), open(2, "w", closefd=False)  # noqa: SIM115
+        sys.argv = ["rwn", *work.command]
+        work.begin()
+        changes = _Changes(change, calls)
+        try:
+            cli.main()
+            code = 0
+        except SystemExit as end:
+            code = end.code if isinstance(end.code, int) else int(end.code is not None)
+        sys.stdout.flush()
+        sys.stderr.flush()
+        Path("changes").write_text(str(changes.seen))
+    finally:
+        os._exit(code)
+    return 0
+
+
+def processor_time(process: int) -> float:
+    """Of a process and those that it started [s]; 0 where it has ended."""
+    with suppress(OSError):
+        words = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+        threads = Path(f"/proc/{process}/task").glob("*/children")
+        children = [int(child) for path in threads for child in path.read_text().split()]
+        return sum(map(int, words[11:15])) * TICK + sum(map(processor_time, children))
+    return 0.0
+
+
+def _wait(process: int, seconds: float | None = None) -> int:
+    """The status of a process at its end, -SIGKILL where it is killed, at the latest at `seconds` of processor time."""
+    try:
+        while True:
+            ended, status = os.waitpid(process, 0 if seconds is None else os.WNOHANG)
+            if ended:
+                return os.waitstatus_to_exitcode(status)
+            if seconds is not None and processor_time(process) >= seconds:
+                break
+            time.sleep(random.uniform(0.0, 2 * TICK))
+    except KeyboardInterrupt:
+        os.kill(process, signal.SIGKILL)
+        os.waitpid(process, 0)
+        raise
+    os.kill(process, signal.SIGKILL)
+    return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+
+
+def undisturbed(work: Work) -> Tally:
+    """What a run leaves that is not killed."""
     with tempfile.TemporaryDirectory(prefix="rwn-kills-") as name:
         folder = Path(name)
-        _prepare(work, folder)
-        silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        process = subprocess.Popen([*RWN, *work.command], cwd=folder, **silent)
-        time.sleep(seconds)
-        alive = process.poll() is None
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-        try:
-            if not work.whole(folder):
-                return alive, "half a file"
-        except (ValueError, OSError) as error:
-            return alive, f"half a file: {error}"
-        done = subprocess.run([*RWN, *work.command], cwd=folder, capture_output=True, text=True, check=False)
-        finished = work.command[:2] == ("trials", "make") and "already holds a finished set" in done.stderr
-        if done.returncode and not finished:
-            return alive, f"the next run ended with {done.returncode}: {done.stderr[-200:]}"
-        if work.result(folder) != expected:
-            return alive, "another result than without the kill"
-        left = [path.name for path in folder.rglob(".rwn-*")]
-        return alive, f"left behind: {left}" if left else ""
+        work.prepare(folder)
+        child = _start(work, folder)
+        _, status, used = os.wait4(child, 0)
+        if status:
+            raise RuntimeError(f"{' '.join(work.command)}: {(folder / 'said').read_text()[-2000:]}")
+        changes = int((folder / "changes").read_text())
+        return Tally(expected=work.result(folder), seconds=used.ru_utime + used.ru_stime, changes=changes)
 
 
-def _prepare(work: Work, folder: Path) -> None:
-    if work.whole is _old_or_new:
-        (folder / "motor.toml").write_text(MODEL)
-        made = recording(rwn.read_model(folder / "motor.toml"))
-        write_csv(folder / "run.csv", made.time, made.signals)
-        (folder / "out").mkdir()
-        (folder / "out" / "diagnosis.json").write_text("old")
+def chain(work: Work, tally: Tally, draw: random.Random, most: int) -> None:
+    """Kills runs in one folder until one gets to its end or there were `most` kills in all; counts into the tally."""
+    with tempfile.TemporaryDirectory(prefix="rwn-kills-") as name:
+        folder = Path(name)
+        work.prepare(folder)
+        before: dict[Path, int] = {}
+        while tally.kills < most:
+            if draw.random() < 0.5:
+                code = _wait(_start(work, folder), draw.uniform(0.0, BEYOND) * tally.seconds)
+            else:
+                at = draw.randint(1, max(round(BEYOND * tally.changes), 1))
+                code = _wait(_start(work, folder, change=at, calls=draw.randint(0, CALLS)))
+            lost = _lost(work, tally, folder, code, before)
+            tally.kills += code == -signal.SIGKILL
+            tally.ends += code != -signal.SIGKILL
+            if lost:
+                tally.lost.append(lost)
+            if lost or code != -signal.SIGKILL:
+                return
+            before = {path: path.stat().st_mtime_ns for path in work.finished(folder)}
+
+
+def _lost(work: Work, tally: Tally, folder: Path, code: int, before: dict[Path, int]) -> str:
+    """What is wrong after a run, killed or at its end; "" where nothing is."""
+    try:
+        work.check(folder)
+        again = [path.name for path, at in before.items() if not path.exists() or path.stat().st_mtime_ns != at]
+    except (ValueError, OSError) as error:
+        return f"half a file: {error}"
+    if again:
+        return f"finished, and lost or made again: {again}"
+    if code == -signal.SIGKILL:
+        return ""
+    said = (folder / "said").read_text()
+    if code and "already holds a finished set" not in said:
+        return f"a run after kills ended with {code}: {said[-300:]}"
+    try:
+        if work.result(folder) != tally.expected:
+            return "another result than without kills"
+    except OSError as error:
+        return f"no result after kills: {error}"
+    left = [path.name for path in folder.rglob("*") if path.name.startswith((".rwn-", trials_make.WORK))]
+    return f"left behind: {left}" if left else ""
 
 
 def main() -> int:
-    """Prints kills, how many hit a run at work, and what was lost; 1 where anything was."""
+    """Prints kills, runs that got to their end after some, and what was lost; 1 where anything was."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=30, help="kills of each command")
+    parser.add_argument("--count", type=int, default=30, help="kills, of all commands")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", choices=WORK)
     options = page.parsed(parser, "kills")
-    draw, rows, bad = random.Random(options.seed), [], []
-    for name, work in WORK.items():
-        if options.only not in (None, name):
-            continue
-        folder = Path(tempfile.mkdtemp(prefix="rwn-kills-"))
-        _prepare(work, folder)
-        start = time.monotonic()
-        subprocess.run([*RWN, *work.command], cwd=folder, check=True, capture_output=True)
-        took, expected = time.monotonic() - start, work.result(folder)
-        shutil.rmtree(folder)
-        ends = [trial(work, draw.uniform(0.1, 1.0) * took, expected) for _ in range(options.count)]
-        lost = [what for _, what in ends if what]
-        bad += [f"{name}: {what}" for what in lost]
-        rows.append((name, len(ends), sum(alive for alive, _ in ends), len(lost)))
-        print(*rows[-1], file=sys.stderr, flush=True)
-    rows.append(("all", *(sum(row[k] for row in rows) for k in (1, 2, 3))))
-    heading = ("command", "kills", "of a run at work", "with something lost")
-    page.show("kills", options.page, page.table(heading, rows), *bad)
+    names = [name for name in WORK if options.only in (None, name)]
+    draw, tallies = random.Random(options.seed), dict[str, Tally]()
+    shares = {name: (options.count + k) // len(names) for k, name in enumerate(names)}
+    with until_stopped() as stopped:
+        for name in names:
+            tallies[name] = undisturbed(WORK[name])
+        while left := [name for name in names if tallies[name].kills < shares[name] and len(tallies[name].lost) < 10]:
+            name = min(left, key=lambda name: tallies[name].kills)
+            chain(WORK[name], tallies[name], draw, shares[name])
+            print(name, tallies[name].kills, tallies[name].ends, *tallies[name].lost, file=sys.stderr, flush=True)
+    rows = [(name, t.kills, t.ends, len(t.lost), f"{t.seconds:.1f}") for name, t in tallies.items()]
+    rows.append(("all", *(sum(int(row[k]) for row in rows) for k in (1, 2, 3)), ""))
+    heading = ("command", "kills", "runs that ended after kills", "with something lost", "a whole run [s]")
+    bad = [f"{name}: {what}" for name, tally in tallies.items() for what in tally.lost]
+    how = f"{rows[-1][1]} of {options.count} kills, seed {options.seed}{', stopped' if stopped else ''}."
+    page.show("kills", options.page, how, page.table(heading, rows), *bad)
     return 1 if bad else 0
 
 

@@ -13,6 +13,7 @@ import os
 import random
 import resource
 import shutil
+import signal
 import sys
 import tempfile
 from collections import Counter
@@ -21,6 +22,8 @@ from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from tools.trust.stopping import until_stopped
 
 ROOT = Path(__file__).resolve().parents[2]
 SECONDS = 60  # of processor time: what takes longer was altered into a loop without end
@@ -111,7 +114,12 @@ def _pass(tests: tuple[str, ...], copy: Path) -> bool:
     child = os.fork()
     if child == 0:
         _test(tests, copy)
-    _, status = os.waitpid(child, 0)
+    try:
+        _, status = os.waitpid(child, 0)
+    except KeyboardInterrupt:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        raise
     return os.WIFEXITED(status) and os.WEXITSTATUS(status) == 0
 
 
@@ -153,14 +161,16 @@ def main() -> int:
             if not _pass(tests, copy):
                 print(f"{', '.join(tests)} fail on what is not altered: no score", file=sys.stderr)
                 return 2
-        survivors = []
-        for k, mutant in enumerate(drawn):
-            if not killed(mutant, copy):
-                survivors.append(mutant)
-                print("survives:", *said(mutant), flush=True)
-            print(f"{k + 1}/{len(drawn)}", end="\r", file=sys.stderr)
-    show(drawn, survivors, len(every), options)
-    return 0 if len(drawn) - len(survivors) >= options.least * len(drawn) else 1
+        tried, survivors = list[Mutant](), list[Mutant]()
+        with until_stopped():
+            for mutant in drawn:
+                if not killed(mutant, copy):
+                    survivors.append(mutant)
+                    print("survives:", *said(mutant), flush=True)
+                tried.append(mutant)
+                print(f"{len(tried)}/{len(drawn)}", end="\r", file=sys.stderr)
+    show(tried, survivors, len(every), options)
+    return 0 if len(tried) - len(survivors) >= options.least * len(tried) else 1
 
 
 def said(mutant: Mutant) -> tuple[str, str, str]:
@@ -176,15 +186,17 @@ def said(mutant: Mutant) -> tuple[str, str, str]:
     return where, mutant.operator.removeprefix("core/"), f"`{line.strip()}`".replace("|", "\\|")
 
 
-def show(drawn: list[Mutant], survivors: list[Mutant], every: int, options: argparse.Namespace) -> None:
+def show(tried: list[Mutant], survivors: list[Mutant], every: int, options: argparse.Namespace) -> None:
     """The score by file, and the survivors; rwn is loaded here, after the last test has run."""
     from tools.trust import page
 
-    tried, left = Counter(m.path for m in drawn), Counter(m.path for m in survivors)
-    rows = [(path.removeprefix("python/rwn/"), n, n - left[path]) for path, n in sorted(tried.items())]
-    rows.append((f"all (of {every} possible)", len(drawn), len(drawn) - len(survivors)))
+    each, left = Counter(m.path for m in tried), Counter(m.path for m in survivors)
+    rows = [(path.removeprefix("python/rwn/"), n, n - left[path]) for path, n in sorted(each.items())]
+    rows.append((f"all (of {every} possible)", len(tried), len(tried) - len(survivors)))
     scored = page.table(("file", "tried", "killed"), rows)
-    parts = [f"{1 - len(survivors) / max(len(drawn), 1):.0%} killed, seed {options.seed}.", scored]
+    early = f"; stopped after {len(tried)} of {options.count}, in the order in which they were drawn"
+    stopped = early if len(tried) < min(options.count, every) else ""
+    parts = [f"{1 - len(survivors) / max(len(tried), 1):.0%} killed, seed {options.seed}{stopped}.", scored]
     if survivors:
         parts.append(page.table(("survivor", "operator", "altered line"), sorted(map(said, survivors))))
     page.show("mutants-python", options.page, *parts)

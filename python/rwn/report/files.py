@@ -32,7 +32,6 @@ def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path]
         if (path / name).is_dir():
             raise _is_a_folder(path / name)
     there = _existing(path)
-    _sweep(there)
     if path.is_dir() and any(path.iterdir()) and not overwrite:
         raise InputError(
             "the output folder exists and is not empty",
@@ -63,7 +62,6 @@ def output_file(path: Path, *, overwrite: bool = False, inputs: Sequence[Path] =
             fix="choose another --out, or add --overwrite",
         )
     there = _existing(path.parent)
-    _sweep(there)
     with _aside(there, path) as aside:
         yield aside / path.name
         if (aside / path.name).exists():
@@ -78,8 +76,7 @@ def check_folder(path: Path) -> None:
         raise InputError(
             "this is a file", where=path, expected="a folder for the results", fix="choose another --out"
         )
-    with _aside(_existing(path), path):
-        pass
+    _try(_existing(path), path)
 
 
 def check_file(path: Path) -> None:
@@ -91,8 +88,7 @@ def check_file(path: Path) -> None:
         raise InputError(
             "this is not a regular file", where=path, expected="a file to write", fix="choose another one"
         )
-    with _aside(_existing(path.parent), path):
-        pass
+    _try(_existing(path.parent), path)
 
 
 def _without_detours(path: Path) -> Path:
@@ -160,6 +156,13 @@ def _aside(there: Path, path: Path) -> Iterator[Path]:
         ) from error
     finally:
         shutil.rmtree(aside, ignore_errors=True)
+
+
+def _try(there: Path, path: Path) -> None:
+    """Whether something can be written; what killed processes have left in the folder is removed first."""
+    _sweep(there)
+    with _aside(there, path):
+        pass
 
 
 def _sweep(there: Path) -> None:

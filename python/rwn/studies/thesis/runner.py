@@ -13,6 +13,7 @@ import msgspec
 from rwn.studies.made import Made, made
 from rwn.studies.thesis.dependencies import fingerprint
 from rwn.studies.thesis.experiment import Count, Experiment, Figure, Outcome, Row, Search, Settings
+from rwn.studies.whole_file import write_whole
 
 SHORT = 0.3  # minutes of one core
 
@@ -61,7 +62,7 @@ def run(
         done = read(path)
         if done is None or done.fingerprint not in [fingerprint(experiment.module, c, starts) for c in good]:
             done = _run_one(experiment, used, starts, progress)
-            _write(path, done)
+            write_whole(path, msgspec.json.encode(done))
         progress(experiment, 1.0)
         return done
 
@@ -105,10 +106,3 @@ def read(path: Path) -> Finished | None:
         return msgspec.json.decode(path.read_bytes(), type=Finished)
     except (FileNotFoundError, msgspec.DecodeError):
         return None
-
-
-def _write(path: Path, done: Finished) -> None:
-    """Complete or not at all: a killed run leaves no half file."""
-    partial = path.with_suffix(".partial")
-    partial.write_bytes(msgspec.json.encode(done))
-    partial.replace(path)

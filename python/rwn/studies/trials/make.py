@@ -18,6 +18,7 @@ from rwn.studies.trials.seal import ANSWERS, seal
 from rwn.studies.trials.trial import Trial, make_trial
 from rwn.studies.trials.trial_files import write_trial
 from rwn.studies.trials.workers import workers
+from rwn.studies.whole_file import write_whole
 
 
 class Planned(Protocol):
@@ -106,9 +107,10 @@ def _make(
     jobs: int,
     progress: Progress | None,
 ) -> str:
-    if (out / ANSWERS).exists():
-        raise FileExistsError(f"{out} already holds a finished set of trials; choose another folder")
     work = out / WORK
+    if (out / ANSWERS).exists():
+        shutil.rmtree(work, ignore_errors=True)  # the answers unsealed: a run was killed before it had removed them
+        raise FileExistsError(f"{out} already holds a finished set of trials; choose another folder")
     work.mkdir(parents=True, exist_ok=True)
     _same_set(work / "set.json", {key: value for key, value in about.items() if key != "split"})
     left = [plan for plan in planned if not (work / f"{plan.name}.json").exists()]
@@ -134,7 +136,8 @@ def _same_set(path: Path, wanted: dict[str, Any]) -> None:
         raise FileExistsError(
             f"{path.parent.parent} holds an unfinished set of another seed, count or kind; remove it"
         )
-    path.write_text(json.dumps(wanted))
+    if not path.exists():
+        write_whole(path, json.dumps(wanted).encode())
 
 
 def _make_one(plan: P, make_one: Callable[[P], Trial], out: Path) -> P:
@@ -145,6 +148,5 @@ def _make_one(plan: P, make_one: Callable[[P], Trial], out: Path) -> P:
     write_trial(half, trial)
     half.rename(folder)
     answer: dict[str, Any] = trial.answer
-    (out / WORK / f"{plan.name}.tmp").write_text(json.dumps(answer))
-    (out / WORK / f"{plan.name}.tmp").rename(out / WORK / f"{plan.name}.json")
+    write_whole(out / WORK / f"{plan.name}.json", json.dumps(answer).encode())
     return plan

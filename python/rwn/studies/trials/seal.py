@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rwn.errors import InputError
+from rwn.studies.whole_file import write_whole
 
 ANSWERS = "answers.sealed"
 HASH = "answers.sha256"
@@ -19,12 +20,12 @@ class SealBrokenError(InputError):
 
 
 def seal(folder: Path, content: dict[str, Any]) -> str:
-    """Writes the sealed answers and their hash; returns the hash."""
+    """Writes the sealed answers and their hash; returns the hash. The answers come last: they say that all is done."""
     text = json.dumps(content, sort_keys=True, separators=(",", ":")).encode()
     packed = gzip.compress(text, mtime=0)
     digest = hashlib.sha256(packed).hexdigest()
-    (folder / ANSWERS).write_bytes(packed)
-    (folder / HASH).write_text(f"{digest}  {ANSWERS}\n", encoding="utf-8")
+    write_whole(folder / HASH, f"{digest}  {ANSWERS}\n".encode())
+    write_whole(folder / ANSWERS, packed)
     return digest
 
 
