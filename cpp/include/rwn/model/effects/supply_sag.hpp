@@ -24,7 +24,7 @@ struct SupplySag {
                                                    .meaning = "of the supply and its cables",
                                                    .lower = 0.0,
                                                    .upper = 2.0,
-                                                   .start = 0.1,
+                                                   .start = 0.15,
                                                    .scale = scale::voltage / scale::current,
                                                    .strength = true}};
   static constexpr EffectTraits traits{.hooks = Hook::apply, .special_case = "voltage-saturation"};
