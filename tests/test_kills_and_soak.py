@@ -14,7 +14,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))  # tools are no part of the package
 
-from tools.trust import kills  # noqa: E402
+from tools.trust import killed_commands, kills  # noqa: E402
 from tools.trust.kills import Tally, Work, chain, undisturbed  # noqa: E402
 from tools.trust.soak import EVERY, growth  # noqa: E402
 from tools.trust.stopping import until_stopped  # noqa: E402
@@ -42,7 +42,7 @@ def _work(write: Callable[[Path], None]) -> Work:
         cli.main = command  # in the process of the command alone
 
     finished = lambda folder: sorted((folder / "out").glob("*.json"))  # noqa: E731
-    return Work((), _names, kills._json_is_whole, finished=finished, begin=begin)
+    return Work((), _names, killed_commands._json_is_whole, finished=finished, begin=begin)
 
 
 def _whole(path: Path) -> None:

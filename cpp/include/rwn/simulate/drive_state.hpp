@@ -26,6 +26,12 @@ struct DriveState : MovingState<S, Drive, masses> {
   Memory<S> memory{};
 };
 
+/// Inputs that the equations do not know: a torque, and the voltage of a winding.
+template <class S>
+struct UnknownInputs {
+  S torque{}, voltage{};
+};
+
 /// What the linear part of the equations depends on, in one number, since every step asks for it.
 class Regime {
  public:

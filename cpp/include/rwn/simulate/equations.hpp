@@ -6,14 +6,9 @@
 
 #include "rwn/simulate/effect_terms.hpp"
 #include "rwn/simulate/second_mass.hpp"
+#include "rwn/simulate/winding_level.hpp"
 
 namespace rwn {
-
-/// Inputs that the equations do not know: a torque, and the voltage of a winding.
-template <class S>
-struct UnknownInputs {
-  S torque{}, voltage{};
-};
 
 template <class S, class Drive, int masses>
 class Equations {
@@ -86,18 +81,13 @@ class Equations {
   /// The mass behind a joint, where there are two.
   const auto& second() const { return second_; }
 
-  /// Of a single mass that slides or has no friction that holds.
-  Regime regime(int level, bool stick) const { return {level, stick, false}; }
-
-  Regime regime(const Moving& s, int level) const {
-    return {level, dry_ && s.direction == 0.0, masses == 2 && s.contact != 0.0};
-  }
+  Regime regime(const Moving& s, int level) const { return {level, sticks(s), masses == 2 && s.contact != 0.0}; }
 
   /// A of the linear part.
   Matrix system_matrix(const Regime& regime) const {
     Matrix a{};
     if constexpr (Drive::states > 0) {
-      electrics_.couple(a, n, w, times(regime.level()), inverse_inertia_, regime.stick());
+      electrics_.couple(a, n, w, resistances_of(regime.level()), inverse_inertia_, regime.stick());
     }
     if (!regime.stick()) a[w * n + w] = -(viscous_ * inverse_inertia_);
     if constexpr (masses == 2) second_.couple(a, regime);
@@ -111,11 +101,10 @@ class Equations {
       if (!electrical()) return 0;
       double ratio = speed_up(s, t);
       if (h * electrics_.rate(t) > angle_of_a_winding) {
-        State settled = s;
-        electrics_.settle(settled.x, s.x[w], input());
-        ratio = std::max(ratio, speed_up(settled, terms_of(settled, s.position)));
+        const State there = electrics_.settled(s, s.x[w], input());
+        ratio = std::max(ratio, speed_up(there, terms_of(there, s.position)));
       }
-      return ratio > 1.3 ? static_cast<int>(std::min(12.0, std::ceil(std::log2(ratio)))) : 0;
+      return level_of(ratio);
     }
     return 0;
   }
@@ -135,7 +124,7 @@ class Equations {
     if constexpr (masses == 2) f[State::load_speed] = second_.constant_torque(s) * second_.inverse_load();
     if (!winds_ && value_of(t.inertia) == 0.0 && value_of(t.inertia_slope) == 0.0) {  // torques alone are added
       if constexpr (Drive::states > 0) electrics_.drive(f, input());
-      if (s.direction == 0.0 && dry_) return f;
+      if (sticks(s)) return f;
       S torque = t.torque;
       if constexpr (Drive::forced) torque += input();
       if (dry_) torque -= s.direction * t.friction;
@@ -143,11 +132,8 @@ class Equations {
       f[w] = torque * inverse_inertia_;
       return f;
     }
-    if constexpr (Drive::states > 0) electrics_.remainder(f, s.x, s.x[w], t, input(), times(level));
-    if (s.direction == 0.0 && dry_) {
-      f[w] = S(0.0);
-      return f;
-    }
+    if constexpr (Drive::states > 0) electrics_.remainder(f, s.x, s.x[w], t, input(), resistances_of(level));
+    if (sticks(s)) return f;
     const S torque = accelerating_torque(s, t);
     const S linear_rate = linear_acceleration(s);
     f[w] = value_of(t.inertia) == 0.0 ? torque * inverse_inertia_ : torque / (inertia_ + t.inertia);
@@ -157,25 +143,21 @@ class Equations {
 
   /// The same where no effect varies within a step: the terms depend on direction alone.
   Vector constant_part(const State& s) {
-    const bool stick = dry_ && s.direction == 0.0;
-    Vector f{};
-    f[w] = stick ? S(0.0) : constants(s, s.direction).acceleration;
+    const bool stick = sticks(s);
+    Vector f = plain_part(stick ? S(0.0) : steady_acceleration(s), input());
+    if (stick) f[w] = S(0.0);
     if constexpr (masses == 2) {
       const S torque = second_.constant_torque(s);
       f[State::load_speed] = torque * second_.inverse_load();
       if (!stick) f[w] -= torque * inverse_inertia_;
     }
-    if constexpr (Drive::states > 0) electrics_.drive(f, input());
-    if constexpr (Drive::forced) {
-      if (!stick) f[w] += input() * inverse_inertia_;
-    }
     return f;
   }
 
-  /// What accelerates a single mass besides the input where no effect varies and no friction holds.
+  /// What accelerates a shaft that slides besides the input where no effect varies.
   S steady_acceleration(const State& s) { return constants(s, s.direction).acceleration; }
 
-  /// `constant_part` with that.
+  /// `constant_part` of a single mass with that.
   Vector plain_part(const S& steady, const S& input) const {
     Vector f{};
     f[w] = steady;
@@ -186,8 +168,7 @@ class Equations {
 
   double acceleration(const State& s) const {
     Terms<S> t;
-    const Vector f = nonlinear(s, s.memory.data(), s.position, 0, t);
-    return value_of(f[w]) + value_of(linear_acceleration(s));
+    return value_of(nonlinear(s, s.memory.data(), s.position, 0, t)[w]) + value_of(linear_acceleration(s));
   }
 
   /// Torque on the shaft beyond the friction level in `direction`, were it to slide that way.
@@ -232,23 +213,20 @@ class Equations {
   void finish(const State& before, State& after, const S& h) const { effects_.finish(before, after, h); }
 
  private:
-  static constexpr double angle_of_a_step = 0.7;     // of the fastest rate of an effect
-  static constexpr double angle_of_a_winding = 1.4;  // R/L h of a step, where its equation is nearly linear
-  static constexpr double most_winding_steps = 2.0;  // that its transient is worth, were it ever so short
+  static constexpr double angle_of_a_step = 0.7;  // of the fastest rate of an effect
 
   struct Constants {
     S torque{}, friction{}, acceleration{};
   };
 
-  /// 2^level; the level is 0 nearly always.
-  static double times(int level) { return level == 0 ? 1.0 : std::ldexp(1.0, level); }
+  bool sticks(const Moving& s) const { return dry_ && s.direction == 0.0; }
 
   static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
 
   /// Steps in which the winding's transient is followed where its equation is not linear.
   double winding_steps(const Terms<S>& t, double h) const {
     if constexpr (Drive::states > 0) {
-      return electrical() ? std::min(h * electrics_.rate(t) / angle_of_a_winding, most_winding_steps) : 0.0;
+      if (electrical()) return std::min(h * electrics_.rate(t) / angle_of_a_winding, most_winding_steps);
     }
     return 0.0;
   }

@@ -5,6 +5,7 @@
 
 #include "rwn/model/drives.hpp"
 #include "rwn/simulate/integrator.hpp"
+#include "rwn/simulate/plain_run.hpp"
 #include "rwn/simulate/simulation_slice.hpp"
 #include "rwn/simulate/transfer_function.hpp"
 
@@ -69,7 +70,13 @@ class Simulation {
     if (slice_.angle_from_start) first_angle_ = state.position;
     if constexpr (!Drive::coefficients) {
       if (integrator.plain() && is_plain()) {
-        return integrator.dry() ? run_plainly<true>(integrator, state) : run_plainly<false>(integrator, state);
+        const auto show = [this](int k, const auto& s) {
+          store(k, current_of(s), slice_.current, slice_.d_current);
+          store(k, s.x[w], slice_.speed, slice_.d_speed);
+          store(k, s.position, slice_.position, slice_.d_position);
+        };
+        return integrator.dry() ? plain_run<true, S>(integrator, state, slice_, show)
+                                : plain_run<false, S>(integrator, state, slice_, show);
       }
     }
     for (int k = 0; k < slice_.samples; ++k) {
@@ -93,28 +100,6 @@ class Simulation {
   bool is_plain() const {
     return !delayed_ && break_count_ == 0 && slice_.input_time == slice_.time && !actuates_ && !senses_ && !has_own_ &&
            slice_.restart_every == 0;
-  }
-
-  template <bool dry>
-  int run_plainly(Plant& integrator, State& rest) {
-    typename State::Moving s = rest;  // its address goes nowhere, so that it stays in registers
-    S steady = integrator.steady_acceleration(rest);
-    for (int k = 0; k < slice_.samples; ++k) {
-      if (!std::isfinite(value_of(s.x[w])) || !std::isfinite(value_of(s.position))) return k;
-      store(k, current_of(s), slice_.current, slice_.d_current);
-      store(k, s.x[w], slice_.speed, slice_.d_speed);
-      store(k, s.position, slice_.position, slice_.d_position);
-      if (k + 1 == slice_.samples) break;
-      const double h = slice_.time[k + 1] - slice_.time[k];
-      const S input(slice_.input[k]);
-      if (!integrator.template slides_on<dry>(s, h, steady, input)) {
-        static_cast<typename State::Moving&>(rest) = s;
-        integrator.advance(rest, S(h), input, 0.0);  // no term depends on the time
-        steady = integrator.steady_acceleration(rest);
-        s = rest;
-      }
-    }
-    return slice_.samples;
   }
 
   Plant plant() const {

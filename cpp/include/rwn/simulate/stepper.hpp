@@ -73,7 +73,7 @@ class Stepper {
   /// where the length is another one than before. `steady`: what accelerates the shaft besides.
   void plain_update(Vector& x, S& position, double h, const S& steady, const S& input) {
     if (!All::same(h, plain_length_)) {
-      plain_ = &operators_.of_interval(h, equations_.regime(0, false));
+      plain_ = &operators_.of_interval(h, Regime(0, false, false));
       plain_length_ = h;
     }
     ++operators_.counts.linear;

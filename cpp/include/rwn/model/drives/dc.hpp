@@ -57,8 +57,11 @@ struct DcDrive {
       return (input - motor_[back_emf_constant] * speed) / motor_[resistance];
     }
 
-    /// Puts the electrical part at rest.
-    void settle(auto& x, const S& speed, const S& input) const { x[0] = resting_current(speed, input); }
+    /// A state with the electrical part at rest.
+    auto settled(auto s, const S& speed, const S& input) const {
+      s.x[0] = resting_current(speed, input);
+      return s;
+    }
 
     /// Rate of its transient [1/s].
     double rate(const Terms<S>& t) const { return value_of(motor_[resistance]) / value_of(motor_[inductance] * t.inductance); }
