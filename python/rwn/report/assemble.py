@@ -18,6 +18,7 @@ from rwn.faults.fault import SURE, Fault
 from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import with_uncertainty
 from rwn.fit.intervals import Doubt, estimates
+from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.mismatch_map.dependence import laws
@@ -165,6 +166,11 @@ def _warnings(
                 f"what is left of the {signal} lasts (its correlation from sample to sample is "
                 f"{noise.reflection[0]:.2f}): the corrected model was fitted to what is new in it"
             )
+    if chosen.added and chosen.final.minimum.status is FitStatus.ITERATION_LIMIT:
+        texts.append(
+            "the fit of what is stated had cost what it may before it converged: its intervals may be too narrow; "
+            "--effort 3 lets it go on"
+        )
     if ranking.cut_short:
         texts.append(
             f"{ranking.cut_short} effects at once were not tried, since the search had cost what it may: --effort 3 "
