@@ -168,8 +168,8 @@ def _warnings(
             )
     if chosen.added and chosen.final.minimum.status is FitStatus.ITERATION_LIMIT:
         texts.append(
-            "the fit of what is stated had cost what it may before it converged: its intervals may be too narrow; "
-            "--effort 3 lets it go on"
+            "the fit of what is stated ended before it converged: its intervals may be too narrow; --effort 3 lets it "
+            "go on where what the search may cost has ended it"
         )
     if ranking.cut_short:
         texts.append(
