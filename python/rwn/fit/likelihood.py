@@ -1,8 +1,9 @@
 """How likely what a fit leaves is, for choosing how recordings were made before it is known what physics is missing.
 
 What a model leaves out moves slowly against the sample time and is the same under every choice, so the errors are
-compared by what is new in them: their likelihood as autoregressions. A choice under which the parameters have to leave
-what was declared of them pays for that.
+compared by what is new in them: their likelihood as autoregressions. Where a choice is made beside an explanation, one
+under which the parameters have to leave what was declared pays for that; before anything is explained they leave
+it under every choice.
 """
 
 from __future__ import annotations

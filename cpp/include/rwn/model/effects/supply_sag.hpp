@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "rwn/model/effect.hpp"
 
 namespace rwn {
