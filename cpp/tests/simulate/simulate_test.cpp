@@ -4,62 +4,17 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "allocations.hpp"
+#include "motor_fixture.hpp"
 #include "rwn/model/effects.hpp"
 #include "rwn/fit/normal_equations.hpp"
 
 namespace {
 
-struct Case {
-  std::vector<double> time, input, parameters, angle;
-  std::vector<int> active, by;
-  int drive = rwn::drive_of("dc");
-  bool angle_from_speed = false;
-
-  rwn::SimulationTask task() const {
-    rwn::SimulationTask t;
-    t.drive = drive;
-    t.time = time;
-    t.input = input;
-    t.parameters = parameters;
-    t.active = active;
-    t.by = by;
-    t.angle = angle;
-    t.angle_from_speed = angle_from_speed;
-    return t;
-  }
-};
-
-/// A 24 V motor under a chirp.
-Case motor(int samples = 400, double step = 1e-3) {
-  Case c;
-  for (int k = 0; k < samples; ++k) {
-    const double t = step * k;
-    c.time.push_back(t);
-    c.input.push_back(12.0 * std::sin(2.0 * std::numbers::pi * (1.0 + 4.0 * t) * t));
-  }
-  c.parameters.assign(static_cast<std::size_t>(rwn::parameter_count()), 0.0);
-  c.parameters[rwn::resistance] = 0.8;
-  c.parameters[rwn::inductance] = 1.5e-3;
-  c.parameters[rwn::torque_constant] = 0.1;
-  c.parameters[rwn::back_emf_constant] = 0.1;
-  c.parameters[rwn::inertia] = 3e-4;
-  c.parameters[rwn::viscous_friction] = 7e-5;
-  c.parameters[rwn::coulomb_friction] = 0.02;
-  return c;
-}
-
-std::vector<double> speed_of(const Case& c) {
-  std::vector<double> speed(c.time.size());
-  EXPECT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, {}, {}}), rwn::SimulationStatus::ok);
-  return speed;
-}
-
-/// A scale in SI for the motor above.
+/// A scale in SI for the motor of the fixture.
 double size_of(const rwn::Scale& scale) {
   constexpr double sizes[] = {0.5, 100.0, 12.0, 5.0, 3e-4, 1e-3, 0.3977, 20.0};  // as in Scale::quantities
   double size = scale.factor;
@@ -67,7 +22,7 @@ double size_of(const rwn::Scale& scale) {
   return size;
 }
 
-/// First guesses of one effect, in SI for the motor above.
+/// First guesses of one effect, in SI for the motor of the fixture.
 void switch_on(Case& c, int effect, const rwn::Parameter* parameters, std::size_t count) {
   c.active = {effect};
   for (std::size_t k = 0; k < count; ++k) {
@@ -186,6 +141,26 @@ TEST(Simulate, AnInputActsFromItsOwnInstantsWhereRowsWereLeftOut) {
   std::vector<double> speed(kept.time.size());
   ASSERT_EQ(rwn::simulate(task, {{}, speed, {}, {}, {}, {}}), rwn::SimulationStatus::ok);
   for (std::size_t k = 0; k < speed.size(); ++k) EXPECT_NEAR(speed[k], expected[3 * k], 1e-9) << k;
+}
+
+TEST(Simulate, RowsWithRowsBetweenThemMoveTheSame) {
+  // a winding faster than the rows, and more stops of the shaft than there is room for steps
+  Case rough = motor(6000, 5e-3);
+  rough.parameters[rwn::inductance] = 3e-4;
+  for (std::size_t k = 0; k < rough.time.size(); ++k) {
+    rough.input[k] = 6.0 * std::sin(9.0 * rough.time[k] + std::sin(0.37 * rough.time[k]));
+  }
+  Case fine = rough;
+  fine.time.clear();
+  fine.input.clear();
+  for (std::size_t k = 0; k < rough.time.size(); ++k) {
+    for (const double later : {0.0, 2e-3}) {
+      fine.time.push_back(rough.time[k] + later);
+      fine.input.push_back(rough.input[k]);
+    }
+  }
+  const std::vector<double> speed = speed_of(rough), same = speed_of(fine);
+  for (std::size_t k = 0; k < speed.size(); ++k) ASSERT_NEAR(speed[k], same[2 * k], 1e-6) << "row " << k;
 }
 
 TEST(Simulate, FrictionHoldsAtStandstill) {

@@ -33,12 +33,17 @@ class Operators {
     double fastest = 0.0;  // bound on the rates of its solutions
   };
 
+  /// What moves a state under constant terms, in scalar T (S, or values alone): e^{Ah}, h phi1, h^2 phi2.
+  template <class T>
+  struct LinearStep {
+    SmallMatrix<T, n> e{}, p1{}, p2{};
+  };
+
   /// In scalar T: S, or values alone.
   template <class T>
-  struct Step {
+  struct Step : LinearStep<T> {  // p2 of linear steps only
     double h = -1.0;
     Regime regime{};
-    SmallMatrix<T, n> e{}, p1{}, p2{};                // whole step: e^{Ah}, h phi1, h^2 phi2 (p2 of linear steps only)
     SmallMatrix<T, n> eh{}, p1h{}, f1{}, f2{}, f3{};  // half step and Cox-Matthews weights (nonlinear steps only)
 
     /// x after half the step with f.
@@ -52,7 +57,7 @@ class Operators {
     /// x after the step with f at its start, `middle` twice the mean of f halfway, and `last` at its end.
     Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
       SmallVector<T, n> y{};
-      add_product<T, n>(y, e, in<T>(x));
+      add_product<T, n>(y, this->e, in<T>(x));
       add_product<T, n>(y, f1, in<T>(f));
       add_product<T, n>(y, f2, in<T>(middle));
       add_product<T, n>(y, f3, in<T>(last));
@@ -123,6 +128,12 @@ class Operators {
     if (!again) next_of(missed_, next_missed_) = h;
     const System& s = system(regime);
     return again || made_ < most_returning || s.fastest * h > longest_between ? over(h, regime) : between(h, s);
+  }
+
+  /// The step of a length that does not come back, but as parts of one rest; good until the next is asked for.
+  const Step<S>& of_rest(double h, const Regime& regime) {
+    if (!same(h, rest_.h) || rest_.regime != regime) make(rest_, h, regime);
+    return rest_;
   }
 
   /// The values, of a length that does not come back.
@@ -252,7 +263,7 @@ class Operators {
   Room<Step<S>, most_nodes> nodes_;              // of grids
   std::array<int, most_nodes> node_of_{};        // how many spacings each is
   std::array<bool, most_nodes> node_made_{};
-  Step<S> between_{};
+  Step<S> between_{}, rest_{};
   Step<Value> passing_{};
   std::size_t next_system_ = 0, next_step_ = 0, next_missed_ = 0, made_ = 0;
 };

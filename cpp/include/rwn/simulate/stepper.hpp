@@ -53,7 +53,7 @@ class Stepper {
       if (reach > longest_flow_of_values) return nonlinear_step(s, h, level, operators_.values_over(length, regime));
       return nonlinear_step(s, h, level, along<Value>(length, regime));
     }
-    if (reach > longest_flow) return nonlinear_step(s, h, level, operators_.over(length, regime));
+    if (reach > longest_flow) return nonlinear_step(s, h, level, operators_.of_rest(length, regime));
     return nonlinear_step(s, h, level, along<S>(length, regime));
   }
 
@@ -73,11 +73,11 @@ class Stepper {
   /// where the length is another one than before. `steady`: what accelerates the shaft besides.
   void plain_update(Vector& x, S& position, double h, const S& steady, const S& input) {
     if (!All::same(h, plain_length_)) {
-      plain_ = &operators_.of_interval(h, Regime(0, false, false));
+      plain_ = operators_.of_interval(h, Regime(0, false, false));
       plain_length_ = h;
     }
     ++operators_.counts.linear;
-    go(*plain_, x, equations_.plain_part(steady, input), x, position);
+    go(plain_, x, equations_.plain_part(steady, input), x, position);
   }
 
   /// `s` a little later, in which its rates of change last; memories of effects stay.
@@ -121,14 +121,14 @@ class Stepper {
   }
 
   template <class T>
-  static void go(const typename All::template Step<T>& o, const State& s, const Vector& constant, Vector& x, S& position) {
+  static void go(const typename All::template LinearStep<T>& o, const State& s, const Vector& constant, Vector& x, S& position) {
     position = s.position;
     go(o, s.x, constant, x, position);
   }
 
   /// From the state `from`, which may be `x`; the position goes on from where it is.
   template <class T>
-  static void go(const typename All::template Step<T>& o, const Vector& from, const Vector& constant, Vector& x, S& position) {
+  static void go(const typename All::template LinearStep<T>& o, const Vector& from, const Vector& constant, Vector& x, S& position) {
     const auto& before = All::template in<T>(from);
     const auto& f = All::template in<T>(constant);
     SmallVector<T, n> after{};
@@ -154,7 +154,7 @@ class Stepper {
     } else if (use_ == Use::intervals) {
       go(operators_.of_interval(length, regime), s, f, x, position);
     } else if (reach > longest_flow) {
-      go(operators_.over(length, regime), s, f, x, position);
+      go(operators_.of_rest(length, regime), s, f, x, position);
     } else {
       go_along<S>(s, length, regime, f, x, position);
     }
@@ -237,8 +237,8 @@ class Stepper {
   Operators<S, Drive, masses> operators_;
   Vector f0_{};  // at the start of a step, with its terms
   Terms<S> t0_{};
-  const typename All::template Step<S>* plain_ = nullptr;  // of intervals as long as this
-  double plain_length_ = 0.0;
+  typename All::template LinearStep<S> plain_{};  // of intervals as long as this; a copy: the operators' own are replaced
+  double plain_length_ = -1.0;
   bool start_known_ = false;
   Use use_ = Use::intervals;
 };
