@@ -10,6 +10,7 @@
 //   rate(p, motor, motion, acceleration, h)   fastest rate of change it brings over the next h [1/s]: sets the step
 //   joint(p, motor)                   what couples the motor to the second mass that it brings
 //   actuate(p, input)                 maps the commanded input to what acts
+//   follow(p, h, input, memory)       mean over the next h of what acts in place of an input, where that lasts
 //   delay(p)                          input delay [s]
 //   breaks(p)                         instants at which its terms jump [s]
 //   begin(p, reading, memory)         its memory at the first sample
@@ -59,7 +60,8 @@ struct EffectInfo {
 };
 
 enum class Hook : unsigned {
-  apply = 1, rate = 2, joint = 4, actuate = 8, delay = 16, breaks = 32, begin = 64, finish = 128, sense = 256
+  apply = 1, rate = 2, joint = 4, actuate = 8, delay = 16, breaks = 32, begin = 64, finish = 128, sense = 256,
+  follow = 512
 };
 constexpr Hook operator|(Hook a, Hook b) { return Hook{static_cast<unsigned>(a) | static_cast<unsigned>(b)}; }
 constexpr bool has(Hook all, Hook one) { return (static_cast<unsigned>(all) & static_cast<unsigned>(one)) != 0; }
@@ -91,6 +93,7 @@ struct HookTypes {
   using Rate = double (*)(const S*, const Motor<S>&, const Motion<S>&, double, double);
   using JointOf = Joint<S> (*)(const S*, const Motor<S>&);
   using Actuate = S (*)(const S*, const S&);
+  using Follow = S (*)(const S*, const S&, const S&, S*);
   using Delay = S (*)(const S*);
   using Breaks = std::array<S, max_breaks> (*)(const S*);
   using Begin = void (*)(const S*, const Reading<S>&, S*);
@@ -137,6 +140,7 @@ consteval bool is_effect() {
   RWN_HOOK(rate, T::Rate)
   RWN_HOOK(joint, T::JointOf)
   RWN_HOOK(actuate, T::Actuate)
+  RWN_HOOK(follow, T::Follow)
   RWN_HOOK(delay, T::Delay)
   RWN_HOOK(breaks, T::Breaks)
   RWN_HOOK(begin, T::Begin)
@@ -149,7 +153,7 @@ consteval bool is_effect() {
   } else {
     static_assert(E::traits.special_case.empty(), "a special case is named in traits and `specialise` is not there");
   }
-  static_assert(E::traits.memories == 0 || has(hooks, Hook::finish) || has(hooks, Hook::begin),
+  static_assert(E::traits.memories == 0 || has(hooks, Hook::finish) || has(hooks, Hook::begin) || has(hooks, Hook::follow),
                 "an effect that remembers something says how its memory changes");
   return true;
 }

@@ -13,6 +13,7 @@
 #include "rwn/model/effects/cogging_torque.hpp"
 #include "rwn/model/effects/constant_load.hpp"
 #include "rwn/model/effects/coulomb_friction.hpp"
+#include "rwn/model/effects/current_limit.hpp"
 #include "rwn/model/effects/current_sensor_lag.hpp"
 #include "rwn/model/effects/inertia_variation.hpp"
 #include "rwn/model/effects/input_delay.hpp"
@@ -29,6 +30,7 @@
 #include "rwn/model/effects/sensor_quantization.hpp"
 #include "rwn/model/effects/sensor_rectification.hpp"
 #include "rwn/model/effects/shaft_compliance.hpp"
+#include "rwn/model/effects/slew_rate_limit.hpp"
 #include "rwn/model/effects/speed_sensor_lag.hpp"
 #include "rwn/model/effects/stribeck_friction.hpp"
 #include "rwn/model/effects/supply_sag.hpp"
@@ -45,8 +47,8 @@ using Effects =
                PowerLawDrag, LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque,
                Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation,
                BrushVoltageDrop, CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone,
-               VoltageSaturation, SupplySag, AmplifierGainCurve, InputDelay, SpeedSensorLag, CurrentSensorLag,
-               SensorRectification, SensorBias, SensorQuantization>;
+               VoltageSaturation, SupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag,
+               CurrentSensorLag, SensorRectification, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

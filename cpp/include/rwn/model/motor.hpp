@@ -83,6 +83,7 @@ struct Terms {
 /// What the sensors say of one sample.
 template <class S>
 struct Reading {
+  S input{};  // before the first sample, where a memory begins
   S current{};
   S speed{};
   S position{};

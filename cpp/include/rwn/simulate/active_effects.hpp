@@ -21,6 +21,7 @@ struct EffectFunctions {
   typename HookTypes<S>::Rate rate = nullptr;
   typename HookTypes<S>::JointOf joint = nullptr;
   typename HookTypes<S>::Actuate actuate = nullptr;
+  typename HookTypes<S>::Follow follow = nullptr;
   typename HookTypes<S>::Delay delay = nullptr;
   typename HookTypes<S>::Breaks breaks = nullptr;
   typename HookTypes<S>::Begin begin = nullptr;
@@ -41,6 +42,7 @@ constexpr EffectFunctions<S> functions_of() {
   if constexpr (has(hooks, Hook::rate)) f.rate = &E::template rate<S>;
   if constexpr (has(hooks, Hook::joint)) f.joint = &E::template joint<S>;
   if constexpr (has(hooks, Hook::actuate)) f.actuate = &E::template actuate<S>;
+  if constexpr (has(hooks, Hook::follow)) f.follow = &E::template follow<S>;
   if constexpr (has(hooks, Hook::delay)) f.delay = &E::template delay<S>;
   if constexpr (has(hooks, Hook::breaks)) f.breaks = &E::template breaks<S>;
   if constexpr (has(hooks, Hook::begin)) f.begin = &E::template begin<S>;

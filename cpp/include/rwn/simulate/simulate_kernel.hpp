@@ -1,25 +1,12 @@
 // The sample loop around the integrator, for one scalar type. Included by cpp/kernels/simulate.cpp only.
 #pragma once
 
-#include <type_traits>
-
 #include "rwn/model/drives.hpp"
-#include "rwn/simulate/integrator.hpp"
 #include "rwn/simulate/plain_run.hpp"
+#include "rwn/simulate/plant_of.hpp"
 #include "rwn/simulate/simulation_slice.hpp"
-#include "rwn/simulate/transfer_function.hpp"
 
 namespace rwn {
-
-/// What advances the state of a drive: a transfer function has no equations of motion.
-template <class S, class Drive, int masses, bool = Drive::coefficients>
-struct PlantOf {
-  using type = Integrator<S, Drive, masses>;
-};
-template <class S, class Drive, int masses>
-struct PlantOf<S, Drive, masses, true> {
-  using type = TransferFunction<S>;
-};
 
 template <class S, int N, class Drive, int masses = 1>
 class Simulation {
@@ -143,21 +130,27 @@ class Simulation {
       if (e.call.breaks != nullptr) {
         for (const S& instant : e.call.breaks(e.p)) breaks_[static_cast<std::size_t>(break_count_++)] = instant;
       }
-      actuates_ = actuates_ || e.call.actuate != nullptr || (e.own != nullptr && e.own->term() == Term::input);
+      follows_ = follows_ || e.call.follow != nullptr;
+      actuates_ = actuates_ || e.call.actuate != nullptr || e.call.follow != nullptr ||
+                  (e.own != nullptr && e.own->term() == Term::input);
       senses_ = senses_ || e.call.sense != nullptr || (e.own != nullptr && is_sensor(e.own->term()));
       Reading<S> first = reading(s);
+      first.input = S(slice_.input_before);
       if (e.call.begin != nullptr) e.call.begin(e.p, first, s.memory.data() + e.memory);
     }
   }
 
-  /// What acts in place of a command from the instant of sample k on.
-  S acting(double command, const State& s, int k) const { return actuates_ ? actuated(command, s, k) : S(command); }
+  /// What acts in place of a command over the next h, after the instant of sample k.
+  S acting(double command, State& s, const S& h, int k) const {
+    return actuates_ ? actuated(command, s, h, k) : S(command);
+  }
 
-  [[gnu::noinline]] S actuated(double command, const State& s, int k) const {
+  [[gnu::noinline]] S actuated(double command, State& s, const S& h, int k) const {
     S input(command);
     for (int a = 0; a < slice_.active_count; ++a) {
       const auto& e = effects_[static_cast<std::size_t>(a)];
       if (e.call.actuate != nullptr) input = e.call.actuate(e.p, input);
+      if (e.call.follow != nullptr) input = e.call.follow(e.p, h, input, s.memory.data() + e.memory);
       if (e.own != nullptr && e.own->term() == Term::input) input = e.own->value(e.p, motor_, motion(s, input, k));
     }
     return input;
@@ -193,10 +186,19 @@ class Simulation {
     const double begin = slice_.time[k];
     const double end = slice_.time[k + 1];
     if (!delayed_ && break_count_ == 0 && slice_.input_time == slice_.time) {
-      integrator.advance(s, S(end - begin), acting(slice_.input[k], s, k), begin - slice_.time[0]);
+      advance_held(integrator, s, S(end - begin), slice_.input[k], k, begin - slice_.time[0]);
       return;
     }
     advance_pieces(integrator, s, k, begin, end);
+  }
+
+  /// Over h from `time` on, in which the command is held, after the instant of sample k.
+  void advance_held(Plant& integrator, State& s, const S& h, double command, int k, double time) {
+    const int parts = follows_ ? parts_followed : 1;
+    const S part = h / static_cast<double>(parts);
+    for (int j = 0; j < parts; ++j) {
+      integrator.advance(s, part, acting(command, s, part, k), time + j * value_of(part));
+    }
   }
 
   /// Splits the interval at instants that depend on parameters: late commands and the breaks of effects.
@@ -218,18 +220,15 @@ class Simulation {
           changes = false;
         }
       }
-      integrator.advance(s, next - at, acting(command(row), s, k), value_of(at) - slice_.time[0]);
+      advance_held(integrator, s, next - at, command(row), k, value_of(at) - slice_.time[0]);
       at = next;
       if (changes) ++row;
     }
   }
 
   static S current_of(const auto& s) {
-    if constexpr (Drive::coefficients) {
-      return S(0.0);
-    } else {
-      return Drive::template Electrics<S>::current(s.x);
-    }
+    if constexpr (Drive::coefficients) return S(0.0);
+    if constexpr (!Drive::coefficients) return Drive::template Electrics<S>::current(s.x);
   }
 
   Reading<S> reading(const State& s) const {
@@ -294,7 +293,8 @@ class Simulation {
   std::array<S, 8> breaks_{};
   int break_count_ = 0, memories_ = 0;
   int row_ = -1;  // the last input that had acted when the last interval began
-  bool delayed_ = false, actuates_ = false, senses_ = false, has_own_ = false;
+  static constexpr int parts_followed = 10;  // of a held command, each with the mean of what follows it: exact to 1e-4
+  bool delayed_ = false, actuates_ = false, follows_ = false, senses_ = false, has_own_ = false;
 };
 
 }  // namespace rwn

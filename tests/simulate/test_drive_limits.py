@@ -1,0 +1,56 @@
+"""What a drive's electronics cannot do: change the voltage at once, or give more than its current."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+
+MOTOR = {
+    "resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 3e-4,
+    "viscous_friction": 7e-5, "coulomb_friction": 0.02,
+}  # fmt: skip
+
+
+def _run(time: np.ndarray, voltage: np.ndarray, **effects: dict[str, float]) -> rwn.Simulation:
+    model = rwn.Model(kind="dc", parameters=MOTOR, effects={k.replace("_", "-"): v for k, v in effects.items()})
+    return rwn.simulate(model, rwn.Recording(name="run", time=time, signals={"voltage": voltage}))
+
+
+def _steps(time: np.ndarray) -> np.ndarray:
+    return np.select([time < 0.05, time < 0.2, time < 0.35, time < 0.38], [0.0, 9.0, -6.0, 3.0], 8.0)
+
+
+@pytest.mark.parametrize("rate", [60.0, 500.0, 4000.0])  # ramps over many rows, over some, and within one
+def test_a_limited_slew_rate_is_the_ramp_of_finer_rows(rate: float) -> None:
+    coarse = np.arange(120) * 5e-3
+    fine = np.arange(120 * 50) * 1e-4
+    ramp, reached = np.zeros(fine.size), 0.0
+    for k, wanted in enumerate(np.repeat(_steps(coarse), 50)):
+        before, reached = reached, reached + np.clip(wanted - reached, -rate * 1e-4, rate * 1e-4)
+        ramp[k] = 0.5 * (before + reached)
+    limited = _run(coarse, _steps(coarse), slew_rate_limit={"rate": rate}).signals["speed"]
+    expected = _run(fine, ramp).signals["speed"][::50]
+    unlimited = _run(coarse, _steps(coarse)).signals["speed"]
+    error, effect = (np.sqrt(np.mean((x - expected) ** 2)) for x in (limited, unlimited))
+    assert error < 0.01 * effect
+
+
+def test_a_run_in_motion_begins_at_its_own_voltage() -> None:
+    time = np.arange(100) * 1e-3
+    start = rwn.Recording(name="run", time=time, signals={"voltage": np.full(100, 8.0), "speed": np.full(100, 70.0)})
+    model = rwn.Model(kind="dc", parameters=MOTOR, effects={"slew-rate-limit": {"rate": 20.0}})
+    moved = rwn.simulate(model, start).signals["speed"]
+    assert moved[-1] > 60.0  # at 8 V; a ramp from 0 V would have braked it to 20 rad/s
+
+
+def test_a_limited_current_is_held_at_its_limit() -> None:
+    time = np.arange(1000) * 1e-3
+    voltage = np.where(time < 0.5, 12.0, -12.0)  # 15 A of a stalled winding, 27 A where it is reversed
+    free, limited = (_run(time, voltage, **e).signals for e in ({}, {"current_limit": {"limit": 4.0}}))
+    assert np.max(np.abs(free["current"])) > 20.0
+    assert np.max(np.abs(limited["current"])) == pytest.approx(4.0, rel=1e-3)
+    held = (time > 0.02) & (time < 0.04)  # it accelerates with the torque of its limit
+    np.testing.assert_allclose(limited["current"][held], 4.0, rtol=2e-3)
+    assert limited["speed"][499] == pytest.approx(free["speed"][499], rel=1e-3)  # the limit is no longer met
