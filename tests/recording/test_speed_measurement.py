@@ -53,6 +53,13 @@ def test_a_moving_average_of_differences_is_a_difference_over_more_samples(windo
     assert speed_measurement(TIME, difference(over, TIME, counted(ANGLE, 1024)), NONE) == over
 
 
+@pytest.mark.parametrize("window", [2, 3, 4, 8])
+def test_a_moving_average_of_a_noisy_speed_is_no_difference_of_counts(window: int) -> None:
+    noisy = SPEED + 2.0 * np.random.default_rng(5).standard_normal(TIME.size)
+    mean = lfilter(np.full(window, 1.0 / window), 1.0, noisy)
+    assert speed_measurement(TIME, np.round(mean, 2), NONE) is INSTANTANEOUS
+
+
 def test_a_central_difference_is_known_through_a_gear() -> None:
     assert speed_measurement(TIME, 0.36612 * difference(CENTRAL, TIME, counted(ANGLE, 1024)), NONE) is CENTRAL
 

@@ -20,6 +20,7 @@ VANISHING = 0.05  # central differences have 0.005
 LONGEST = 8  # samples of a difference: a moving average of so many differences over one
 MOTION = 0.2  # of the sampling rate: what moves a drive is slower
 RISING = 1.4  # differences over one sample have 2
+OWN_NOISE = 4.0  # power in units of what the rounding to steps makes, from which it has another cause: their double
 
 
 @dataclass(frozen=True)
@@ -79,11 +80,11 @@ def _of_rows(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
         best = min(errors, key=lambda way: errors[way])
         if errors[best] < REPEATED:
             return best
-    else:
-        averaged = next((way for way in AVERAGED if _vanishes(speed, way.before)), None)
-        if averaged:
-            return averaged
-    return _of_counts(time, speed)
+    step = quantum(speed)
+    if not 0.0 < _power(speed, MOTION, 0.5) <= OWN_NOISE * step**2 / 6.0:  # of two roundings to the step
+        return INSTANTANEOUS
+    averaged = None if position.size else next((way for way in AVERAGED if _vanishes(speed, way.before)), None)
+    return averaged or _of_counts(time, speed, step)
 
 
 def difference(measurement: SpeedMeasurement, time: Array, position: Array) -> Array:
@@ -119,15 +120,12 @@ def _repeats(time: Array, speed: Array, position: Array, way: SpeedMeasurement) 
     return float(error / noise) if noise > 0.0 else np.inf
 
 
-def _of_counts(time: Array, speed: Array) -> SpeedMeasurement:
+def _of_counts(time: Array, speed: Array, step: float) -> SpeedMeasurement:
     """By their steps, and by what these hold near half the sampling rate.
 
     The central difference (q[k+1] - q[k-1]) / 2T vanishes there, whatever gear is between encoder and shaft; that over
     one sample, with a whole number of counts per revolution, holds most there; what a coarse converter rounds neither.
     """
-    step = quantum(speed)
-    if step == 0.0:
-        return INSTANTANEOUS
     quarter = _power(speed, 0.2, 0.3)
     if _power(speed, 0.48, 0.5) < VANISHING * quarter:
         return CENTRAL
@@ -139,7 +137,7 @@ def _of_counts(time: Array, speed: Array) -> SpeedMeasurement:
 
 def _vanishes(speed: Array, samples: int) -> bool:
     """Whether a speed of counts has no power at the multiples of 1/samples beyond its motion, but some between them."""
-    if speed.size < samples * SHORTEST or quantum(speed) == 0.0:
+    if speed.size < samples * SHORTEST:
         return False
     zeros = [k / samples for k in range(1, samples // 2 + 1) if k / samples > MOTION]
     between = min(_power(speed, z - 0.6 / samples, z - 0.4 / samples) for z in zeros)
@@ -151,7 +149,8 @@ def _whole(counts: float) -> bool:
 
 
 def _power(signal: Array, lowest: float, highest: float) -> float:
-    """Mean power over a band of frequencies, in units of the sampling rate."""
-    power = np.abs(np.fft.rfft((signal - np.mean(signal)) * np.hanning(signal.size))) ** 2
+    """Mean power over a band of frequencies, in units of the sampling rate: the variance of a signal that is white."""
+    window = np.hanning(signal.size)
+    power = np.abs(np.fft.rfft((signal - np.mean(signal)) * window)) ** 2 / np.sum(window**2)
     rate = np.linspace(0.0, 0.5, power.size)
     return float(np.mean(power[(rate >= lowest) & (rate <= highest)]))

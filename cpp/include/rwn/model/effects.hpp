@@ -31,6 +31,7 @@
 #include "rwn/model/effects/sensor_rectification.hpp"
 #include "rwn/model/effects/shaft_compliance.hpp"
 #include "rwn/model/effects/slew_rate_limit.hpp"
+#include "rwn/model/effects/speed_moving_average.hpp"
 #include "rwn/model/effects/speed_sensor_lag.hpp"
 #include "rwn/model/effects/stribeck_friction.hpp"
 #include "rwn/model/effects/supply_sag.hpp"
@@ -48,7 +49,7 @@ using Effects =
                Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation,
                BrushVoltageDrop, CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone,
                VoltageSaturation, SupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag,
-               CurrentSensorLag, SensorRectification, SensorBias, SensorQuantization>;
+               SpeedMovingAverage, CurrentSensorLag, SensorRectification, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

@@ -1,4 +1,4 @@
-"""What a drive's electronics cannot do: change the voltage at once, or give more than its current."""
+"""What a drive's electronics do: ramp its voltage, limit its current, average its speed."""
 
 from __future__ import annotations
 
@@ -54,3 +54,14 @@ def test_a_limited_current_is_held_at_its_limit() -> None:
     held = (time > 0.02) & (time < 0.04)  # it accelerates with the torque of its limit
     np.testing.assert_allclose(limited["current"][held], 4.0, rtol=2e-3)
     assert limited["speed"][499] == pytest.approx(free["speed"][499], rel=1e-3)  # the limit is no longer met
+
+
+@pytest.mark.parametrize("samples", [2, 6, 16])
+def test_a_moving_average_is_the_mean_of_the_speed(samples: int) -> None:
+    time = np.arange(2000) * 1e-3
+    voltage = np.where((3.0 * time) % 1.0 < 0.5, 9.0, -6.0)
+    true = _run(time, voltage).signals
+    mean = (true["position"][samples:] - true["position"][:-samples]) / (samples * 1e-3)
+    averaged = _run(time, voltage, speed_moving_average={"window": samples * 1e-3}).signals["speed"][samples:]
+    error, effect = (np.sqrt(np.mean((x - mean) ** 2)) for x in (averaged, true["speed"][samples:]))
+    assert error < 0.03 * effect
