@@ -14,6 +14,7 @@ from rich.console import Console
 from typer.testing import CliRunner
 
 from rwn.studies.trials.bench_trials import score, tables
+from rwn.studies.trials.bench_trials.also_true import also_true
 from rwn.studies.trials.bench_trials.grade import BenchGraded, grade, grade_folders, is_bench
 from rwn.studies.trials.bench_trials.plan import (
     BACKGROUND_ALONE,
@@ -227,6 +228,11 @@ def test_faults_of_the_recording_are_statements(folder: Path) -> None:
             "beneath": {"verdict": "adequate", "set": []}}  # fmt: skip
     assert graded(folder, the_answer(), said).wrong_above(0.5) == ()
     assert graded(folder, the_answer(also_true=[]), said).wrong_above(0.5) == ("time-shift",)
+
+
+def test_a_value_that_is_held_is_rightly_called_an_average() -> None:
+    assert "speed-moving-average" in also_true(the_answer(also_true=["input-delay", "speed-sensor-lag"]))
+    assert "speed-moving-average" not in also_true(the_answer(also_true=["current-sensor-lag"]))
 
 
 def test_corrected_worse_than_refitted(folder: Path) -> None:

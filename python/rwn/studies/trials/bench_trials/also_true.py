@@ -7,6 +7,7 @@ from typing import Any
 
 LATE = frozenset({"input-delay", "speed-sensor-lag", "current-sensor-lag"})
 LATE_RECORDING = "time-shift"  # right where a channel is late
+AVERAGED = "speed-moving-average"  # what is late because it is held or a difference over rows, in other words
 ROUNDED = "sensor-quantization"  # an encoder's speed lies on steps
 OFFSET = "sensor-bias"  # of the speed or the current
 
@@ -15,6 +16,7 @@ def also_true(answer: Mapping[str, Any]) -> set[str]:
     """The names that the answer has, and those that trials made before their rule was known do not have."""
     names = set(answer.get("also_true", ()))
     names |= {LATE_RECORDING} if names & LATE else set()
+    names |= {AVERAGED} if "speed-sensor-lag" in names else set()
     names |= {ROUNDED} if answer["noise"]["kind"] == "encoder" else set()
     offsets = [each for each in answer.get("imperfections", ()) if each["kind"] == "zero-offset"]
     return names | ({OFFSET} if any(each["speed"] or each["current"] for each in offsets) else set())
