@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rwn.decide.account import LARGEST_SET, RIVAL, _acting, _rivals
-from rwn.decide.calibration import FEATURES, Calibration, calibration, features
+from rwn.decide.calibration import ACTS, FEATURES, Calibration, calibration, features
 from rwn.decide.evidence import Evidence
 
 EVEN = Evidence(share=0.5, unseen=0.5, part=0.5, odds=0.0, curve=0.0)
@@ -33,6 +33,13 @@ def test_shares_count_by_their_odds_and_log_likelihoods_are_bent() -> None:
     assert features(replace(EVEN, odds=np.sinh(2.0)))[3] == pytest.approx(2.0)
     for wild, kept in ((1e9, 1e4), (-1e9, -100.0)):
         assert features(replace(EVEN, odds=wild))[3] == pytest.approx(np.arcsinh(kept))
+
+
+def test_nothing_is_stated_against_the_evidence() -> None:
+    strong = replace(EVEN, share=0.99, unseen=0.99, part=0.99, curve=1.0)
+    assert MADE.probability(replace(strong, odds=0.1)) > 0.99
+    assert MADE.probability(replace(strong, odds=-0.1)) == ACTS  # stated is what is above
+    assert MADE.probability(replace(EVEN, odds=-3.0)) < ACTS
 
 
 def test_what_is_not_known_counts_as_usual() -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.decide.account import Remainder
-from rwn.decide.calibration import FEATURES, Calibration, calibration, features
+from rwn.decide.calibration import ACTS, FEATURES, Calibration, calibration, features
 from rwn.errors import InputError
 from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
@@ -213,8 +213,10 @@ def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:
 
 
 def _probability(found: Calibration, x: Array) -> float:
+    """As `Calibration.probability`, of features (5,)."""
     z = (x - np.array(found.means)) / np.array(found.deviations)
-    return float(1.0 / (1.0 + np.exp(-(found.intercept + np.array(found.weights) @ z))))
+    learned = float(1.0 / (1.0 + np.exp(-(found.intercept + np.array(found.weights) @ z))))
+    return min(learned, ACTS) if x[FEATURES.index("odds")] < 0.0 else learned
 
 
 def words(found: Calibrated) -> str:
