@@ -6,6 +6,7 @@ import threading
 import time
 
 import pytest
+from threadpoolctl import ThreadpoolController
 
 from rwn.parallel import side_by_side, thread_pool
 
@@ -47,6 +48,19 @@ def test_no_more_threads_work_than_were_asked_for(jobs: int) -> None:
     with thread_pool(jobs):
         side_by_side(lambda _: side_by_side(task, range(4)), range(5))
     assert working.most == jobs
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_the_library_of_linear_algebra_keeps_to_one_thread(jobs: int) -> None:
+    def threads() -> set[int]:
+        return {library.num_threads for library in ThreadpoolController().select(user_api="blas").lib_controllers}
+
+    before = threads()
+    with thread_pool(jobs):
+        assert threads() == {1}
+        with thread_pool(jobs):
+            assert threads() == {1}
+    assert threads() == before
 
 
 def test_tasks_of_the_last_item_are_shared_by_idle_workers() -> None:

@@ -12,6 +12,8 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from typing import TypeVar
 
+from threadpoolctl import threadpool_limits
+
 T = TypeVar("T")
 R = TypeVar("R")
 
@@ -35,16 +37,23 @@ _here = _Here()
 
 @contextmanager
 def thread_pool(jobs: int) -> Iterator[None]:
-    """Within it `side_by_side` uses `jobs` threads in all; a pool within a pool is the outer one."""
-    if jobs <= 1 or _here.pool is not None:
+    """Within it `side_by_side` uses `jobs` threads in all; a pool within a pool is the outer one.
+
+    The library of linear algebra uses one: its problems are small here, and its threads wait for each other spinning.
+    """
+    if _here.pool is not None:
         yield
         return
-    _here.pool = _Pool(jobs)
-    try:
-        yield
-    finally:
-        _here.pool.threads.shutdown()
-        _here.pool = None
+    with threadpool_limits(limits=1, user_api="blas"):
+        if jobs <= 1:
+            yield
+            return
+        _here.pool = _Pool(jobs)
+        try:
+            yield
+        finally:
+            _here.pool.threads.shutdown()
+            _here.pool = None
 
 
 def side_by_side(function: Callable[[T], R], items: Iterable[T]) -> list[R]:
