@@ -3,6 +3,12 @@ PY := .venv/bin/python
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 JOBS ?= $(shell nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
+# Tests run side by side already: the threads of a BLAS beside them wait for one another, which multiplies the time.
+export OPENBLAS_NUM_THREADS ?= 1
+# Where this is set, each of the many processes that tests start compiles NumPy and SciPy anew.
+export PYTHONDONTWRITEBYTECODE :=
+# The compiler has memory enough to leave its garbage: a seventh of the time of its largest file.
+export CXXFLAGS ?= --param=ggc-min-expand=300 --param=ggc-min-heapsize=2000000
 PIP := $(PY) -m pip install -q --disable-pip-version-check
 
 .PHONY: demo demo-real test check test-cpp test-sanitize test-sanitize-lint test-python mutants lint lint-only bench install \
