@@ -30,7 +30,10 @@ from tools.trust.good_files import write_formats, write_recordings, write_result
 
 ENDS = ("clear line", "no result, said", "accepted", "unclear line", "traceback", "crash", "hang", "nonsense accepted")
 GOOD = ENDS[:3]
-LIBRARIES = ("scipy.io", "matio", "pyarrow.parquet", "python_calamine", "mcap_ros2.decoder", "nptdms", "asammdf")
+LIBRARIES = (
+    "scipy.signal", "scipy.optimize", "scipy.io", "matio", "pyarrow.parquet", "python_calamine", "mcap_ros2.decoder",
+    "nptdms", "asammdf",
+)  # fmt: skip
 SECONDS, WAITED, BYTES = 30, 300, 3 * 2**30  # of processor time, of waiting, of memory
 
 
