@@ -169,6 +169,20 @@ TEST(Simulate, FrictionHoldsAtStandstill) {
   for (double w : speed_of(c)) EXPECT_EQ(w, 0.0);
 }
 
+TEST(Simulate, FrictionHoldsAShaftWithoutElectricsAtRowsThatAreOffTheirClock) {
+  Case c = motor();
+  c.drive = rwn::drive_of("axis");
+  const int drag = place_of<rwn::QuadraticDrag>();
+  switch_on(c, drag, rwn::QuadraticDrag::parameters.data(), rwn::QuadraticDrag::parameters.size());
+  for (std::size_t k = 0; k < c.time.size(); ++k) {
+    c.time[k] += 2e-4 * std::sin(1.7 * static_cast<double>(k));
+    c.input[k] = k < 200 ? 0.01 : 0.05;  // below the friction of 0.02 N m, and above
+  }
+  const std::vector<double> speed = speed_of(c);
+  for (std::size_t k = 0; k <= 200; ++k) EXPECT_EQ(speed[k], 0.0);
+  EXPECT_GT(speed.back(), 1.0);
+}
+
 TEST(Simulate, AnIntegratedSpeedIsFollowedWithoutWhatItsSensorAdds) {
   Case c = cogged_motor_without_a_position();
   Case free = c;

@@ -127,7 +127,8 @@ class Operators {
     const bool again = std::any_of(missed_.begin(), missed_.end(), [h](double m) { return same(h, m); });
     if (!again) next_of(missed_, next_missed_) = h;
     const System& s = system(regime);
-    return again || made_ < most_returning || s.fastest * h > longest_between ? over(h, regime) : between(h, s);
+    const bool at_rest = s.fastest == 0.0;  // as a shaft without electrics that friction holds: a grid of it has no spacing
+    return again || made_ < most_returning || at_rest || s.fastest * h > longest_between ? over(h, regime) : between(h, s);
   }
 
   /// The step of a length that does not come back, but as parts of one rest; good until the next is asked for.
