@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from rwn.decide.calibration import calibration
@@ -17,11 +18,14 @@ IDLE = Evidence(share=0.01, unseen=0.0, part=0.1, odds=0.5, curve=0.5)
 PLAIN, TWO_LEVELS, STRIBECK = "coulomb-friction", "asymmetric-friction", "stribeck-friction"
 
 
-def explained(leading: tuple[str, ...], *others: tuple[str, ...], adding: tuple[str, ...] = ()) -> Any:
+def explained(
+    leading: tuple[str, ...], *others: tuple[str, ...], adding: tuple[str, ...] = (), diverged: tuple[str, ...] = ()
+) -> Any:
     """Explanations, likeliest first, of whose elaborate laws those of `adding` add to their plain ones."""
+    scores = [-np.inf if added == diverged else 10.0 - k for k, added in enumerate((leading, *others))]
     fits = [
-        RankedFit(fit=SimpleNamespace(added=added), final=added, score=10.0 - k, probability=0.1)  # type: ignore[arg-type]
-        for k, added in enumerate((leading, *others))
+        RankedFit(fit=SimpleNamespace(added=added), final=added, score=score, probability=0.1)  # type: ignore[arg-type]
+        for added, score in zip((leading, *others), scores, strict=True)
     ]
     compared = []
 
@@ -63,6 +67,11 @@ def test_the_next_elaborate_law_has_its_own_turn(adding: tuple[str, ...], kept: 
 
 def test_what_was_not_tried_in_its_place_leaves_a_name_as_it_is() -> None:
     found, compared = explained((TWO_LEVELS, "drag"), (PLAIN,))
+    assert (found.leading.added, found.odds, compared) == ((TWO_LEVELS, "drag"), {}, [])
+
+
+def test_a_plain_law_that_diverged_is_no_comparison() -> None:
+    found, compared = explained((TWO_LEVELS, "drag"), (PLAIN, "drag"), adding=(TWO_LEVELS,), diverged=(PLAIN, "drag"))
     assert (found.leading.added, found.odds, compared) == ((TWO_LEVELS, "drag"), {}, [])
 
 

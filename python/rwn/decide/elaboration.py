@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.evidence import Validation
 from rwn.name.backward import family, plainer
@@ -50,5 +52,6 @@ def elaborated(ranking: Ranking, leading: RankedFit, validated: Callable[[Ranked
 
 
 def _explained(ranking: Ranking, others: frozenset[str], name: str) -> RankedFit | None:
-    """The explanation by some effects and one more, if it was tried."""
-    return next((r for r in ranking.fits if name not in others and set(r.added) == others | {name}), None)
+    """The explanation by some effects and one more, if it was tried and did not diverge."""
+    found = (r for r in ranking.fits if name not in others and set(r.added) == others | {name})
+    return next((r for r in found if np.isfinite(r.score)), None)
