@@ -65,3 +65,26 @@ def test_a_moving_average_is_the_mean_of_the_speed(samples: int) -> None:
     averaged = _run(time, voltage, speed_moving_average={"window": samples * 1e-3}).signals["speed"][samples:]
     error, effect = (np.sqrt(np.mean((x - mean) ** 2)) for x in (averaged, true["speed"][samples:]))
     assert error < 0.03 * effect
+
+
+@pytest.mark.parametrize(
+    "effect", [{"current_limit": {"limit": 1.5}}, {"coasting_bridge": {"share": 0.95, "supply": 40.0}}]
+)
+def test_what_takes_the_back_emf_out_is_exact_at_rows_longer_than_it_brakes(
+    effect: dict[str, dict[str, float]],
+) -> None:
+    """A motor that its back-EMF brakes within 1.2 ms, at rows of 5 ms."""
+    time = np.arange(300) * 5e-3
+    voltage = np.random.default_rng(4).normal(0.0, 5.0, time.size)
+    fine = np.repeat(time, 10) + np.tile(np.arange(10) * 5e-4, time.size)
+    quick = MOTOR | {"inertia": 1.5e-5, "coulomb_friction": 0.0, "inductance": 1e-5}
+    coarse, exact = (
+        rwn.simulate(
+            rwn.Model(kind="dc", parameters=quick, effects={k.replace("_", "-"): v for k, v in effect.items()}),
+            rwn.Recording(name="run", time=t, signals={"voltage": u}),
+        ).signals
+        for t, u in ((time, voltage), (fine, np.repeat(voltage, 10)))
+    )
+    for signal, share in (("speed", 0.002), ("current", 0.03)):
+        error = np.sqrt(np.mean((coarse[signal] - exact[signal][::10]) ** 2))
+        assert error < share * np.std(exact[signal])

@@ -27,13 +27,19 @@ struct CoastingBridge {
                                                    .start = 1.2,
                                                    .scale = scale::voltage,
                                                    .scan = {2.5}}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate};
 
   template <class S>
   static void apply(const S* p, const Motor<S>& motor, const Motion<S>& x, Terms<S>& t) {
     using std::abs;
     const S off = 1.0 - abs(x.input) / p[1];  // share of a period without a pulse
     if (value_of(off) > 0.0) t.drop -= p[0] * off * motor[back_emf_constant] * x.speed;
+  }
+  /// It takes a part of the back-EMF out of the equations, and of its damping.
+  template <class S>
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double, double) {
+    const double off = 1.0 - std::abs(value_of(x.input)) / value_of(p[1]);
+    return off > 0.0 ? value_of(p[0]) * off * damping_of_back_emf(m) : 0.0;
   }
 };
 

@@ -17,7 +17,7 @@ struct CurrentLimit {
                                                    .scale = scale::current,
                                                    .scan = {0.4, 0.6, 0.8, 1.0},
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate};
 
   template <class S>
   static void apply(const S* p, const Motor<S>& motor, const Motion<S>& x, Terms<S>& t) {
@@ -26,6 +26,12 @@ struct CurrentLimit {
     const S driving = x.input - emf;
     if (value_of(driving) > value_of(most)) t.drop += driving - most;
     if (value_of(driving) < -value_of(most)) t.drop += driving + most;
+  }
+  /// Where it limits, it takes the back-EMF out of the equations, and its damping with it.
+  template <class S>
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double, double) {
+    const double driving = value_of(x.input) - value_of(m[back_emf_constant]) * value_of(x.speed);
+    return std::abs(driving) > value_of(m[resistance]) * value_of(p[0]) ? damping_of_back_emf(m) : 0.0;
   }
 };
 
