@@ -244,6 +244,16 @@ def test_corrected_worse_than_refitted(folder: Path) -> None:
     assert score.missed(found)
 
 
+def test_a_corrected_model_that_shows_a_sensors_offset_is_no_worse_for_it(folder: Path, tmp_path: Path) -> None:
+    (tmp_path / "t" / "heldout_1.csv").write_text("time [s],speed [rad/s]\n0,3\n1,3\n2,3\n")
+    for name, speed in (("simulated", 3.0), ("refitted", 0.5)):
+        rows = "".join(f"{k},{speed}\n" for k in range(3))
+        (folder / "out" / f"heldout_1_{name}.csv").write_text("time [s],speed [rad/s]\n" + rows)
+    offset = [{"kind": "zero-offset", "speed": 3.0, "current": 0.0}]
+    assert graded(folder, the_answer(imperfections=offset), stated(("sensor-bias", 0.9))).worse == (False,)
+    assert graded(folder, the_answer(), stated(("sensor-bias", 0.9))).worse == (True,)
+
+
 def test_between_the_updates_of_a_slow_bus_no_model_is_compared(folder: Path) -> None:
     """The true speed rises row by row and is shown every second row: a model that follows it is no worse for that."""
     held = [{"kind": "values-held", "speed": 2, "current": 1}]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rwn.studies.trials.adapter import heldout_files, refitted_file, simulated_file
 from rwn.studies.trials.bench_trials.also_true import also_true
-from rwn.studies.trials.bench_trials.imperfections import held
+from rwn.studies.trials.bench_trials.imperfections import held, zero_offset
 from rwn.studies.trials.bench_trials.plan import BACKGROUND_ALONE, NOTHING
 from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.effects import known_as
@@ -196,12 +196,21 @@ def _worse(answer: Mapping[str, Any], trial: Path, out: Path) -> list[bool]:
             continue
         true = clean_speed(answer, heldout)
         new = _updates(answer, true)
+        offset = _offset(answer, heldout, true)
+        noise = float(np.sqrt(max(sigma**2 - offset**2, 0.0)))  # the recorded rms holds the offset
         errors = [
-            float(np.hypot(sigma, np.sqrt(np.mean((read_columns(path)["speed"] - true)[new] ** 2))))
+            float(np.hypot(noise, np.sqrt(np.mean((read_columns(path)["speed"] - true - offset)[new] ** 2))))
             for path in (corrected, refitted)
         ]
         found.append(not errors[0] <= WORSE * errors[1])
     return found
+
+
+def _offset(answer: Mapping[str, Any], heldout: Path, true: Array) -> float:
+    """Of the recorded speed [rad/s], where that has one: a corrected model with the bias of its sensor shows it too."""
+    if not any(each["kind"] == zero_offset.KIND.name and each["speed"] for each in answer["imperfections"]):
+        return 0.0
+    return float(np.median(read_columns(heldout)["speed"] - true))
 
 
 def _updates(answer: Mapping[str, Any], speed: Array) -> Flags:
