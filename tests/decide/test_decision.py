@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from rwn.decide import decision
@@ -29,7 +30,7 @@ def refused(names: str, costs: dict[str, float], monkeypatch: pytest.MonkeyPatch
 
     monkeypatch.setattr(decision, "_together", together)
     monkeypatch.setattr(decision, "compared", compared)
-    monkeypatch.setattr(decision, "hurts", lambda rows: rows > 0.0)
+    monkeypatch.setattr(decision, "hurts", lambda rows: not rows <= 0.0)
     monkeypatch.setattr(decision, "log_change", lambda rows: rows)
     effects = tuple(Acting(name=n, probability=0.9, together=0.9, share=0.5, evidence=CERTAIN) for n in names)
     found: Any = Account(effects=effects, leading=None)  # type: ignore[arg-type]
@@ -54,6 +55,12 @@ def test_the_part_that_hurts_most_goes_and_then_what_still_does(monkeypatch: pyt
 
 def test_two_that_hurt_together_alone_go_together(monkeypatch: pytest.MonkeyPatch) -> None:
     assert refused("ab", {"": 1.0, "a": 5.0, "b": 6.0, "ab": 2.0}, monkeypatch) == [""]
+
+
+def test_of_what_runs_away_only_what_does_it_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the first of two effects the motion still runs away: that says nothing against the first."""
+    costs = {"": 9.0, "a": 5.0, "b": np.inf, "ab": np.inf}
+    assert refused("ab", costs, monkeypatch) == ["a"]
 
 
 def test_nothing_is_refused_where_nothing_was_kept_back() -> None:

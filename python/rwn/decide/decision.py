@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, combinations
 
+import numpy as np
+
 from rwn.decide.account import Account, Remainder, account, remainder
 from rwn.decide.other_law import curve_beside
 from rwn.decide.verdict import Verdict, verdict_of
@@ -55,14 +57,17 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
 def _refused(
     ranking: Ranking, chosen: RankedFit, found: Account, heldout: Sequence[Run], *, seed: int
 ) -> tuple[Account, RankedFit] | None:
-    """The account and explanation without those effects that make worse what was kept back, and most so."""
+    """The account and explanation without those effects that make worse what was kept back, and most so.
+
+    Where both run away nothing is won without them.
+    """
     worse = []
     for names in _parts(chosen.added) if heldout else ():
         account = found.withdrawn(names)
         less = _together(ranking, account)
         rows = compared(ranking, less.final, chosen.final, heldout, seed=seed)
-        if hurts(rows):
-            worse.append((log_change(rows), account, less))
+        if hurts(rows) and not np.isnan(by := log_change(rows)):
+            worse.append((by, account, less))
     return max(worse, key=lambda row: row[0])[1:] if worse else None
 
 
