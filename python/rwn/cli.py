@@ -199,7 +199,8 @@ def report(
 ) -> None:
     """Draw the report of a result anew, or compare two: before and after a repair."""
     from rwn.report.comparison import comparison
-    from rwn.report.diagnosis import CURVES, MODEL, RESULT, Diagnosis
+    from rwn.report.diagnosis import Diagnosis
+    from rwn.report.exchange import CURVES, MODEL, RESULT
     from rwn.report.files import output_file
     from rwn.report.page import page
 

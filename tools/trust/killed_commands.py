@@ -15,6 +15,8 @@ import numpy as np
 
 import rwn
 from rwn.recording.recording import write_csv
+from rwn.report.diagnosis import Diagnosis
+from rwn.report.exchange import RESULT, RESULTS
 from rwn.studies.thesis import registry
 from rwn.studies.thesis.experiment import Outcome, Row, Settings
 from rwn.studies.trials import make as trials_make
@@ -22,6 +24,8 @@ from rwn.studies.trials.seal import ANSWERS, HASH, unseal
 from tools.trust.cases import MODEL
 from tools.trust.short_trials import short_trial
 from tools.trust.soak import recording
+
+MINE = "notes.txt"  # a file of the user's own in the folder of a result
 
 
 @dataclass(frozen=True)
@@ -45,17 +49,26 @@ def _drive(folder: Path) -> None:
     made = recording(rwn.read_model(folder / "motor.toml"))
     write_csv(folder / "run.csv", made.time, made.signals)
     (folder / "out").mkdir()
-    (folder / "out" / "diagnosis.json").write_text("old")
+    for name in (*RESULTS, MINE):
+        (folder / "out" / name).write_text("old")
 
 
 def _diagnosis(folder: Path) -> Any:
-    return [(folder / "out" / name).read_bytes() for name in ("diagnosis.json", "corrected.toml")]
+    return [(folder / "out" / name).read_bytes() for name in ("diagnosis.json", "curves.json", "corrected.toml")]
 
 
-def _old_or_new(folder: Path) -> None:
-    text = (folder / "out" / "diagnosis.json").read_text()
-    if text != "old":
-        json.loads(text)
+def _of_one_result(folder: Path) -> None:
+    """Whatever is there is old, or nothing is; whole where diagnosis.json is there; what is the user's own stays."""
+    texts = {path.name: path.read_text() for path in (folder / "out").iterdir() if path.is_file()}
+    if texts.pop(MINE, "") != "old":
+        raise ValueError(f"{MINE} is not what it was")
+    old = sorted(name for name, text in texts.items() if text == "old")
+    if old and len(old) < len(texts):
+        raise ValueError(f"a mixture: of {sorted(texts)}, {old} are old")
+    if RESULT in texts and len(texts) < len(RESULTS):
+        raise ValueError(f"a part of a result: {sorted(texts)}")
+    if RESULT in texts and not old:
+        Diagnosis.load(folder / "out")
 
 
 def _short_trials() -> None:
@@ -107,7 +120,7 @@ WORK = {
     "diagnose": Work(
         ("diagnose", "run.csv", "--model", "motor.toml", "--out", "out", "--overwrite", "--jobs", "1",
          "--effort", "0.1"),
-        _diagnosis, _old_or_new, prepare=_drive,
+        _diagnosis, _of_one_result, prepare=_drive,
     ),
     "trials make": Work(
         ("trials", "make", "--seed", "11", "--count", "6", "--out", "out", "--jobs", "1"),

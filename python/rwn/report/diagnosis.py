@@ -11,7 +11,8 @@ from rwn.errors import InputError, unknown
 from rwn.input_file import input_file
 from rwn.model.files import read_model, write_model
 from rwn.report.diagnosis_data import DiagnosisData
-from rwn.report.files import output_folder
+from rwn.report.exchange import CURVES, MODEL, REPORT, RESULT
+from rwn.report.files import one_result, output_folder
 from rwn.report.page import page, panels, pictures
 from rwn.report.plots import drawn
 from rwn.report.sentences import sentences, verdict_sentence
@@ -21,8 +22,6 @@ from rwn.values import table_of_rows
 if TYPE_CHECKING:
     import pandas
     import plotly.graph_objects
-
-RESULT, CURVES, MODEL, REPORT = "diagnosis.json", "curves.json", "corrected.toml", "report.html"
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
@@ -125,9 +124,13 @@ class Diagnosis(DiagnosisData):
     def load(cls, folder: str | Path) -> Diagnosis:
         """The diagnosis that `save` or `rwn diagnose` wrote to a folder, with what is there of curves and model.
 
-        Raises InputError where a file is missing or is no diagnosis.
+        Raises InputError where a file is missing or is no diagnosis, or another result takes its place meanwhile.
         """
-        folder = Path(folder)
+        with one_result(Path(folder)):
+            return cls._read(Path(folder))
+
+    @classmethod
+    def _read(cls, folder: Path) -> Diagnosis:
         result, curves = folder / RESULT, b"{}"
         with input_file(result, "the result of rwn diagnose"):
             text = result.read_bytes()

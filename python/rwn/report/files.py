@@ -7,23 +7,24 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 
 from rwn.errors import InputError
 from rwn.recording.formats.part import file_and_part
+from rwn.report.exchange import HALF, OLD, RESULT, RESULTS, exchange, go_on, waits
 
 _ASIDE = ".rwn-"  # then the process that writes there
-RESULTS = ("report.html", "diagnosis.json", "corrected.toml")
 
 
 @contextmanager
 def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path] = ()) -> Iterator[Path]:
     """A temporary folder whose files are moved to `path` when the block ends without an error.
 
-    It lies on the same disk, so that moving needs no room and old results stay until new ones are whole. Raises
-    InputError before the block when `path` cannot be written, or holds files and `overwrite` is false; or when a result
-    would replace one of the `inputs`.
+    It lies on the same disk, so that moving needs no room and old results stay until new ones are whole. Of a process
+    that is killed while it moves them, diagnosis.json is missing until another begins here. Raises InputError before
+    the block when `path` cannot be written, or holds files and `overwrite` is false; or when a result would replace one
+    of the `inputs`.
     """
     path = _without_detours(path)
     check_folder(path)
@@ -40,12 +41,25 @@ def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path]
             fix="choose another --out, or add --overwrite",
         )
     with _aside(there, path) as aside:
-        yield aside
+        yield aside / HALF
         path.mkdir(parents=True, exist_ok=True)
-        for made in sorted(aside.iterdir()):
-            if (path / made.name).is_dir():
-                shutil.rmtree(path / made.name)  # a folder takes the place of an empty one only
-            made.replace(path / made.name)
+        with nullcontext(aside) if there == path else _aside(path, path) as within:
+            if there != path:
+                (within / HALF).rmdir()
+                (aside / HALF).replace(within / HALF)
+            exchange(within, path)
+
+
+@contextmanager
+def one_result(folder: Path) -> Iterator[None]:
+    """Raises InputError where what is read in the block need not be the files of one result."""
+    result = folder / RESULT
+    before = _identity(result)
+    if before is None and any(waits(aside) for aside in folder.glob(f"{_ASIDE}*-*")):
+        raise _replaced(folder)
+    yield
+    if _identity(result) != before:
+        raise _replaced(folder)
 
 
 @contextmanager
@@ -63,10 +77,10 @@ def output_file(path: Path, *, overwrite: bool = False, inputs: Sequence[Path] =
         )
     there = _existing(path.parent)
     with _aside(there, path) as aside:
-        yield aside / path.name
-        if (aside / path.name).exists():
+        yield aside / HALF / path.name
+        if (aside / HALF / path.name).exists():
             path.parent.mkdir(parents=True, exist_ok=True)
-            (aside / path.name).replace(path)
+            (aside / HALF / path.name).replace(path)
 
 
 def check_folder(path: Path) -> None:
@@ -76,6 +90,8 @@ def check_folder(path: Path) -> None:
         raise InputError(
             "this is a file", where=path, expected="a folder for the results", fix="choose another --out"
         )
+    if path.parent.is_dir():
+        _sweep(path.parent)  # there the process wrote while the folder was not there
     _try(_existing(path), path)
 
 
@@ -94,6 +110,24 @@ def check_file(path: Path) -> None:
 def _without_detours(path: Path) -> Path:
     """`new/../a.csv` is a.csv, which is seen only once `new` has been made."""
     return Path(os.path.realpath(path)) if ".." in path.parts else path
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    """Another one after each move."""
+    try:
+        at = path.stat()
+    except OSError:
+        return None
+    return at.st_ino, at.st_ctime_ns
+
+
+def _replaced(folder: Path) -> InputError:
+    return InputError(
+        "this result is being replaced, or was when a process was killed",
+        where=folder,
+        expected="the files of one result",
+        fix="wait for it, or diagnose again with --overwrite",
+    )
 
 
 def _is_a_folder(path: Path) -> InputError:
@@ -140,12 +174,15 @@ def _aside(there: Path, path: Path) -> Iterator[Path]:
     """A folder in `there` that is gone after the block; a full disk is said with the place of the result."""
     try:
         aside = Path(tempfile.mkdtemp(prefix=f"{_ASIDE}{os.getpid()}-", dir=there))
+        for name in (HALF, OLD):
+            (aside / name).mkdir()
     except OSError as error:  # permissions alone do not tell (root, /proc, full disk)
         raise _not_writable(there, path) from error
     try:
         yield aside
     except OSError as error:
-        of_inputs = error.filename is not None and not Path(error.filename).is_relative_to(aside)
+        named = [name for name in (error.filename, error.filename2) if name is not None]
+        of_inputs = named and not any(Path(name).is_relative_to(aside) for name in named)
         if of_inputs or error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
             raise
         raise InputError(
@@ -155,7 +192,8 @@ def _aside(there: Path, path: Path) -> Iterator[Path]:
             fix="free some, or choose another --out",
         ) from error
     finally:
-        shutil.rmtree(aside, ignore_errors=True)
+        if not waits(aside):
+            shutil.rmtree(aside, ignore_errors=True)
 
 
 def _try(there: Path, path: Path) -> None:
@@ -166,8 +204,12 @@ def _try(there: Path, path: Path) -> None:
 
 
 def _sweep(there: Path) -> None:
-    """Removes what processes that were killed have left in a folder."""
+    """Removes what processes that were killed have left in a folder, after it has ended what they were about to."""
     for left in there.glob(f"{_ASIDE}*-*"):
         process = left.name.removeprefix(_ASIDE).split("-")[0]
         if process.isdigit() and not Path(f"/proc/{process}").exists() and Path("/proc/self").exists():
-            shutil.rmtree(left, ignore_errors=True)
+            with suppress(OSError):
+                mine = left.replace(there / left.name.replace(process, str(os.getpid()), 1))  # one of two gets it
+                if waits(mine):
+                    go_on(mine, there)
+                shutil.rmtree(mine)
