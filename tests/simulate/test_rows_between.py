@@ -1,0 +1,64 @@
+"""Rows with rows between them, of the same input, move a drive the same: whatever drive, effects and rows are drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.model.vocabulary import table
+
+# the angle of one row, a resolution and a winding that saturates within a row are matters of how long rows are
+LEFT_OUT = {
+    "sensor-quantization", "cogging-torque", "torque-ripple", "unbalance", "inertia-variation",
+    "position-dependent-friction", "magnetic-saturation", "brush-voltage-drop", "backlash", "shaft-compliance",
+    "presliding-hysteresis", "power-law-drag",
+}  # fmt: skip
+EXACT = 0.02
+
+
+def _drawn(rng: np.random.Generator) -> tuple[rwn.Model, str]:
+    kind = str(rng.choice(["dc", "axis"]))
+    motor = {"inertia": 10.0 ** rng.uniform(-4.5, -3.5), "viscous_friction": 10.0 ** rng.uniform(-5.0, -4.0)}
+    motor["coulomb_friction"] = 10.0 ** rng.uniform(-2.5, -1.7)
+    if kind == "dc":
+        constant = 10.0 ** rng.uniform(-1.4, -1.0)
+        motor |= {"torque_constant": constant, "back_emf_constant": constant}
+        motor |= {"resistance": rng.uniform(1.0, 4.0), "inductance": 10.0 ** rng.uniform(-5.0, -3.3)}
+    sizes = {"torque": 0.1, "speed": 100.0, "voltage": 10.0, "current": 3.0, "inertia": motor["inertia"],
+             "time_step": 2e-3, "duration": 3.0, "loss": 10.0}  # fmt: skip
+    names = [name for name in table() if name not in LEFT_OUT]
+    effects = {}
+    for name in rng.choice(names, int(rng.integers(0, 3)), replace=False):
+        parameters = table()[str(name)].parameters
+        effects[str(name)] = {p.name: p.start if p.fixed else p.start * p.scale.of(sizes) for p in parameters}
+        for p in parameters:
+            motor.pop(p.replaces or "", None)
+    return rwn.Model(kind=kind, parameters=motor, effects=effects), "voltage" if kind == "dc" else "torque"
+
+
+def _rows(rng: np.random.Generator) -> np.ndarray:
+    time = np.arange(1500) * 10.0 ** rng.uniform(-3.5, -2.6)
+    kind = rng.choice(["regular", "jitter", "lost"])
+    if kind == "jitter":
+        time += 0.3 * time[1] * rng.uniform(-1.0, 1.0, time.size)
+    return time - time[0] if kind != "lost" else time[rng.random(time.size) > 0.1]
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_rows_with_rows_between_them_move_a_drive_the_same(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    model, name = _drawn(rng)
+    time = np.sort(_rows(rng))
+    time -= time[0]
+    held = np.repeat(rng.uniform(-1.0, 1.0, time.size // 10 + 1), 10)[: time.size]
+    given = held * (10.0 if name == "voltage" else 0.3)
+    between = np.insert(time, np.arange(1, time.size), time[:-1] + 0.4 * np.diff(time))
+
+    def speed(at: np.ndarray, values: np.ndarray) -> np.ndarray:
+        done = rwn.simulate(model, rwn.Recording(name="run", time=at, signals={name: values}))
+        assert done.status == "ok"
+        return done.signals["speed"]
+
+    coarse, fine = speed(time, given), speed(between, np.repeat(given, 2)[:-1])[::2]
+    assert np.sqrt(np.mean((coarse - fine) ** 2)) < EXACT * np.sqrt(np.mean(fine**2)) + 1e-9
