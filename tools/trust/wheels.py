@@ -1,8 +1,9 @@
 """Builds the wheel twice, from two folders, and compares their files and what they answer: `make wheels`.
 
 Each is installed by pip into an empty environment, with what it says it needs and no more: every module must load
-there, and the command diagnoses the demonstration. Exit code 1 where a byte differs that is not the time of a file,
-where a committed file of the package is missing, or where an installed wheel fails.
+there, and the command diagnoses the demonstration. So is the wheel that each other --python builds, in an environment
+of its own. Exit code 1 where a byte differs that is not the time of a file, where a committed file of the package is
+missing, or where the installed wheels answer differently.
 """
 
 from __future__ import annotations
@@ -30,15 +31,22 @@ print(len(names))
 """
 
 
-def build(folder: Path, settings: list[str]) -> Path:
-    """A wheel of what is committed, compiled in a folder of its own."""
+def build(python: str, folder: Path, commit: str, settings: list[str]) -> Path:
+    """A wheel of a commit, compiled in a folder of its own; by another Python with what its pip fetches to build it."""
     source = folder / "source"
     subprocess.run(["git", "clone", "-q", str(ROOT), str(source)], check=True)
+    subprocess.run(["git", "checkout", "-q", "--detach", commit], cwd=source, check=True)
     words = [word for setting in settings for word in ("-C", setting)]
-    wheel_of = [sys.executable, "-m", "pip", "wheel", "-q", "--no-build-isolation", "--no-deps", "-w", str(folder)]
-    subprocess.run([*wheel_of, *words, str(source)], check=True)
+    here = ["--no-build-isolation"] if python == sys.executable else []
+    wheel_of = [python, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps", "-w", str(folder)]
+    subprocess.run([*wheel_of, *here, *words, str(source)], env=apart(), check=True)
     (wheel,) = folder.glob("*.whl")
     return wheel
+
+
+def apart() -> dict[str, str]:
+    """The environment of a process that is to find nothing of this checkout."""
+    return {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
 
 
 def contents(wheel: Path) -> dict[str, str]:
@@ -47,56 +55,66 @@ def contents(wheel: Path) -> dict[str, str]:
         return {name: hashlib.sha256(archive.read(name)).hexdigest() for name in archive.namelist()}
 
 
-def committed() -> set[str]:
+def output(*words: str) -> str:
+    """Of a command in the checkout."""
+    return subprocess.run(words, cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def committed(commit: str) -> set[str]:
     """The files of the packages, as a wheel names them."""
-    listed = subprocess.run(["git", "ls-files", "python"], cwd=ROOT, check=True, capture_output=True, text=True)
-    return {name.removeprefix("python/") for name in listed.stdout.splitlines()}
+    listed = output("git", "ls-tree", "-r", "--name-only", commit, "python").splitlines()
+    return {name.removeprefix("python/") for name in listed}
 
 
-def installed(wheel: Path, folder: Path) -> tuple[int, str]:
-    """From an empty environment with the wheel: how many modules load, and the digest of the demonstration's result."""
-    subprocess.run([sys.executable, "-m", "venv", str(folder / "venv")], check=True)
-    apart = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+def installed(python: str, wheel: Path, folder: Path) -> tuple[str, str, str]:
+    """From an empty environment with the wheel: its Python, how many modules load, the digest of the demonstration."""
+    subprocess.run([python, "-m", "venv", str(folder / "venv")], env=apart(), check=True)
 
     def run(*words: str) -> str:
         """A command of the environment, away from the checkout."""
         command = [str(folder / "venv" / "bin" / words[0]), *words[1:]]
-        return subprocess.run(command, cwd=folder, env=apart, check=True, stdout=subprocess.PIPE, text=True).stdout
+        return subprocess.run(command, cwd=folder, env=apart(), check=True, stdout=subprocess.PIPE, text=True).stdout
 
     run("pip", "install", "-q", "--disable-pip-version-check", str(wheel))
     run("pip", "check")
-    modules = int(run("python", "-c", EVERY_MODULE))
+    modules = run("python", "-c", EVERY_MODULE).strip()
     run("rwn", "demo", "--out", "demo-out")
-    found = (folder / "demo-out" / "diagnosis.json").read_bytes()
-    return modules, hashlib.sha256(found.replace(str(folder).encode(), b"")).hexdigest()  # it names its recordings
+    package = run("python", "-c", "import rwn; print(rwn.__path__[0])").strip()  # the recordings lie there
+    found = (folder / "demo-out" / "diagnosis.json").read_bytes().replace(package.encode(), b"")
+    return run("python", "-V").strip(), modules, hashlib.sha256(found).hexdigest()[:12]
 
 
 def main() -> int:
     """Prints what is the same; 1 where anything is not."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("-C", dest="settings", action="append", default=[], help="a setting of scikit-build-core")
+    parser.add_argument("--python", action="append", default=[], help="another Python, as python3.12; repeatable")
     options = page.parsed(parser, "wheels")
+    commit, pythons = output("git", "rev-parse", "HEAD"), [sys.executable, sys.executable, *options.python]
+    wheels, found = list[Path](), list[tuple[str, str, str]]()
     with tempfile.TemporaryDirectory(prefix="rwn-wheels-") as name:
-        folders = [Path(name) / "a", Path(name) / "another"]
-        for folder in folders:
-            folder.mkdir()
-        wheels = [build(folder, options.settings) for folder in folders]
-        first, second = map(contents, wheels)
-        differ = sorted(name for name in first.keys() | second.keys() if first.get(name) != second.get(name))
-        whole = len({hashlib.sha256(wheel.read_bytes()).hexdigest() for wheel in wheels}) == 1
-        missing = sorted(committed() - first.keys())
-        found = [installed(wheel, folder) for wheel, folder in zip(wheels, folders, strict=True)]
-    modules, answers = found[0][0], {answer for _, answer in found}
+        for k, python in enumerate(pythons):
+            folder = Path(name) / ("a", "another")[k % 2] / str(k)  # paths of two lengths
+            folder.mkdir(parents=True)
+            wheels.append(build(python, folder, commit, options.settings))
+            print(f"built: {wheels[-1]}", file=sys.stderr, flush=True)
+            found.append(installed(python, wheels[-1], folder))
+            print("installed:", *found[-1], file=sys.stderr, flush=True)
+        first, second = map(contents, wheels[:2])
+        whole = len({hashlib.sha256(wheel.read_bytes()).hexdigest() for wheel in wheels[:2]}) == 1
+        missing = sorted(committed(commit) - set.intersection(*(set(contents(wheel)) for wheel in wheels)))
+    differ = sorted(name for name in first.keys() | second.keys() if first.get(name) != second.get(name))
     page.show(
         "wheels", options.page,
         f"Two builds from two folders ({' '.join(options.settings) or 'as shipped'}): {len(first) - len(differ)} of "
         f"{len(first)} files have the same bytes{': not ' + ', '.join(differ) if differ else ''}; the two archives are "
         f"{'the same' if whole else 'not the same'} file. {len(missing)} committed files of the packages are missing"
         f"{': ' + ', '.join(missing) if missing else ''}.",
-        f"Each was installed by pip into an empty environment with what it requires alone: {modules} modules load, and "
-        f"`rwn demo` writes {len(answers)} diagnosis.json.",
+        "Each was installed by pip into an empty environment with what it requires alone, and so was the wheel of each "
+        "other Python: modules that load there, and the digest of the diagnosis.json that `rwn demo` writes.",
+        page.table(("built and run by", "modules", "diagnosis.json"), found),
     )  # fmt: skip
-    return 1 if differ or missing or len(answers) != 1 else 0
+    return 1 if differ or missing or len({answer for _, _, answer in found}) != 1 else 0
 
 
 if __name__ == "__main__":
