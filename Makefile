@@ -7,8 +7,6 @@ export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 export OPENBLAS_NUM_THREADS ?= 1
 # Where this is set, each of the many processes that tests start compiles NumPy and SciPy anew.
 export PYTHONDONTWRITEBYTECODE :=
-# The compiler may leave half a gigabyte of garbage before it looks for it: up to a seventh of its time.
-export CXXFLAGS ?= --param=ggc-min-expand=300 --param=ggc-min-heapsize=500000
 PIP := $(PY) -m pip install -q --disable-pip-version-check
 
 .PHONY: demo demo-real test check test-cpp test-sanitize test-sanitize-lint test-python mutants lint lint-only bench install \

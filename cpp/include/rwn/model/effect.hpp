@@ -86,12 +86,6 @@ struct EffectTraits {
   std::string_view special_case{};  // the simpler effect that it is at one value of a parameter, tried in its place
 };
 
-/// Rate at which the back-EMF brakes a motor whose winding follows at once [1/s].
-template <class S>
-double damping_of_back_emf(const Motor<S>& m) {
-  return value_of(m[torque_constant]) * value_of(m[back_emf_constant]) / (value_of(m[resistance]) * value_of(m[inertia]));
-}
-
 /// Signatures of the hooks for scalar S.
 template <class S>
 struct HookTypes {

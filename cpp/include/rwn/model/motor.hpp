@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "rwn/model/parameter.hpp"
+#include "rwn/numerics/dual.hpp"
 
 namespace rwn {
 
@@ -79,6 +80,12 @@ struct Terms {
   S inertia_slope{0.0};  // dJ2/dtheta
   double drop_slope = 0.0;  // d drop / d i: keeps the integrator stable [ohm]
 };
+
+/// Rate at which the back-EMF brakes a motor whose winding follows at once [1/s].
+template <class S>
+double damping_of_back_emf(const Motor<S>& m) {
+  return value_of(m[torque_constant]) * value_of(m[back_emf_constant]) / (value_of(m[resistance]) * value_of(m[inertia]));
+}
 
 /// What the sensors say of one sample.
 template <class S>
