@@ -8,12 +8,7 @@ import pytest
 import rwn
 from rwn.model.vocabulary import table
 
-# the angle of one row, a resolution and a winding that saturates within a row are matters of how long rows are
-LEFT_OUT = {
-    "sensor-quantization", "cogging-torque", "torque-ripple", "unbalance", "inertia-variation",
-    "position-dependent-friction", "magnetic-saturation", "brush-voltage-drop", "backlash", "shaft-compliance",
-    "presliding-hysteresis", "power-law-drag",
-}  # fmt: skip
+LEFT_OUT = "power-law-drag"  # its reference speed has no scale: at 1 rad/s the drawn drag is too steep for any row
 EXACT = 0.02
 
 
@@ -27,7 +22,7 @@ def _drawn(rng: np.random.Generator) -> tuple[rwn.Model, str]:
         motor |= {"resistance": rng.uniform(1.0, 4.0), "inductance": 10.0 ** rng.uniform(-5.0, -3.3)}
     sizes = {"torque": 0.1, "speed": 100.0, "voltage": 10.0, "current": 3.0, "inertia": motor["inertia"],
              "time_step": 2e-3, "duration": 3.0, "loss": 10.0}  # fmt: skip
-    names = [name for name in table() if name not in LEFT_OUT]
+    names = [name for name in table() if name != LEFT_OUT]
     effects = {}
     for name in rng.choice(names, int(rng.integers(0, 3)), replace=False):
         parameters = table()[str(name)].parameters
