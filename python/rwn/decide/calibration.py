@@ -34,13 +34,17 @@ class Calibration:
     fitted_on: str = ""  # the sets with their seeds, how many names of how many trials, and the commit
 
     def probability(self, found: Evidence) -> float:
-        """That the effect acts, or a rival in its place.
+        """That the effect acts, or a rival in its place."""
+        return self.probability_of(features(found))
 
-        At most even where an explanation without it is the likelier one: nothing is stated against the ranking.
+    def probability_of(self, found: Array) -> float:
+        """The same of features (5,).
+
+        At most even where an explanation without the effect is the likelier one: nothing is stated against the ranking.
         """
-        z = (features(found) - np.array(self.means)) / np.array(self.deviations)
+        z = (found - np.array(self.means)) / np.array(self.deviations)
         learned = float(1.0 / (1.0 + np.exp(-(self.intercept + float(np.array(self.weights) @ z)))))
-        return min(learned, ACTS) if found.odds < 0.0 else learned
+        return min(learned, ACTS) if found[FEATURES.index("odds")] < 0.0 else learned
 
     def probability_by(self, **known: float) -> float:
         """The same where some features alone are known, by name; the others count as usual."""

@@ -20,7 +20,6 @@ VANISHING = 0.05  # central differences have 0.005
 LONGEST = 8  # samples of a difference: a moving average of so many differences over one
 MOTION = 0.2  # of the sampling rate: what moves a drive is slower
 RISING = 1.4  # differences over one sample have 2
-OWN_NOISE = 4.0  # power in units of what the rounding to steps makes, from which it has another cause: their double
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,7 @@ def _of_rows(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
         if errors[best] < REPEATED:
             return best
     step = quantum(speed)
-    if not 0.0 < _power(speed, MOTION, 0.5) <= OWN_NOISE * step**2 / 6.0:  # of two roundings to the step
+    if not 0.0 < _power(speed, MOTION, 0.5) <= step**2:  # two roundings to a step are never further apart than that
         return INSTANTANEOUS
     averaged = None if position.size else next((way for way in AVERAGED if _vanishes(speed, way.before)), None)
     return averaged or _of_counts(time, speed, step)

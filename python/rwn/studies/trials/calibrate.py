@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.decide.account import Remainder
-from rwn.decide.calibration import ACTS, FEATURES, Calibration, calibration, features
+from rwn.decide.calibration import FEATURES, Calibration, calibration, features
 from rwn.errors import InputError
 from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
@@ -165,7 +165,7 @@ def _left_out(names: Names, fold: NDArray[np.int64], ridge: float) -> Array:
     unseen = np.empty(names.acts.size)
     for k in range(FOLDS):
         part = _fitted(names.features[fold != k], names.acts[fold != k], "", ridge)
-        unseen[fold == k] = [_probability(part, f) for f in names.features[fold == k]]
+        unseen[fold == k] = [part.probability_of(f) for f in names.features[fold == k]]
     return unseen
 
 
@@ -210,13 +210,6 @@ def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:
         intercept=float(weights[0]), weights=tuple(map(float, weights[1:])), means=tuple(map(float, means)),
         deviations=tuple(map(float, spreads)), fitted_on=what,
     )  # fmt: skip
-
-
-def _probability(found: Calibration, x: Array) -> float:
-    """As `Calibration.probability`, of features (5,)."""
-    z = (x - np.array(found.means)) / np.array(found.deviations)
-    learned = float(1.0 / (1.0 + np.exp(-(found.intercept + np.array(found.weights) @ z))))
-    return min(learned, ACTS) if x[FEATURES.index("odds")] < 0.0 else learned
 
 
 def words(found: Calibrated) -> str:
