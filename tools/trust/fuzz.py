@@ -96,7 +96,8 @@ def simulation(data: bytes) -> None:
         assert all(np.isfinite(x).all() for x in run.signals.values()), "no NaN silently"
 
 
-_FOLDER = Path(tempfile.mkdtemp(prefix="rwn-fuzz-"))
+_ASIDE = tempfile.TemporaryDirectory(prefix="rwn-fuzz-")  # gone when the process ends
+_FOLDER = Path(_ASIDE.name)
 TARGETS: dict[str, Target] = {
     "csv": _reads(".csv"), "wpilog": _reads(".wpilog"), "sysid": _reads(".json"), "npz": _reads(".npz"),
     "mat": _reads(".mat"), "model": model, "formula": formula, "diagnosis": diagnosis,
