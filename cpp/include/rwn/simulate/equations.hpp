@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rwn/simulate/division.hpp"
 #include "rwn/simulate/effect_terms.hpp"
 #include "rwn/simulate/second_mass.hpp"
 #include "rwn/simulate/winding_level.hpp"
@@ -109,12 +110,20 @@ class Equations {
     return 0;
   }
 
-  /// Steps that the fastest effect asks for over h, where `f` and `t` are those of its start (level 0).
-  int step_count(const State& s, double h, const Vector& f, const Terms<S>& t) const {
+  /// The steps that the effects ask for over h, where `f` and `t` are those of its start (level 0). The transient of a
+  /// winding whose equation is not linear is followed in steps of lengths that come back.
+  Division divide(const State& s, double h, const Vector& f, const Terms<S>& t) const {
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
-    const double effect_steps = h * effects_.rate(s, acceleration, h) / angle_of_a_step;
-    const double steps = std::ceil(std::max(winding_steps(t, h), effect_steps));
-    return steps > 1.0 ? static_cast<int>(std::min(16.0, steps)) : 1;
+    const double steps = h * effects_.rate(s, acceleration, h) / angle_of_a_step;
+    if constexpr (Drive::states > 0) {
+      const double rate = electrics_.rate({});
+      if (electrical() && h * rate > least_angle && !is_settled(s, f, t)) {
+        const State there = electrics_.settled(s, s.x[w], input());
+        const double fastest = std::max(electrics_.rate(t), electrics_.rate(terms_of(there, s.position)));
+        return {h, rate, level_of(fastest / rate), steps};
+      }
+    }
+    return Division(steps);
   }
 
   /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`, which is fresh.
@@ -214,6 +223,8 @@ class Equations {
 
  private:
   static constexpr double angle_of_a_step = 0.7;  // of the fastest rate of an effect
+  static constexpr double settled = 0.001;        // of a current
+  static constexpr double least_angle = 0.2;      // R/L h of a winding that saturation makes seven times as fast at most
 
   struct Constants {
     S torque{}, friction{}, acceleration{};
@@ -223,12 +234,9 @@ class Equations {
 
   static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
 
-  /// Steps in which the winding's transient is followed where its equation is not linear.
-  double winding_steps(const Terms<S>& t, double h) const {
-    if constexpr (Drive::states > 0) {
-      if (electrical()) return std::min(h * electrics_.rate(t) / angle_of_a_winding, most_winding_steps);
-    }
-    return 0.0;
+  /// Whether the current is about where it would settle: a sixth of the difference counts over a step.
+  bool is_settled(const State& s, const Vector& f, const Terms<S>& t) const {
+    return std::abs(electrics_.slope(s.x, f)) < settled * electrics_.rate(t) * std::abs(value_of(electrics_.current(s.x)));
   }
 
   const S& input() const { return effects_.input(); }

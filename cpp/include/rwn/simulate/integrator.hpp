@@ -71,9 +71,8 @@ class Integrator {
 
  private:
   void advance_smoothly(State& s, const S& h) {
-    const int steps = stepper_.step_count(s, value_of(h));
-    const S part = steps == 1 ? h : h / static_cast<double>(steps);
-    for (int k = 0; k < steps; ++k) s = stepper_.step(s, part);
+    const Division parts = stepper_.divide(s, value_of(h));
+    for (int k = 0; k < parts.count(); ++k) s = stepper_.step(s, parts.length(k, h));
   }
 
   /// The common cases of constant terms, done where it returns true: the whole interval goes on as it began.
@@ -83,7 +82,7 @@ class Integrator {
       if (s.direction == 0.0) return masses == 1 && Drive::states == 0;  // nothing moves
     }
     if constexpr (masses == 2) {
-      if ((dry_ || play_) && stepper_.step_count(s, value_of(h)) > 1) return false;
+      if ((dry_ || play_) && stepper_.divide(s, value_of(h)).count() > 1) return false;
     }
     typename State::Moving next = s;
     stepper_.linear_update(s, h, next.x, next.position);
@@ -99,9 +98,10 @@ class Integrator {
     for (; events < most_events && value_of(left) > 1e-12 * whole; ++events) {
       if (dry_ && s.direction == 0.0) s.direction = equations_.breaking(s);
       if (events > 0) stepper_.use(Use::rests);
-      const int steps = stepper_.step_count(s, value_of(left));
-      const S h = steps == 1 ? left : left / static_cast<double>(steps);
-      for (int k = 0; k < steps; ++k) {
+      const S rest = left;
+      const Division parts = stepper_.divide(s, value_of(rest));
+      for (int k = 0; k < parts.count(); ++k) {
+        const S h = parts.length(k, rest);
         const State next = stepper_.step(s, h);
         if (!events_.continues(s, next)) {
           left -= events_.pass(s, h, next);

@@ -23,18 +23,18 @@ class Stepper {
 
   explicit Stepper(Equations<S, Drive, masses>& equations) : equations_(equations), operators_(equations) {}
 
-  /// Steps that the fastest effect and the joint ask for over h. What it learns of the start serves the first of them.
-  int step_count(const State& s, double h) {
+  /// The steps that the effects and the joint ask for over h. What it learns of the start serves the first of them.
+  Division divide(const State& s, double h) {
     start_known_ = equations_.rates() || (masses == 2 && equations_.varies());
     if (start_known_) start(s, 0);
-    const int steps = equations_.rates() ? equations_.step_count(s, h, f0_, t0_) : 1;
+    Division division = equations_.rates() ? equations_.divide(s, h, f0_, t0_) : Division{};
     if constexpr (masses == 2) {
       const Rates rate = rates(s, equations_.varies() ? f0_ : equations_.constant_part(s));
       const bool sticks = equations_.dry() && s.direction == 0.0;
       const double held = sticks ? equations_.holding(s) : 0.0;
-      return std::max(steps, equations_.second().step_count(s, rate, equations_.dry(), held, h));
+      division.ask(equations_.second().step_count(s, rate, equations_.dry(), held, h));
     }
-    return steps;
+    return division;
   }
 
   State step(const State& s, const S& h) {

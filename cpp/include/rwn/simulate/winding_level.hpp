@@ -7,7 +7,6 @@
 namespace rwn {
 
 inline constexpr double angle_of_a_winding = 1.4;  // R/L h of a step, where its equation is nearly linear
-inline constexpr double most_winding_steps = 2.0;  // that its transient is worth, were it ever so short
 
 /// Of a winding that is so many times as fast as R/L; 0 nearly always.
 inline int level_of(double speed_up) {

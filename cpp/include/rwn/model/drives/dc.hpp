@@ -66,6 +66,12 @@ struct DcDrive {
     /// Rate of its transient [1/s].
     double rate(const Terms<S>& t) const { return value_of(motor_[resistance]) / value_of(motor_[inductance] * t.inductance); }
 
+    /// di/dt at x where `f` is what the linear part leaves of dx/dt [A/s].
+    double slope(const auto& x, const auto& f) const {
+      const double drop = value_of(motor_[resistance] * x[0] + motor_[back_emf_constant] * x[1]);
+      return value_of(f[0]) - drop * value_of(inverse_inductance_);
+    }
+
     /// How much faster it is than R/L; `slope`: of the voltage drops over the current [ohm].
     double speed_up(const Terms<S>& t, double slope) const {
       return (value_of(t.resistance) + slope / value_of(motor_[resistance])) / value_of(t.inductance);

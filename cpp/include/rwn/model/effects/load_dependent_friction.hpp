@@ -17,7 +17,7 @@ struct LoadDependentFriction {
                                                    .upper = 0.9,
                                                    .start = 0.1,
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply, .dry = true};
+  static constexpr EffectTraits traits{.hooks = Hook::apply, .dry = true, .loaded = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>& motor, const Motion<S>& x, Terms<S>& t) {
