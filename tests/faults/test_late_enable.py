@@ -63,6 +63,24 @@ def test_an_explanation_with_a_delay_moves_a_late_enable() -> None:
     assert retimed([moved], recordings, MODEL, problem, delayed) == (moved,)
 
 
+def test_noise_that_is_not_white_ends_no_standstill() -> None:
+    recording = _run(STEPS, 400)
+    rng, noise = np.random.default_rng(3), np.zeros(STEPS.size)
+    for k in range(1, noise.size):
+        noise[k] = 0.95 * noise[k - 1] + 0.1 * rng.standard_normal()
+    signals = {**recording.signals, "speed": recording.signals["speed"] + 3.0 * noise}
+    (late,) = late_enables([replace(recording, signals=signals)], MODEL)
+    assert abs(late.samples - 400) <= 2
+
+
+def test_what_is_missing_later_hides_no_late_enable() -> None:
+    late = _run(STEPS, 130)
+    speed = np.array(late.signals["speed"])
+    speed[1000:2000] += 50.0  # such as a load for a while
+    (found,) = late_enables([replace(late, signals={**late.signals, "speed": speed})], MODEL)
+    assert abs(found.samples - 130) <= 2
+
+
 def test_two_recordings_of_one_name_are_told_apart() -> None:
     recordings = [_run(STEPS, 0), _run(STEPS, 130)]
     (late,) = late_enables(recordings, MODEL)

@@ -134,10 +134,23 @@ def retimed(
 def _standing_samples(recording: Recording, model: Model) -> int:
     """Samples from the first on that stand still, of a recording with an input in them; 0 of others."""
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
-    moved = [np.abs(x - np.median(x[:FEWEST])) > CERTAIN * resolution(x, x.size) for x in measured]
+    moved = [_moves(x) for x in measured]
     samples = min((int(np.argmax(m)) if m.any() else m.size - 1 for m in moved), default=0)
     given = np.asarray(recording.signals[model.drive.input])[: max(samples - FEWEST, 0)]
     return samples if samples > FEWEST and given.any() else 0
+
+
+def _moves(signal: Array) -> NDArray[np.bool_]:
+    """Which samples (n,) are certainly elsewhere than the first.
+
+    Noise that is not white is found in the first half of what was before each: it has no less of it, and of a motion
+    that sets in slowly little.
+    """
+    counts = np.arange(1, signal.size + 1)
+    off = signal - np.median(signal[:FEWEST])
+    rms = np.sqrt(np.cumsum(off**2) / counts)[np.maximum(counts // 2, 1) - 1]
+    moves: NDArray[np.bool_] = np.abs(off) > CERTAIN * np.maximum(rms, resolution(signal, signal.size))
+    return moves
 
 
 def _worthwhile(
@@ -146,7 +159,8 @@ def _worthwhile(
     """The late enables with each of which the recordings are far likelier than by what else holds a drive or delays it.
 
     Each is a number of its own. With it and without, the same effects may act beside the nominal model; errors count as
-    what the best leaves is worth.
+    what the best leaves is worth while the drives stand still and begin to move: what is missing later says nothing of
+    that.
     """
     weighted, _ = nominal_of(beginnings(powered(recordings, found, model)), model)
     waits = [_waiting_time(recordings[late.place], late, model) for late in found]
@@ -156,11 +170,12 @@ def _worthwhile(
         return _best_held(replace(on, noise=weighted.noise, colour=weighted.colour), waits)
 
     this = best(found)
-    enough = 2.0 * worth(weighted, this) * DECISIVE
+    starts = {late: replace(weighted, runs=(weighted.runs[late.place].until(2 * late.samples),)) for late in found}
+    enough = {late: 2.0 * worth(start, this) * DECISIVE for late, start in starts.items()}
     while found:
         others = {late: best([other for other in found if other != late]) for late in found}
-        least = min(others, key=lambda late: others[late].cost)
-        if others[least].cost - this.cost > enough:
+        least = min(others, key=lambda late: others[late].cost - enough[late])
+        if others[least].cost - this.cost > enough[least]:
             break
         found, this = tuple(late for late in found if late != least), others[least]
     return found
