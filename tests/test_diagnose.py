@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -157,3 +159,29 @@ def test_simulation_follows_the_recording(demo: Diagnosis) -> None:
     assert run.status == "ok"
     error = run.signals["speed"] - heldout.signals["speed"]
     assert np.sqrt(np.mean(error**2)) < 0.05 * np.sqrt(np.mean(heldout.signals["speed"] ** 2))
+
+
+@pytest.mark.parametrize(("wandering", "searches"), [(0.0, [0.1]), (0.004, [0.1, 0.3])], ids=["nothing", "unnamed"])
+def test_where_nothing_explains_it_a_longer_search_follows(
+    wandering: float, searches: list[float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A torque that wanders in time has no name."""
+    rng = np.random.default_rng(2)
+    time = 2e-3 * np.arange(1200)
+    model = rwn.Model(kind="axis", parameters={"inertia": 1e-3, "viscous_friction": 2e-3}, uncertainty={"inertia": 0.1})
+    asked = np.repeat(rng.uniform(-0.05, 0.05, 60), 20)
+    walk = np.cumsum(rng.standard_normal(time.size))
+    acting = rwn.Recording(name="x", time=time, signals={"torque": asked + wandering * walk / np.std(walk)})
+    speed = rwn.simulate(model, acting).signals["speed"] + 0.02 * rng.standard_normal(time.size)
+    efforts = []
+    module = importlib.import_module("rwn.diagnose")
+    search = module.explained
+
+    def recorded(*args: Any, effort: float, **others: Any) -> Any:
+        efforts.append(round(effort, 3))
+        return search(*args, effort=effort, **others)
+
+    monkeypatch.setattr(module, "explained", recorded)
+    run = rwn.Recording(name="x", time=time, signals={"torque": asked, "speed": speed})
+    assert rwn.diagnose([run], model, effort=0.1).verdict == ("unexplained" if wandering else "adequate")
+    assert efforts == searches

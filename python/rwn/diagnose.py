@@ -4,28 +4,32 @@ from __future__ import annotations
 
 import os
 import time
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import reduce
 from pathlib import Path
 from typing import Any
 
 from rwn.correct.correction import correct
-from rwn.decide.decision import decide
+from rwn.decide.decision import Decision, decide
 from rwn.errors import InputError
-from rwn.faults.explain import explained
+from rwn.faults.explain import Explained, explained
 from rwn.faults.fault import without
-from rwn.faults.late_enable import late_beside, powered
+from rwn.faults.late_enable import LateEnable, late_beside, powered
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
 from rwn.name.forward import Progress
 from rwn.parallel import thread_pool
 from rwn.recording.inspection import inspected
+from rwn.recording.recording import Recording
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
-from rwn.simulate.run import judging_run, measured_alike
+from rwn.simulate.run import Run, judging_run, measured_alike
 
 LEAST_EFFORT, MOST_EFFORT = 0.1, 1000.0
+LONGER = 3.0  # of a search where the usual one explains too little
+AFTER_SEARCH = 0.85  # progress when the search is done
 
 
 def diagnose(
@@ -46,7 +50,8 @@ def diagnose(
         heldout: runs used for proof alone; without them every recording is judged by fits that did not see it.
         seed: of the block bootstrap; the result depends on input and seed alone.
         jobs: threads (default: all processors); the result does not depend on it.
-        effort: what the search may cost, as a multiple of the usual; a warning says what was not tried for it.
+        effort: what the search may cost, as a multiple of the usual; a warning says what was not tried for it. Where
+            what was found explains too little, a search of three times that follows.
         progress: called with what is being done and how far it is, 0 to 1.
 
     Returns:
@@ -64,23 +69,50 @@ def diagnose(
     recordings, findings = inspected(fitted)
     heldout, unseen_findings = inspected(judged)
     with thread_pool(jobs or os.cpu_count() or 1):
-        found = explained(recordings, model, say=say, effort=effort)
-        model = found.model
-        say("proving it on data that were not fitted", 0.85)
-        for fault in found.faults:
-            heldout = without(heldout, fault)
-        late = late_beside(heldout, model, found.ranking.problem, found.ranking.fits[0].fit)
-        heldout = powered(heldout, late, model)
-        unseen = measured_alike([judging_run(r, model) for r in heldout], found.ranking.problem.whole)
-        decision = decide(found.ranking, unseen, model, seed=seed)
+        case = _decided(recordings, heldout, model, seed=seed, effort=effort, say=say)
+        if case.decision.is_poor:
+            say(f"what was found explains too little: searching {LONGER:g} times as long", AFTER_SEARCH)
+            longer = _decided(recordings, heldout, model, seed=seed, effort=LONGER * effort, say=_after(say))
+            case = min(case, longer, key=lambda c: c.decision.remainder.error)
         say("correcting the model", 0.9)
-        correction = correct(decision, unseen, model, seed=seed)
+        found, model = case.found, case.found.model
+        correction = correct(case.decision, case.unseen, model, seed=seed)
         say("drawing", 0.95)
-        made = assemble(correction, found.faults, model, unseen, seed=seed, elapsed=time.perf_counter() - began)
+        made = assemble(correction, found.faults, model, case.unseen, seed=seed, elapsed=time.perf_counter() - began)
         layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
         made = replace(made, corrected=replace(made.corrected, recording=layout))
-        enabled = (one.as_finding(model.drive.input) for one in late)
+        enabled = (one.as_finding(model.drive.input) for one in case.late)
         return replace(made, findings=(*findings, *found.findings, *unseen_findings, *enabled))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Case:
+    """What recordings come to by a search of some effort."""
+
+    found: Explained
+    late: tuple[LateEnable, ...]  # of the recordings that were kept back
+    unseen: Sequence[Run]
+    decision: Decision
+
+
+def _decided(
+    recordings: Sequence[Recording], heldout: Sequence[Recording], model: Model, *, seed: int, effort: float,
+    say: Progress,
+) -> _Case:  # fmt: skip
+    found = explained(recordings, model, say=say, effort=effort)
+    say("proving it on data that were not fitted", AFTER_SEARCH)
+    for fault in found.faults:
+        heldout = without(heldout, fault)
+    late = late_beside(heldout, found.model, found.ranking.problem, found.ranking.fits[0].fit)
+    heldout = powered(heldout, late, found.model)
+    unseen = measured_alike([judging_run(r, found.model) for r in heldout], found.ranking.problem.whole)
+    decision = decide(found.ranking, unseen, found.model, seed=seed)
+    return _Case(found=found, late=late, unseen=unseen, decision=decision)
+
+
+def _after(say: Progress) -> Progress:
+    """Progress of what comes once more, after the rest of the search."""
+    return lambda what, done: say(what, max(done, AFTER_SEARCH))
 
 
 def _check_options(seed: int, jobs: int | None, effort: float) -> None:
