@@ -73,6 +73,15 @@ def test_noise_that_is_not_white_ends_no_standstill() -> None:
     assert abs(late.samples - 400) <= 2
 
 
+def test_a_first_sample_far_off_is_no_motion() -> None:
+    recording = _run(STEPS, 130)
+    speed = np.array(recording.signals["speed"])
+    speed[0] = 0.9  # nine deviations of what is seen from row to row
+    off = replace(recording, signals={**recording.signals, "speed": speed})
+    (late,) = late_enables([off], MODEL)
+    assert abs(late.samples - 130) <= 2
+
+
 def test_what_is_missing_later_hides_no_late_enable() -> None:
     late = _run(STEPS, 130)
     speed = np.array(late.signals["speed"])

@@ -230,11 +230,19 @@ def _powered_from(time: float, recording: Recording, model: Model) -> Recording:
 def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
     """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded."""
     run = replace(run_of(recording, model).until(samples), own=beside.own)
-    if run.in_motion:
+    if run.in_motion and not _stands_about_zero(run, samples):
         return False
     out = problem.simulate(run, this.vector, this.active).signals
     error = {s: np.abs(out[s] - run.signal(s)) for s in run.recorded}
     return any(np.max(e) > CERTAIN * problem.noise[s].deviation for s, e in error.items())
+
+
+def _stands_about_zero(run: Run, samples: int) -> bool:
+    """Whether the speed of the samples that stand still is 0 within their noise, be the first of them as it may."""
+    if "speed" not in run.recorded:
+        return False
+    still = run.signal("speed")[:samples]
+    return bool(abs(np.mean(still)) < CERTAIN * np.std(still))
 
 
 def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> _Beginning:
