@@ -41,8 +41,7 @@ class Equations {
     dry_ = dry_ || (!replaced && is_used(motor_[coulomb_friction]));
     pendulum_ = is_used(motor_[pendulum_torque]);
     varies_ = varies_ || pendulum_;
-    inertia_ = motor_[inertia];
-    viscous_ = motor_[viscous_friction];
+    inertia_ = motor_[inertia], viscous_ = motor_[viscous_friction];
     if constexpr (masses == 2) {
       inertia_ = second_.motor_inertia();
       viscous_ = second_.motor_viscous(motor_);
@@ -117,7 +116,7 @@ class Equations {
     const double steps = h * effects_.rate(s, acceleration, h) / angle_of_a_step;
     if constexpr (Drive::states > 0) {
       const double rate = electrics_.rate({});
-      if (electrical() && h * rate > least_angle && !is_settled(s, f, t)) {
+      if (electrical() && h * rate > least_angle && !electrics_.is_settled(s.x, f, t)) {
         const State there = electrics_.settled(s, s.x[w], input());
         const double fastest = std::max(electrics_.rate(t), electrics_.rate(terms_of(there, s.position)));
         return {h, rate, level_of(fastest / rate), steps};
@@ -223,7 +222,6 @@ class Equations {
 
  private:
   static constexpr double angle_of_a_step = 0.7;  // of the fastest rate of an effect
-  static constexpr double settled = 0.001;        // of a current
   static constexpr double least_angle = 0.2;      // R/L h of a winding that saturation makes seven times as fast at most
 
   struct Constants {
@@ -233,11 +231,6 @@ class Equations {
   bool sticks(const Moving& s) const { return dry_ && s.direction == 0.0; }
 
   static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
-
-  /// Whether the current is about where it would settle: a sixth of the difference counts over a step.
-  bool is_settled(const State& s, const Vector& f, const Terms<S>& t) const {
-    return std::abs(electrics_.slope(s.x, f)) < settled * electrics_.rate(t) * std::abs(value_of(electrics_.current(s.x)));
-  }
 
   const S& input() const { return effects_.input(); }
 

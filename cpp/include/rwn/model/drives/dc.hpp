@@ -66,10 +66,12 @@ struct DcDrive {
     /// Rate of its transient [1/s].
     double rate(const Terms<S>& t) const { return value_of(motor_[resistance]) / value_of(motor_[inductance] * t.inductance); }
 
-    /// di/dt at x where `f` is what the linear part leaves of dx/dt [A/s].
-    double slope(const auto& x, const auto& f) const {
+    /// Whether the current is about where it would settle, where `f` is what the linear part leaves of dx/dt: a sixth
+    /// of the difference counts over a step.
+    bool is_settled(const auto& x, const auto& f, const Terms<S>& t) const {
       const double drop = value_of(motor_[resistance] * x[0] + motor_[back_emf_constant] * x[1]);
-      return value_of(f[0]) - drop * value_of(inverse_inductance_);
+      const double slope = value_of(f[0]) - drop * value_of(inverse_inductance_);
+      return std::abs(slope) < settled_within * rate(t) * std::abs(value_of(x[0]));
     }
 
     /// How much faster it is than R/L; `slope`: of the voltage drops over the current [ohm].
@@ -78,6 +80,8 @@ struct DcDrive {
     }
 
    private:
+    static constexpr double settled_within = 0.001;  // of a current
+
     S voltage_left(const auto& x, const S& back_emf, const Terms<S>& t, const S& input) const {
       return input - motor_[resistance] * t.resistance * x[0] - back_emf * t.flux - t.drop;
     }
