@@ -59,15 +59,15 @@ def test_rows_with_rows_between_them_move_a_drive_the_same(seed: int) -> None:
     assert np.sqrt(np.mean((coarse - fine) ** 2)) < EXACT * np.sqrt(np.mean(fine**2)) + 1e-9
 
 
-@pytest.mark.parametrize("constants", [1.0, 3.0, 20.0, 1000.0])
+@pytest.mark.parametrize("time_constants", [1.0, 3.0, 20.0, 1000.0])
 @pytest.mark.parametrize(
     "effects",
     [{"magnetic-saturation": {"saturation_current": 3.0}}, {"load-dependent-friction": {"friction_ratio": 0.3}}],
     ids=["saturation", "friction"],
 )
-def test_winding_that_settles_within_a_row(effects: dict[str, dict[str, float]], constants: float) -> None:
+def test_winding_that_settles_within_a_row(effects: dict[str, dict[str, float]], time_constants: float) -> None:
     motor = {"inertia": 4e-5, "viscous_friction": 1e-5, "coulomb_friction": 0.003, "resistance": 1.0}
-    motor |= {"inductance": 1e-3 / constants, "torque_constant": 0.03, "back_emf_constant": 0.03}
+    motor |= {"inductance": 1e-3 / time_constants, "torque_constant": 0.03, "back_emf_constant": 0.03}
     model = rwn.Model(kind="dc", parameters=motor, effects=effects)
     voltage = np.random.default_rng(0).uniform(-8.0, 8.0, 1000)
 

@@ -29,7 +29,8 @@ struct EffectFunctions {
   typename HookTypes<S>::Sense sense = nullptr;
   bool varies = false;      // needs the nonlinear step
   bool dry = false;         // contributes to the dry friction level
-  bool electrical = false;  // bends the equation of the winding, or changes with its current
+  bool electrical = false;  // changes how fast the winding is
+  bool loaded = false;      // changes with the current while the winding settles
   bool replaces = false;    // takes over the nominal dry friction
   int memories = 0;
 };
@@ -49,7 +50,8 @@ constexpr EffectFunctions<S> functions_of() {
   if constexpr (has(hooks, Hook::finish)) f.finish = &E::template finish<S>;
   if constexpr (has(hooks, Hook::sense)) f.sense = &E::template sense<S>;
   f.varies = has(hooks, Hook::apply) && E::traits.varies;
-  f.electrical = E::info.site == Site::voltage || E::info.site == Site::flux || E::traits.loaded;
+  f.electrical = E::info.site == Site::voltage || E::info.site == Site::flux;
+  f.loaded = E::traits.loaded;
   f.dry = E::traits.dry;
   f.memories = E::traits.memories;
   for (const Parameter& p : E::parameters) f.replaces = f.replaces || p.replaces == coulomb_friction;

@@ -9,29 +9,32 @@
 
 namespace rwn {
 
+// R/L h below which one step does, be the winding seven times as fast as that where it saturates
+inline constexpr double angle_of_a_slow_winding = angle_of_a_winding / 7.0;
+
 /// Steps for the transient of a winding come first and grow with it; what is left is divided evenly.
 class Division {
  public:
   Division() = default;
 
-  /// For a winding that settles at 2^level times its rate R/L and passes where it is slower, and for so many steps
-  /// over h as effects ask for.
-  Division(double h, double rate, int level, double steps) {
+  /// Of h, for effects of which the fastest has the rate `effects` [1/s].
+  Division(double h, double effects) { ask(effects * h / angle_of_a_step); }
+
+  /// The same with the transient of a winding of rate R/L, which is as slow as that on its way and 2^level times as fast
+  /// at one end.
+  Division(double h, double effects, double rate, int level) {
     double length = angle_of_a_winding / (rate * resistances_of(level));
     const int most = std::min(2 + level, most_transients);
-    for (; transients_ < most && h - gone_ > length && steps * length <= h; ++transients_, length *= 2.0) {
+    for (; transients_ < most && h - gone_ > length && effects * length <= angle_of_a_step; ++transients_, length *= 2.0) {
       transient_[static_cast<std::size_t>(transients_)] = length;
       gone_ += length;
     }
-    ask(steps * (1.0 - gone_ / h));
+    ask(effects * (h - gone_) / angle_of_a_step);
   }
-
-  /// For effects alone.
-  explicit Division(double steps) { ask(steps); }
 
   /// At least so many steps for what is left.
   void ask(double steps) {
-    if (steps > even_) even_ = static_cast<int>(std::min(std::ceil(steps), 16.0));
+    if (steps > even_) even_ = static_cast<int>(std::min(std::ceil(steps), most_even));
   }
 
   int count() const { return transients_ + even_; }
@@ -44,7 +47,9 @@ class Division {
   }
 
  private:
-  static constexpr int most_transients = 6;
+  static constexpr double angle_of_a_step = 0.7;  // of the fastest rate of an effect
+  static constexpr double most_even = 16.0;
+  static constexpr int most_transients = 6;  // of a winding 16 times as fast as R/L
   std::array<double, most_transients> transient_{};
   double gone_ = 0.0;
   int transients_ = 0, even_ = 1;

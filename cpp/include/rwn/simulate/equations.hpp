@@ -29,7 +29,8 @@ class Equations {
       varies_ = varies_ || call.varies;
       dry_ = dry_ || call.dry;
       winds_ = winds_ || (call.electrical && call.varies);
-      rates_ = rates_ || electrical() || call.rate != nullptr || (effects[k].own != nullptr && call.varies);
+      settles_ = settles_ || (Drive::states > 0 && call.varies && (call.electrical || call.loaded));
+      rates_ = rates_ || settles_ || call.rate != nullptr || (effects[k].own != nullptr && call.varies);
       timed_ = timed_ || call.breaks != nullptr;
       replaced = replaced || call.replaces;
       finishes_ = finishes_ || call.finish != nullptr;
@@ -41,7 +42,8 @@ class Equations {
     dry_ = dry_ || (!replaced && is_used(motor_[coulomb_friction]));
     pendulum_ = is_used(motor_[pendulum_torque]);
     varies_ = varies_ || pendulum_;
-    inertia_ = motor_[inertia], viscous_ = motor_[viscous_friction];
+    inertia_ = motor_[inertia];
+    viscous_ = motor_[viscous_friction];
     if constexpr (masses == 2) {
       inertia_ = second_.motor_inertia();
       viscous_ = second_.motor_viscous(motor_);
@@ -109,20 +111,20 @@ class Equations {
     return 0;
   }
 
-  /// The steps that the effects ask for over h, where `f` and `t` are those of its start (level 0). The transient of a
-  /// winding whose equation is not linear is followed in steps of lengths that come back.
+  /// The steps that the effects ask for over h, where `f` and `t` are those of its start (level 0). Where one of
+  /// them changes with the current, the winding's transient is followed, in steps of lengths that come back.
   Division divide(const State& s, double h, const Vector& f, const Terms<S>& t) const {
     const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
-    const double steps = h * effects_.rate(s, acceleration, h) / angle_of_a_step;
+    const double fastest_effect = effects_.rate(s, acceleration, h);
     if constexpr (Drive::states > 0) {
       const double rate = electrics_.rate({});
-      if (electrical() && h * rate > least_angle && !electrics_.is_settled(s.x, f, t)) {
+      if (settles_ && h * rate > angle_of_a_slow_winding && !electrics_.is_settled(s.x, f, t)) {
         const State there = electrics_.settled(s, s.x[w], input());
         const double fastest = std::max(electrics_.rate(t), electrics_.rate(terms_of(there, s.position)));
-        return {h, rate, level_of(fastest / rate), steps};
+        return {h, fastest_effect, rate, level_of(fastest / rate)};
       }
     }
-    return Division(steps);
+    return {h, fastest_effect};
   }
 
   /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`, which is fresh.
@@ -221,9 +223,6 @@ class Equations {
   void finish(const State& before, State& after, const S& h) const { effects_.finish(before, after, h); }
 
  private:
-  static constexpr double angle_of_a_step = 0.7;  // of the fastest rate of an effect
-  static constexpr double least_angle = 0.2;      // R/L h of a winding that saturation makes seven times as fast at most
-
   struct Constants {
     S torque{}, friction{}, acceleration{};
   };
@@ -289,7 +288,7 @@ class Equations {
   typename Drive::template Electrics<S> electrics_;
   EffectTerms<S, Drive, masses> effects_;
   bool varies_ = false, dry_ = false, finishes_ = false, pendulum_ = false, winds_ = false, rates_ = false,
-       timed_ = false;
+       settles_ = false, timed_ = false;
   S base_friction_{}, inertia_{}, inverse_inertia_{};
   S viscous_{};  // of the motor alone
   [[no_unique_address]] std::conditional_t<masses == 2, SecondMass<S, Drive>, NoSecondMass> second_{};
