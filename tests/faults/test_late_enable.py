@@ -82,6 +82,17 @@ def test_a_first_sample_far_off_is_no_motion() -> None:
     assert abs(late.samples - 130) <= 2
 
 
+def test_a_first_current_far_off_is_no_motion_of_a_shaft_whose_speed_is_zero() -> None:
+    acting = np.where(np.arange(STEPS.size) < 130, 0.0, STEPS)
+    time = 1e-3 * np.arange(STEPS.size)
+    out = rwn.simulate(MODEL, rwn.Recording(name="run", time=time, signals={"voltage": acting})).signals
+    current = out["current"] + 0.01 * np.random.default_rng(4).standard_normal(time.size)
+    current[0] = 0.09
+    signals = {"voltage": STEPS, "speed": np.round(out["speed"], 1), "current": current}
+    (late,) = late_enables([rwn.Recording(name="run", time=time, signals=signals)], MODEL)
+    assert abs(late.samples - 130) <= 2
+
+
 def test_what_is_missing_later_hides_no_late_enable() -> None:
     late = _run(STEPS, 130)
     speed = np.array(late.signals["speed"])

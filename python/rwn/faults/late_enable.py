@@ -143,8 +143,8 @@ def _standing_samples(recording: Recording, model: Model) -> int:
 def _moves(signal: Array) -> NDArray[np.bool_]:
     """Which samples (n,) are certainly elsewhere than the first.
 
-    Noise that is not white is found in the first half of what was before each: it has no less of it, and of a motion
-    that sets in slowly little.
+    The noise, white or not, is measured on the first half of what came before each sample: a motion that sets in
+    slowly is hardly in it.
     """
     counts = np.arange(1, signal.size + 1)
     off = signal - np.median(signal[:FEWEST])
@@ -242,7 +242,7 @@ def _stands_about_zero(run: Run, samples: int) -> bool:
     if "speed" not in run.recorded:
         return False
     still = run.signal("speed")[:samples]
-    return bool(abs(np.mean(still)) < CERTAIN * np.std(still))
+    return bool(abs(np.mean(still)) <= CERTAIN * np.std(still))
 
 
 def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> _Beginning:
