@@ -168,12 +168,12 @@ def _warnings(
             )
     if chosen.added and chosen.final.minimum.status is FitStatus.ITERATION_LIMIT:
         texts.append(
-            "the fit of what is stated ended before it converged: its intervals may be too narrow; --effort 10 lets it "
+            "the fit of what is stated ended before it converged: its intervals may be too narrow; --effort 3 lets it "
             "go on where what the search may cost has ended it"
         )
     if ranking.cut_short:
         texts.append(
-            f"{ranking.cut_short} effects at once were not tried, since the search had cost what it may: --effort 10 "
+            f"{ranking.cut_short} effects at once were not tried, since the search had cost what it may: --effort 3 "
             "leaves room for them, and so do recordings of fewer samples, without the parts that say little"
         )
     for f in ranking.at_a_limit[:1]:
