@@ -12,7 +12,8 @@ import pytest
 from rwn.decide import account as module
 from rwn.decide.account import Account, Acting, Remainder, account, remainder
 from rwn.decide.calibration import ACTS, calibration
-from rwn.decide.evidence import Evidence
+from rwn.decide.evidence import LOST, Evidence, _predicted
+from rwn.name.weights import MISSPECIFIED
 from rwn.simulate.run import Run
 
 CERTAIN = Evidence(share=0.999, unseen=0.99, part=0.999, odds=5000.0, curve=1.0)
@@ -86,15 +87,11 @@ def test_names_not_told_apart_are_stated_together() -> None:
     assert not Acting(name="a", probability=0.4, together=0.4, share=1.0, evidence=CERTAIN).rivals
 
 
-def test_what_was_kept_back_withdraws_what_is_stated_alone() -> None:
+def test_what_is_stated_acts_more_likely_than_not() -> None:
     leading: Any = _ranked("a", "b")
     found = Account(effects=(_acting("a", 0.9), _acting("b", 0.3)), leading=leading)
     assert [e.name for e in found.stated] == ["a"]
     assert found.birge == 1.0
-    withdrawn = found.withdrawn(["a"])
-    assert withdrawn.stated == ()
-    assert [(e.name, e.probability, e.together) for e in withdrawn.effects] == [("a", 0.0, 0.0), ("b", 0.15, 0.3)]
-    assert withdrawn.leading is leading
 
 
 @dataclass
@@ -145,3 +142,24 @@ def test_structure_in_what_remains_is_said_with_its_signal() -> None:
 
 def test_without_a_word_the_remainder_is_noise() -> None:
     assert Remainder() == Remainder(share=0.0, error=1.0, signals=())
+
+
+def _predicts(this: np.ndarray, without: np.ndarray) -> float:
+    judge: Any = _Problem(noise={})
+    fits: Any = [SimpleNamespace(vector=residual, active=[]) for residual in (this, without)]
+    return _predicted(judge, *fits)
+
+
+def test_recordings_kept_back_speak_for_what_predicts_them_better_as_loud_as_its_errors_are_many() -> None:
+    """Half the logarithm of the ratio of variances, for each independent sample of the better one's errors."""
+    white = _predicts(_of(1.0), _of(np.e))
+    assert white == pytest.approx(0.5 * 400.0, rel=0.3)
+    assert _predicts(_of(np.e), _of(1.0)) == pytest.approx(-white)
+    assert 0.0 < _predicts(_of(1.0, SLOW), _of(np.e, SLOW)) < 0.5 * MISSPECIFIED
+    assert _predicts(_of(0.5), _of(0.9)) == 0.0, "both leave less than the noise"
+
+
+def test_what_has_run_away_on_recordings_kept_back_counts_as_far_off_and_no_more() -> None:
+    away = np.where(np.arange(400) < 9, 0.0, np.inf)
+    assert _predicts(away, _of(1.0)) == pytest.approx(_predicts(_of(LOST), _of(1.0)))
+    assert _predicts(away, away) == 0.0

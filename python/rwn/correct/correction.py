@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain, combinations
+
+import numpy as np
 
 from rwn.correct.free_run import by_free_run
 from rwn.correct.network import NetworkCorrection, proved_network
-from rwn.decide.decision import Decision
+from rwn.decide.decision import Decision, together
 from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
 from rwn.name.weights import RankedFit
-from rwn.prove.heldout import heldout_error, helps, log_change
+from rwn.prove.heldout import heldout_error, helps, hurts, log_change
 from rwn.prove.proof import compared, proved
 from rwn.simulate.run import Run
 
@@ -21,8 +24,12 @@ NO_NETWORK = (
     "nominal model"
 )
 NOT_HELPING = (
-    "on recordings that were not fitted the simulation is better without {}, as fitted here: corrected.toml leaves it "
-    "out"
+    "on recordings that were not fitted the simulation is better without {names}, as fitted here: corrected.toml "
+    "leaves it out"
+)
+RIVAL_HELPS = (
+    "on recordings that were not fitted the simulation is better with {instead} in the place of {names}, which is not "
+    "told from it: corrected.toml holds that"
 )
 BY_FREE_RUN = (
     "what is stated was found by the driving force, with the parameters that this tells; corrected.toml holds {} "
@@ -53,9 +60,13 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
     warnings = _seen(decision)
     if decision.verdict == "unexplained" and not model.drive.coefficients:
         warnings = (*warnings, NO_NETWORK)
-    kept, left_out = _proved_part(decision, heldout, seed=seed)
+    kept = _proved_part(decision, heldout, seed=seed)
+    left_out = tuple(name for name in decision.chosen.added if name not in kept.added)
     if left_out:
-        warnings = (*warnings, NOT_HELPING.format(" + ".join(left_out)))
+        instead = " + ".join(name for name in kept.added if name not in decision.chosen.added)
+        said = RIVAL_HELPS if instead else NOT_HELPING
+        warnings = (*warnings, said.format(names=" + ".join(left_out), instead=instead))
+        decision = replace(decision, rows=proved(decision.ranking, kept, heldout, seed=seed))
     moved = by_free_run(decision, kept, seed=seed)
     if moved is None:
         return Correction(decision=decision, model=fitted_model(kept.final, model), final=kept.final, warnings=warnings)
@@ -74,26 +85,53 @@ def _seen(decision: Decision) -> tuple[str, ...]:
     return (f"{other.words} explains most of what is left: it has no name here",) if other else ()
 
 
-def _proved_part(
-    decision: Decision, heldout: Sequence[Run], *, seed: int
-) -> tuple[RankedFit, tuple[str, ...]]:
-    """What is stated, or the part of it that is best on recordings that were not fitted; and the names left out.
+def _proved_part(decision: Decision, heldout: Sequence[Run], *, seed: int) -> RankedFit:
+    """What is stated, or the part of it that is best on recordings that were not fitted.
 
-    That an effect acts does not make its fitted parameters good enough to predict with.
+    That an effect acts does not make its fitted parameters good enough to predict with, and a load that acted in one
+    recording is none in another.
     """
     chosen, ranking = decision.chosen, decision.ranking
-    if not chosen.added or log_change(decision.rows) < 0.0:
-        return chosen, ()
-    parts = [r for r in ranking.fits if r.added and set(r.added) < set(chosen.added)]
+    while less := _better_part(decision, chosen, heldout, seed=seed):
+        chosen = less
+    rows = decision.rows if chosen is decision.chosen else proved(ranking, chosen, heldout, seed=seed)
+    if not chosen.added or log_change(rows) < 0.0:
+        return chosen
+    others = [
+        r for r in ranking.fits if r.added and (set(r.added) < set(chosen.added) or _in_place(decision, chosen, r))
+    ]
     judged = [(0.0, ranking.nothing_missing)]
-    judged += [(log_change(proved(ranking, r, heldout, seed=seed)), r) for r in parts]
-    _, best = min(judged, key=lambda pair: pair[0])
-    return best, tuple(name for name in chosen.added if name not in best.added)
+    judged += [(log_change(proved(ranking, r, heldout, seed=seed)), r) for r in others]
+    return min(judged, key=lambda pair: pair[0])[1]
 
 
-def _without_a_name(
-    decision: Decision, heldout: Sequence[Run], model: Model, *, seed: int
-) -> Correction | None:
+def _in_place(decision: Decision, chosen: RankedFit, other: RankedFit) -> bool:
+    """Whether an explanation has rivals of stated effects in the place of these, and the rest of them."""
+    stated = [e for e in decision.account.stated if e.name in chosen.added]
+    told = [sum(name in other.added for name in (e.name, *e.rivals)) for e in stated]
+    return len(other.added) == len(chosen.added) == sum(told) and set(told) == {1}
+
+
+def _better_part(decision: Decision, chosen: RankedFit, heldout: Sequence[Run], *, seed: int) -> RankedFit | None:
+    """The part of an explanation beside which the rest certainly makes recordings worse that were kept back, most so.
+
+    Where both run away nothing is won without the rest.
+    """
+    ranking, worse = decision.ranking, []
+    for names in _parts(chosen.added) if heldout else ():
+        less = together(ranking, decision.account.leading, names)
+        rows = compared(ranking, less.final, chosen.final, heldout, seed=seed)
+        if hurts(rows) and not np.isnan(by := log_change(rows)):
+            worse.append((by, less))
+    return max(worse, key=lambda pair: pair[0])[1] if worse else None
+
+
+def _parts(names: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """All of the names but one, but several, and none."""
+    return chain.from_iterable(combinations(names, count) for count in reversed(range(len(names))))
+
+
+def _without_a_name(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: int) -> Correction | None:
     """A wavelet network or the leading names, whichever is better on recordings that were not fitted, if any helps."""
     found: list[tuple[float, Correction]] = []
     proof = proved_network(decision.ranking, model, heldout, seed=seed)

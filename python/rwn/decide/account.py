@@ -5,8 +5,8 @@ Whether an effect acts and whether that is all are two questions: what remains t
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -64,11 +64,6 @@ class Account:
     def stated(self) -> tuple[Acting, ...]:
         """The effects that are stated."""
         return tuple(e for e in self.effects if e.stated)
-
-    def withdrawn(self, names: Collection[str]) -> Account:
-        """The account once recordings that were kept back have refused some effects."""
-        refused = (replace(e, probability=0.0, together=0.0) if e.name in names else e for e in self.effects)
-        return replace(self, effects=tuple(refused))
 
 
 def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, combinations
-
-import numpy as np
 
 from rwn.decide.account import Account, Remainder, account, remainder
 from rwn.decide.other_law import curve_beside
@@ -18,8 +15,8 @@ from rwn.model.model import Model
 from rwn.name.forward import FAR_OFF
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
-from rwn.prove.heldout import HeldoutRow, hurts, log_change
-from rwn.prove.proof import compared, proved
+from rwn.prove.heldout import HeldoutRow
+from rwn.prove.proof import proved
 from rwn.simulate.run import Run
 
 
@@ -42,14 +39,9 @@ class Decision:
 
 
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
-    """What is stated, proved on `heldout` or by cross-validation.
-
-    An effect that certainly makes recordings worse that were kept back is not stated.
-    """
+    """What is stated, proved on `heldout` or by cross-validation."""
     found = account(ranking, heldout, model)
-    chosen = _together(ranking, found)
-    while refused := _refused(ranking, chosen, found, heldout, seed=seed):
-        found, chosen = refused
+    chosen = together(ranking, found.leading, {e.name for e in found.stated})
     rows = proved(ranking, chosen, heldout, seed=seed)
     left = remainder(ranking, chosen.final)
     verdict = verdict_of(ranking, found, left)
@@ -60,40 +52,16 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
     )
 
 
-def _refused(
-    ranking: Ranking, chosen: RankedFit, found: Account, heldout: Sequence[Run], *, seed: int
-) -> tuple[Account, RankedFit] | None:
-    """The account and explanation without those effects that make worse what was kept back, and most so.
-
-    Where both run away nothing is won without them.
-    """
-    worse = []
-    for names in _parts(chosen.added) if heldout else ():
-        account = found.withdrawn(names)
-        less = _together(ranking, account)
-        rows = compared(ranking, less.final, chosen.final, heldout, seed=seed)
-        if hurts(rows) and not np.isnan(by := log_change(rows)):
-            worse.append((by, account, less))
-    return max(worse, key=lambda row: row[0])[1:] if worse else None
-
-
-def _parts(names: Sequence[str]) -> Iterator[tuple[str, ...]]:
-    """One of the names, several, and all."""
-    return chain.from_iterable(combinations(names, count) for count in range(1, len(names) + 1))
-
-
-def _together(ranking: Ranking, found: Account) -> RankedFit:
-    """The explanation by the stated effects alone."""
-    names = {e.name for e in found.stated}
-    known = next((r for r in ranking.fits if set(r.added) == names), None)
+def together(ranking: Ranking, leading: RankedFit, names: Collection[str]) -> RankedFit:
+    """The explanation by some effects of the leading one alone: as it was ranked, or fitted from where that ended."""
+    known = next((r for r in ranking.fits if set(r.added) == set(names)), None)
     if known is not None:
         return known
-    leading = found.leading
     plain = _without_the_rest(ranking, leading.fit, names)
     return replace(leading, fit=plain, final=plain)
 
 
-def _without_the_rest(ranking: Ranking, this: Fit, names: set[str]) -> Fit:
+def _without_the_rest(ranking: Ranking, this: Fit, names: Collection[str]) -> Fit:
     problem = ranking.problem
     kept = tuple(n for n in this.added if n in names)
     starts = this.starts(kept)

@@ -22,13 +22,14 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics, variances
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
-from rwn.name.weights import RankedFit
+from rwn.name.weights import RankedFit, effective_samples
 from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
 ITERATIONS = 8  # of a fit that begins near its end
+LOST = 1e12  # squared error, in units of the noise, of a motion that has run away
 PARTS = 16  # of the work of a stage, for each of these fits
 
 
@@ -39,7 +40,7 @@ class Evidence:
     share: float  # of what the nominal model leaves above the noise, that goes without the effect; mean of signals
     unseen: float  # that share on the halves that were not fitted, and on recordings kept back
     part: float  # of what the other effects leave above the noise, that goes with it; mean of signals but the position
-    odds: float  # logarithm of the evidence for its explanation against the best without it and its rivals
+    odds: float  # log evidence for its explanation against the best without it and its rivals, by all recordings
     curve: float  # squared error with the best curve over one state in its place, in units of that with it; at most 1
 
 
@@ -86,9 +87,15 @@ class Validation:
             share=_share(before, self._after, self._nothing, self._chance),
             unseen=float(np.mean(unseen)),
             part=_share(beside, self._after, beside, self._chance),
-            odds=_odds(ranking, self._leading, {name, *rivals}),
+            odds=self._odds({name, *rivals}),
             curve=curve_instead(ranking.problem, self._leading.fit, less, self._model),
         )
+
+    def _odds(self, names: set[str]) -> float:
+        """Against the best explanation with none of these names: by what was fitted, and by what was kept back."""
+        without = max((r for r in self._ranking.fits if not names & set(r.added)), key=lambda r: r.score)
+        found = self._leading.score - without.score
+        return found + sum(_predicted(judge, self._leading.final, without.final) for judge in self._heldout)
 
     @property
     def birge(self) -> float:
@@ -112,13 +119,21 @@ def _share(
     return float(np.mean([np.clip(x, -1.0, 1.0) if np.isfinite(x) else 1.0 for x in shares]))
 
 
+def _predicted(judge: Problem, this: Fit, without: Fit) -> float:
+    """Log evidence for a fit against another, of recordings that neither saw.
+
+    Of normal errors whose variance is unknown, mean of signals, in as many samples as the better one's errors are
+    worth.
+    """
+    after, before = (_without_drift(variances(judge, f)) for f in (this, without))
+    logs = [np.log(min(max(before[s], 1.0), LOST) / min(max(after[s], 1.0), LOST)) for s in after]
+    gain = float(np.mean(logs))
+    return 0.5 * effective_samples(statistics(judge, this if gain > 0.0 else without)) * gain if gain else 0.0
+
+
 def _without_drift(variances: Mapping[str, float]) -> Mapping[str, float]:
     """Without the position where other signals tell the motion too: it adds up what the speed shows already."""
     return {s: v for s, v in variances.items() if s != "position"} or variances
-
-
-def _odds(ranking: Ranking, leading: RankedFit, names: set[str]) -> float:
-    return leading.score - max(r.score for r in ranking.fits if not names & set(r.added))
 
 
 def _without(ranking: Ranking, leading: RankedFit, name: str) -> Fit:
