@@ -21,7 +21,7 @@ from rwn.recording.filters import as_filtered
 from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.initial_state import nearest_state
-from rwn.simulate.run import run_of
+from rwn.simulate.run import Run, run_of
 from rwn.simulate.simulator import Simulator
 from rwn.values import Values
 
@@ -74,7 +74,7 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
     status = output.status if finite or output.status != "ok" else "diverged"
     return Simulation(
         time=recording.time,
-        signals={name: _as_logged(name, run.time, _held(values), model.recording) for name, values in shown.items()},
+        signals={name: _as_logged(name, run, _held(values), model.recording) for name, values in shown.items()},
         status=status,
         advice=_core.simulation_advice(status),
     )
@@ -89,7 +89,9 @@ def _held(values: Array) -> Array:
     return np.where(np.arange(values.size) < first, values, values[first - 1] if first else 0.0)
 
 
-def _as_logged(name: str, time: Array, values: Array, layout: Layout) -> Array:
+def _as_logged(name: str, run: Run, values: Array, layout: Layout) -> Array:
     """A signal (n,) as the files of this layout show it."""
-    tau = layout.filters.get(name, 0.0)
-    return delayed(time, as_filtered(time, values, tau) if tau else values, layout.delays.get(name, 0.0))
+    tau, rows = layout.filters.get(name, 0.0), run.interpolated
+    values = as_filtered(run.time, values, tau) if tau else values
+    shown, time = (values, run.time) if rows is None else (rows.shown(values), rows.rows)
+    return delayed(time, shown, layout.delays.get(name, 0.0))
