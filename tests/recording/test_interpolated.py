@@ -58,13 +58,14 @@ def recorded(*, interpolated: bool) -> rwn.Recording:
 def test_samples_are_told_from_rows_between_them() -> None:
     ticks, when = beside(2000, reach=0.3, lost=20)
     samples = np.random.default_rng(1).standard_normal(2000)
+    values = np.interp(when, PERIOD * np.arange(2000), samples)
     rows = between_ticks(when)
     assert rows is not None
     assert rows.ticks == pytest.approx(PERIOD * ticks, abs=0.02 * PERIOD)  # 3 deviations of a line through the times
-    found, lost = rows.samples(np.interp(when, PERIOD * np.arange(2000), samples))
+    found, lost = rows.samples(values)
     assert np.std((found - samples[ticks])[~lost]) < 0.02
     assert 0 < lost.sum() <= 40, "lines that end at a lost sample, and no more"
-    assert rows.shown(found)[~lost] == pytest.approx(np.interp(when, PERIOD * np.arange(2000), samples)[~lost], abs=1e-9)
+    assert rows.shown(found)[~lost] == pytest.approx(values[~lost], abs=1e-9)
 
 
 def test_what_was_not_measured_is_kept_out_of_the_lines_that_end_there() -> None:
