@@ -108,3 +108,16 @@ def test_a_law_taken_back_leaves_the_rows_as_they_were() -> None:
     known = ~back.not_compared("current")
     assert back.time == pytest.approx(recorded(interpolated=True).time, abs=1e-12)
     assert back.current[known] == pytest.approx(recorded(interpolated=True).signals["current"][known], abs=1e-9)
+
+
+@pytest.mark.parametrize(("reach", "off"), [(0.2, 0.03), (0.3, 0.07)])
+def test_noise_of_rows_is_amplified_by_the_lines(reach: float, off: float) -> None:
+    """Against the rows of the inverse of the equations."""
+    _, when = beside(400, reach=reach)
+    rows = between_ticks(when)
+    assert rows is not None
+    inverse = np.array([rows.samples(unit)[0] for unit in np.eye(400)]).T
+    exact = np.sum(inverse**2, axis=1)
+    assert rows.amplification / exact == pytest.approx(1.0, abs=5.0 * off)
+    assert np.std(rows.amplification / exact) < off
+    assert exact.max() > 1.5

@@ -8,6 +8,7 @@ the nearer one. With a row beside each tick that is as many equations as samples
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,8 @@ from rwn.values import Values
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+
+ROUNDS = 8  # after which what lies farther on counts for nothing
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -49,6 +52,19 @@ class InterpolatedRows(Values):
             lost = lost | ((self.before > 0.0) & _shifted(missing, 1)) | ((self.after > 0.0) & _shifted(missing, -1))
         found: Array = solve_banded((1, 1), self._bands(~lost), values)
         return found, lost
+
+    @cached_property
+    def amplification(self) -> Array:
+        """Variance (n,) of the samples of rows whose values have independent errors of variance 1.
+
+        Without the covariance of neighbours whose lines end at each other: 2 % off for rows within 0.2 periods of
+        their ticks, 6 % within 0.3.
+        """
+        variance, share = np.ones(self.rows.size), self.before + self.after
+        for _ in range(ROUNDS):
+            other = np.where(self.after > 0.0, np.roll(variance, -1), np.roll(variance, 1))
+            variance = (1.0 + share**2 * other) / (1.0 - share) ** 2
+        return variance
 
     def _bands(self, known: Flags) -> Array:
         """Diagonals (3, n) of the equations, above, on and below; a row that is not `known` is its sample."""
