@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 MOST_COLOURED = 1.4  # coloured energy of a residual that may still be measurement noise
 RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2,
 LEVEL = 0.01  # of the test whether what is left has structure
+RAN_AWAY = 1e100  # error of a simulation that diverged; its square is no number, or soon none
 LOUD = 1.3  # where the residual has at least so much variance in units of the noise
 
 
@@ -93,6 +94,8 @@ def structured(joined: Mapping[str, Array]) -> tuple[str, ...]:
 
 def _distance_from_white(x: Array) -> float:
     """sqrt(m) times the largest distance of the cumulative periodogram of m frequencies from a straight line."""
+    if np.nanmax(np.abs(x), initial=0.0) > RAN_AWAY:
+        return np.inf
     x = np.where(np.isfinite(x), x, 0.0)
     power = _power(np.fft.rfft(x))[1 : (x.size + 1) // 2]
     if power.size < 8 or not power.any():
@@ -120,7 +123,7 @@ def statistics(problem: Problem, this: Fit, *, drift: bool = True) -> Statistics
 def variances(problem: Problem, this: Fit) -> dict[str, float]:
     """Mean squared weighted error of a fit by signal, over all recordings; 1: the noise alone, inf: it ran away."""
     joined = join(problem, problem.residuals(this.vector, this.active))
-    found = {s: float(np.nanmean(r**2)) if np.isfinite(r).any() else 0.0 for s, r in joined.items()}
+    found = {s: float(np.nanmean(_squared(r))) if np.isfinite(r).any() else 0.0 for s, r in joined.items()}
     return {s: v if np.isfinite(v) else np.inf for s, v in found.items()}
 
 
@@ -155,6 +158,8 @@ def statistics_of(joined: Mapping[str, Array]) -> Statistics:
     """Statistics of weighted residuals (n,) by signal."""
     energies, count = _energies(joined), _count(joined)
     whole = sum(energies.values())
+    if not np.isfinite(whole):  # a simulation that ran away shows one thing
+        return Statistics(count=count, variance=np.inf, correlation_time=float(max(count, 1)), coloured=np.inf)
     correlated = sum(energies[s] * correlation_time(r) for s, r in joined.items())
     return Statistics(
         count=count,
@@ -166,7 +171,13 @@ def statistics_of(joined: Mapping[str, Array]) -> Statistics:
 
 
 def _energies(joined: Mapping[str, Array]) -> dict[str, float]:
-    return {s: float(np.nansum(r**2)) for s, r in joined.items()}
+    return {s: float(np.nansum(_squared(r))) for s, r in joined.items()}
+
+
+@np.errstate(over="ignore")  # of what ran away
+def _squared(x: Array) -> Array:
+    squares: Array = np.square(x)
+    return squares
 
 
 def _count(joined: Mapping[str, Array]) -> int:
