@@ -41,7 +41,7 @@ def test_noise_is_at_the_floor_however_loud() -> None:
         assert left.ringing < 0.6 * RINGING
 
 
-@pytest.mark.parametrize("away", [1e160, np.inf])
+@pytest.mark.parametrize("away", [1e60, 1e101])
 def test_what_ran_away_is_one_observation_of_something_that_is_no_noise(away: float) -> None:
     joined = {"speed": np.concatenate([_noise(), [away]]), "current": _noise()}
     left = statistics_of(joined)

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.noise import noise_of
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import RAN_AWAY, correlation_time
+from rwn.fit.residuals import correlation_time
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.inverse_dynamics import force_error
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import RAN_AWAY
 
 Array = NDArray[np.float64]
 FEWEST = 20  # samples that a row judges
@@ -100,7 +101,7 @@ def heldout_rows(
 def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed: int) -> list[HeldoutRow]:
     """Error of the inverse dynamics relative to the driving force, in percent of its norm."""
     parts = [force_error(problem.simulator, run, h.vector, h.active) for h in compared]
-    errors, force = [_clipped(e) for e, _ in parts], parts[0][1]
+    errors, force = [np.clip(e, -RAN_AWAY, RAN_AWAY) for e, _ in parts], parts[0][1]
     if not force.size:
         return []
     percent = [100.0 * _rms(e) / _rms(force) for e in errors]
@@ -118,13 +119,7 @@ def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed:
 def _errors(problem: Problem, run: Run, this: Hypothesis) -> dict[str, Array]:
     alone = replace(problem, runs=(run.following_nothing(),))
     found = alone.residuals(this.vector, this.active)[0]
-    # a run that left for infinity is cut at a finite number, so that it can be squared
-    return {signal: _clipped(error) for signal, error in found.items()}
-
-
-def _clipped(error: Array) -> Array:
-    clipped: Array = np.clip(error, -RAN_AWAY, RAN_AWAY)
-    return clipped
+    return dict(found)
 
 
 def _slow(run: Run) -> NDArray[np.bool_]:
@@ -170,7 +165,7 @@ def _gain(before: float, after: float) -> float | None:
 
 
 def _rms(x: Array) -> float:
-    return float(np.sqrt(np.nanmean(x**2))) if np.nanmax(np.abs(x)) < RAN_AWAY else float("inf")
+    return float(np.sqrt(np.nanmean(x**2))) if np.nanmax(np.abs(x)) < 0.5 * RAN_AWAY else float("inf")
 
 
 def heldout_error(rows: Sequence[HeldoutRow]) -> float:

@@ -104,7 +104,8 @@ def _more_than_noise(found: DiagnosisData) -> Iterator[str]:
 
 
 def _unexplained(found: DiagnosisData) -> tuple[str, ...]:
-    what = found.location.description or f"something in the {found.equation} equation"
+    somewhere = f"something in the {found.equation} equation" if found.equation else "the motion is not followed"
+    what = found.location.description or somewhere
     drawn = (f"In corrected.toml stands for it: {found.stand_in}.",) if found.stand_in else ()
     joint = "; it is" if what.startswith(STRONGEST) else ":"
     return (f"Something is missing that has no name here{joint} {what}.", *drawn, *_proof(found, "Adding that"))
