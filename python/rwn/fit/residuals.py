@@ -17,9 +17,9 @@ from rwn.simulate.simulator import RAN_AWAY
 Array = NDArray[np.float64]
 
 MOST_COLOURED = 1.4  # coloured energy of a residual that may still be measurement noise
-RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2,
+RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2
 LEVEL = 0.01  # of the test whether what is left has structure
-LOUD = 1.3  # where the residual has at least so much variance in units of the noise
+LOUD = 1.3  # variance of a residual, in units of the noise, below which its loudest band says nothing
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 
 MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it counts for
-EXACT = 1000.0  # most that noise alone counts for: a simulation is exact to about 0.1 % of the squared error
+MOST_SAMPLES = 1000.0  # most independent samples that noise counts for: a simulation is exact to 0.1 % of its square
 LOST = 1e12  # log of evidence against a fit whose simulation ran away: what no recording outweighs, and still a number
 
 
@@ -32,7 +32,7 @@ class RankedFit:
 
 def effective_samples(left: Statistics) -> float:
     """How many independent samples a residual counts for, against a fit that leaves more."""
-    return min(left.effective, EXACT if left.at_the_floor else MISSPECIFIED)
+    return min(left.effective, MOST_SAMPLES if left.at_the_floor else MISSPECIFIED)
 
 
 def weigh(

@@ -24,7 +24,7 @@ from rwn.report.text import (
     unknown_name,
 )
 
-FAR_OFF = 2.0  # error in units of the noise, from which three quarters of its square are something else
+STANDS_OUT = 2.0  # error in units of the noise, from which three quarters of its square are something else
 SLIGHT = 0.005  # share of a mismatch or an error that is not worth a sentence
 
 
@@ -97,7 +97,7 @@ def _more_than_noise(found: DiagnosisData) -> Iterator[str]:
     """Where an adequate model fails on what it was not fitted to, by the signal that fails most."""
     rows = [row for row in found.heldout if row.region == "all" and row.signal != "position"]
     row = max(rows, key=over_noise, default=None)
-    if row is not None and over_noise(row) > FAR_OFF:
+    if row is not None and over_noise(row) > STANDS_OUT:
         where = f"the {row.signal} error is {number(over_noise(row), 2)} times its noise"
         where = where if math.isfinite(row.left) else f"the simulated {row.signal} runs away"
         yield f"But on {recording_in_words(row.recording)}, {where}: that run shows what the fitted ones do not."
@@ -208,4 +208,4 @@ def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
 def _hides(row: HeldoutRow, other: HeldoutRow) -> bool:
     """Whether the headline says nothing of what is left in another signal; a position adds up what the speed shows."""
     beside = (other.recording, other.region) == (row.recording, "all") and other.signal not in (row.signal, "position")
-    return beside and over_noise(other) > max(FAR_OFF, over_noise(row))
+    return beside and over_noise(other) > max(STANDS_OUT, over_noise(row))
