@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 import rwn
 from rwn.fit.preparation import prepare
-from rwn.fit.residuals import MOST_COLOURED, RINGING, statistics_of
+from rwn.fit.residuals import MOST_COLOURED, RINGING, statistics_of, structured
 from rwn.model.model import Model
 from rwn.name.forward import rank
 
@@ -39,6 +39,16 @@ def test_noise_is_at_the_floor_however_loud() -> None:
         left = statistics_of({"speed": loud * _noise()})
         assert left.at_the_floor
         assert left.ringing < 0.6 * RINGING
+
+
+@pytest.mark.parametrize("away", [1e60, 1e101])
+def test_what_ran_away_is_one_observation_of_something_that_is_no_noise(away: float) -> None:
+    joined = {"speed": np.concatenate([_noise(), [away]]), "current": _noise()}
+    left = statistics_of(joined)
+    assert left.effective == pytest.approx(1.0, rel=1e-3)
+    assert left.variance == np.inf
+    assert not left.at_the_floor
+    assert structured(joined) == ("speed",)
 
 
 def test_differences_of_counts_are_noise() -> None:

@@ -25,12 +25,30 @@ static_assert(Effect<Drag>);
 RIGHT = {"PARAMETERS": PARAMETER, "TRAITS": ".hooks = Hook::apply", "RESULT": "void", "HOOK": "apply"}
 
 
-def said(place: Path, **changed: str) -> str:
+# A filter that remembers: with it the table has one effect more than rwn comes with.
+REMEMBERS = """
+#include "rwn/model/effects.hpp"
+using namespace rwn;
+struct Lag {
+  static constexpr EffectInfo info{"lag", Site::sensor, "k dy/dt = w - y", "meaning", "source"};
+  static constexpr std::array parameters{PARAMETERS};
+  static constexpr EffectTraits traits{.hooks = Hook::begin | Hook::sense, .memories = MEMORIES};
+  template <class S>
+  static void begin(const S*, const Reading<S>& first, S* memory) { memory[0] = first.speed; }
+  template <class S>
+  static void sense(const S*, Reading<S>& y, const S* memory) { y.speed = memory[0]; }
+};
+using Table = decltype(std::tuple_cat(Effects{}, std::tuple<Lag>{}));
+static_assert(detail::all_effects(static_cast<const Table*>(nullptr)));
+"""
+
+
+def said(place: Path, effect: str = EFFECT, **changed: str) -> str:
     """What the compiler says of an effect that differs from a right one; empty where it compiles."""
     compiler = shutil.which("g++")
     if compiler is None:
         pytest.skip("there is no g++")
-    text = EFFECT
+    text = effect
     for name, value in (RIGHT | changed).items():
         text = text.replace(name, value)
     (place / "effect.cpp").write_text(text)
@@ -56,3 +74,8 @@ def test_an_effect_compiles(tmp_path: Path) -> None:
 )
 def test_one_that_would_do_nothing_does_not(changed: dict[str, str], sentence: str, tmp_path: Path) -> None:
     assert sentence in said(tmp_path, **changed)
+
+
+def test_there_is_room_for_effects_that_remember_more_than_those_of_today(tmp_path: Path) -> None:
+    assert said(tmp_path, REMEMBERS, MEMORIES="4") == ""
+    assert "no room for the memories of all effects" in said(tmp_path, REMEMBERS, MEMORIES="16")

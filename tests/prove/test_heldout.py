@@ -10,15 +10,17 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.fit.preparation import prepare
-from rwn.prove.heldout import HeldoutRow, _gain, gain_interval, heldout_error, heldout_rows, hurts
+from rwn.prove.heldout import HeldoutRow, _gain, gain_interval, heldout_error, heldout_rows, helps, hurts
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.run import judging_run
 
 MODEL = rwn.Model(kind="dc", parameters=MOTOR)
 
 
-@pytest.mark.parametrize(("before", "after", "gain"), [(2.0, 1.0, 0.5), (0.0, 0.0, 0.0), (0.0, 1.0, -np.inf)])
-def test_of_no_error_nothing_can_be_removed(before: float, after: float, gain: float) -> None:
+@pytest.mark.parametrize(
+    ("before", "after", "gain"), [(2.0, 1.0, 0.5), (0.0, 0.0, 0.0), (0.0, 1.0, None), (np.inf, 1.0, None)]
+)
+def test_of_no_error_nothing_can_be_removed(before: float, after: float, gain: float | None) -> None:
     assert _gain(before, after) == gain
 
 
@@ -53,15 +55,46 @@ def test_what_was_not_measured_does_not_count_as_no_error() -> None:
 
 def test_the_interval_of_a_gain_covers_it() -> None:
     noise = np.random.default_rng(1).standard_normal((2, 5000))
-    low, high = gain_interval(2.0 * noise[0], noise[1], seed=0)
+    low, high = gain_interval(2.0 * noise[0], noise[1], seed=0) or (np.nan, np.nan)
     assert low < 0.5 < high
     assert high - low < 0.1
 
 
-def test_an_error_that_ran_away_has_no_gain_to_hope_for() -> None:
+def test_an_error_that_ran_away_has_no_gain() -> None:
     noise = np.random.default_rng(1).standard_normal(500)
-    for before, after in ((noise, 1e200 * noise), (1e200 * noise, noise)):
-        assert gain_interval(before, after, seed=0) == (-np.inf, -np.inf)
+    away = 1e101 * noise
+    for before, after in ((noise, away), (away, noise), (away, away)):
+        assert gain_interval(before, after, seed=0) is None
+
+
+def test_of_no_error_the_interval_is_that_of_the_gain() -> None:
+    none, some = np.zeros(500), np.ones(500)
+    assert gain_interval(none, none, seed=0) == (0.0, 0.0)
+    assert gain_interval(none, some, seed=0) is None
+
+
+@pytest.mark.parametrize(
+    ("refitted", "corrected", "better", "worse"),
+    [
+        (np.inf, 1.0, True, False),
+        (1.0, np.inf, False, True),
+        (np.inf, np.inf, False, False),
+        (0.0, 1.0, False, True),
+        (0.0, 0.0, False, False),
+        (1.0, None, False, False),
+    ],
+)
+def test_what_ran_away_is_certainly_worse(
+    refitted: float, corrected: float | None, better: bool, worse: bool
+) -> None:
+    low, high = replace(BETTER, refitted=refitted, corrected=corrected, gain=None, gain_interval=None).certain_gain
+    assert (low > 0.0, high < 0.0) == (better, worse)
+
+
+def test_a_correction_that_keeps_a_signal_from_running_away_helps() -> None:
+    tamed = replace(BETTER, refitted=np.inf, gain=None, gain_interval=None)
+    assert helps([tamed])
+    assert not hurts([tamed])
 
 
 @pytest.mark.parametrize(("samples", "judged"), [(900, False), (1100, True)])
@@ -78,16 +111,18 @@ def test_the_driving_force_is_judged_where_the_filters_leave_samples(samples: in
     assert any(row.unit == "%" for row in rows) == judged
 
 
-def row(signal: str, before: float, after: float, interval: tuple[float, float], region: str = "all") -> HeldoutRow:
+def row(
+    signal: str, before: float, after: float, interval: tuple[float, float] | None, region: str = "all"
+) -> HeldoutRow:
     return HeldoutRow(
         recording="run", region=region, signal=signal, unit="%" if signal == DRIVING_FORCE else "rad/s", samples=100,
-        nominal=before, refitted=before, corrected=after, noise_floor=None, gain=1.0 - after / before,
+        nominal=before, refitted=before, corrected=after, noise_floor=None, gain=_gain(before, after),
         gain_interval=interval,
     )  # fmt: skip
 
 
 BETTER, WORSE = row("speed", 2.0, 1.0, (0.4, 0.6)), row("speed", 1.0, 3.0, (-2.5, -1.5))
-PERHAPS, AWAY = row("position", 1.0, 1.1, (-0.3, 0.1)), row("speed", 1.0, np.inf, (-np.inf, -np.inf))
+PERHAPS, AWAY = row("position", 1.0, 1.1, (-0.3, 0.1)), row("speed", 1.0, np.inf, None)
 LITTLE = row("current", 1.0, 1.02, (-0.03, -0.01))
 
 

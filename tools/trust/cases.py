@@ -121,6 +121,9 @@ def _models() -> Iterator[Case]:
     }  # fmt: skip
     for what, text in extra.items():
         yield Case(kind="model file", what=what, files={"motor.toml": text.encode()})
+    unstable = '[motor]\nkind = "lti"\norder = 1\nb0 = 300\na0 = -40000\n[uncertainty]\nb0 = 3\na0 = 3\n'
+    command = ("diagnose", "a.csv", "--model", "motor.toml", "--out", "out")
+    yield Case(kind="model file", what="unstable", command=command, files={"motor.toml": unstable.encode()}, refuse=False)
 
 
 def _formulas() -> Iterator[Case]:

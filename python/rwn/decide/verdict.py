@@ -10,7 +10,7 @@ from rwn.decide import excitation
 from rwn.decide.account import Account, Remainder
 from rwn.fit.intervals import deviations
 from rwn.name.ranking import Ranking
-from rwn.name.weights import EXACT
+from rwn.name.weights import MOST_SAMPLES
 
 Verdict = Literal[
     "missing-physics", "adequate", "unexplained", "insufficient-excitation", "recording-mistake"
@@ -18,7 +18,7 @@ Verdict = Literal[
 
 # squared error above the noise, in units of it, from which structure in what is left is of any size: what chance makes
 # of as many independent samples as a residual that is noise alone counts for
-MATERIAL = float(np.sqrt(2.0 / EXACT))
+MATERIAL = float(np.sqrt(2.0 / MOST_SAMPLES))
 
 
 def verdict_of(ranking: Ranking, found: Account, left: Remainder) -> Verdict:

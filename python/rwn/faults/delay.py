@@ -33,9 +33,9 @@ Array = NDArray[np.float64]
 
 LITTLE = 0.1  # squared error above the noise, in units of it, below which nothing is suspected
 SUSPECT = 0.3  # share of what the refitted model leaves, that undoing a fault has to remove to be suspected
-REMOVED = 0.85  # share of what the refitted model leaves, that a fault with what is beneath it has to remove
+DELAY_REMOVES = 0.85  # share of what the refitted model leaves, that a fault with what is beneath it has to remove
 CLEAR = 0.01  # share that is left where a fault and one effect explain all: more pairs of effects need not be tried
-SLIGHT = 0.02  # squared error in units of the noise, by which a fault has to be better than such a pair
+SLIGHT = 0.02  # squared error in units of the noise, by which a fault has to be better than a pair of effects
 BETTER = 0.75  # share of what physics alone leaves, that may be left with the fault undone
 FIRST = 4  # explanations that may be one half of a pair
 LONGEST_SHIFT = 40  # samples
@@ -110,7 +110,7 @@ def accepted(suspect: SuspectedFault, *, left: float, physics: float, little: fl
 
     `little`: what physics may leave so that nothing is left to explain.
     """
-    return left < BETTER * physics and left < (1.0 - REMOVED) * suspect.before and physics > little
+    return left < BETTER * physics and left < (1.0 - DELAY_REMOVES) * suspect.before and physics > little
 
 
 def refined(

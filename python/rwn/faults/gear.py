@@ -16,7 +16,7 @@ from rwn.name.ranking import Ranking
 from rwn.recording.recording import Recording
 
 REACH = 0.3  # relative error of a ratio that was read off the size of a signal
-EXACT = 2e-3  # relative accuracy that is asked for
+RATIO_TOLERANCE = 2e-3  # relative accuracy of a gear ratio that is asked for
 
 
 def gear_ratio(fault: Fault, recordings: Sequence[Recording], model: Model, beneath: Ranking) -> Fault:
@@ -36,5 +36,5 @@ def gear_ratio(fault: Fault, recordings: Sequence[Recording], model: Model, bene
         noise = more.noise_without(known.noise)
         return refit(beneath.closest, replace(problem, noise=noise, colour=known.colour)).cost
 
-    end = minimize_scalar(cost, bounds=(-REACH, REACH), method="bounded", options={"xatol": EXACT})
+    end = minimize_scalar(cost, bounds=(-REACH, REACH), method="bounded", options={"xatol": RATIO_TOLERANCE})
     return tried(float(end.x)) if end.fun < cost(0.0) else fault

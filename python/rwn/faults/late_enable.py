@@ -35,7 +35,7 @@ DELAY = "input-delay"
 HOLDING = ("coulomb-friction", "stribeck-friction", "actuator-deadzone")  # under which a drive stands still too
 TRIED = 64  # instants of enabling that are compared at a time
 ITERATIONS = 8  # of a fit that begins near its end
-EXACT = 0.01  # of the time between rows, to which the best of them is found
+INSTANT_TOLERANCE = 0.01  # accuracy of the instant of enabling, in times between rows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -290,6 +290,6 @@ class _Beginning:
             if high - low <= 2:
                 break
         around = (float(times[low]), float(times[high]))
-        exact = {"xatol": EXACT * (around[1] - around[0])}
+        exact = {"xatol": INSTANT_TOLERANCE * (around[1] - around[0])}
         found = minimize_scalar(self.error, bounds=around, method="bounded", options=exact)
         return min((float(times[tried[best]]), float(found.x)), key=self.error)

@@ -30,9 +30,9 @@ from rwn.name.forward import MOST_EFFECTS, Progress, rank
 from rwn.name.ranking import Ranking
 from rwn.recording.recording import Recording
 
-MOST_SCALES = 2  # wrong at a time
-MOST_REFINEMENTS = 3  # times that a delay is refined with what was found beneath it
-WRONG = 0.01  # relative error of a gear ratio, from which what is beneath it is explained anew
+MOST_SCALES = 2  # channels of a wrong scale that are found at a time
+MOST_REFINEMENTS = 3  # times that a delay is refined with the physics that was found once it was undone
+WRONG = 0.01  # relative error of a gear ratio, from which the recordings are explained anew with the better one
 
 
 class Rank(Protocol):

@@ -25,7 +25,7 @@ from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
-REMOVED = {UNIT: 0.85, SIGN: 0.85, GEAR: 0.95}  # share of the misfit that undoing has to remove; a gear bends nothing
+UNDOING_REMOVES = {UNIT: 0.85, SIGN: 0.85, GEAR: 0.95}  # share of the misfit; a gear bends nothing
 LEFT = 0.3  # misfit that undoing may leave; 0.3 is a correlation of 0.85
 SAME = 0.05  # relative difference between a size and a unit's factor that nothing has to account for
 WIDEST = 0.3  # relative difference from a unit's factor that a poor data sheet and missing physics make
@@ -72,7 +72,7 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
         before = float(np.mean([seen[s].misfit(1.0) for s in judged]))
         left = float(np.mean([undone[s] for s in judged]))
         everywhere = float(np.mean(list(undone.values())))
-        most = (1.0 - REMOVED[fault.name]) * before
+        most = (1.0 - UNDOING_REMOVES[fault.name]) * before
         if left < (most if _beyond_physics(fault.factor) else min(most, LEFT)) and everywhere < least:
             best, least = fault, everywhere
     return best
@@ -244,7 +244,7 @@ def _axis_fault(recordings: Sequence[Recording], model: Model) -> Fault | None:
     before = relative_error(recordings, model)
     given = "force" if "force" in recordings[0].signals else "torque"
     moving = tuple(s for s in MOTION if any(s in r.signals for r in recordings))
-    best, least = None, min((1.0 - REMOVED[UNIT]) * before, LEFT)
+    best, least = None, min((1.0 - UNDOING_REMOVES[UNIT]) * before, LEFT)
     for fault in chain(_any_scale((given,), model), _any_scale(moving, model)):
         after = relative_error(without(recordings, fault), model)
         if after < least:

@@ -10,10 +10,10 @@ import numpy as np
 
 from rwn import _core
 
-TOTAL = 13e9  # about 16 s of one core of 2026, and of two cores 10 s: a diagnosis has 20 s
-STAGE = 0.1  # of what is left, for the fits of a stage together
-LEAST = 0.1  # of the total, that counts as left at least
-RESERVE = 0.3  # of the total, that is left for what is promising rather than spent on what has not been tried
+TOTAL = 13e9  # work of a usual search: 16 s of one core of 2026, 10 s of two, of the 20 s of a diagnosis
+STAGE = 0.1  # share of the work that is left, for the fits of a stage together
+LEAST = 0.1  # share of TOTAL that counts as left at least
+RESERVE = 0.3  # share of TOTAL that is left for what is promising rather than spent on what has not been tried
 
 
 def meter(effort: float = 1.0) -> _core.Work:

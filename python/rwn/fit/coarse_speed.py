@@ -18,7 +18,7 @@ from rwn.simulate.run import Run
 Array = NDArray[np.float64]
 
 ROUNDS = 6  # fits, each to the speed less the rounding error of the last
-NOISES = (0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6)  # before the rounding, in steps
+NOISES = (0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6)  # before the rounding of the speed, in its steps
 COARSE = 0.25  # share of the residual's energy from which the rounding of a signal is worth a name
 
 

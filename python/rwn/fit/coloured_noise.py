@@ -25,13 +25,27 @@ def final_fits(
 ) -> tuple[Problem, Sequence[Fit], Statistics]:
     """The problem, fits and rest that count in the end: as they are, of a transfer function under coloured noise.
 
-    `left`: statistics of the best of the plain `fits`, which may leave nothing but noise.
+    `left`: statistics of the best of the plain `fits`, which may leave nothing but noise. What follows the recordings
+    less than a model that stands still, as one that ran away, leaves more than disturbances.
     """
-    if not problem.drive.coefficients or left.at_the_floor:
+    plain = min(fits, key=lambda f: f.cost)
+    if not problem.drive.coefficients or left.at_the_floor or not _follows(problem, plain):
         return problem, fits, left
-    weighted = under_coloured_noise(problem, min(fits, key=lambda f: f.cost))
+    weighted = under_coloured_noise(problem, plain)
     finals = refit_all(fits, weighted)
     return weighted, finals, statistics(weighted, min(finals, key=lambda f: f.cost))
+
+
+def _follows(problem: Problem, this: Fit) -> bool:
+    """Whether a fit leaves less than the motion itself of every signal."""
+    off = dict.fromkeys(problem.noise, 0.0)
+    moved = dict(off)
+    for run, left in zip(problem.runs, problem.residuals(this.vector, this.active), strict=True):
+        for signal, error in left.items():
+            compared = ~run.not_compared(signal)
+            off[signal] += float(np.linalg.norm(error[compared]) ** 2)
+            moved[signal] += float(np.linalg.norm(run.signal(signal)[compared]) ** 2)
+    return all(off[signal] <= moved[signal] for signal in off)
 
 
 def under_coloured_noise(problem: Problem, this: Fit) -> Problem:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     import pandas
 
 COLUMNS = ("parameter", "value", "low", "high", "unit")  # of Identification.table
-LEARNED = 0.9  # standard deviation after the fit over the declared one, above which recordings say nothing
+NOTHING_LEARNED = 0.9  # standard deviation after the fit over the declared one, above which recordings say nothing
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,7 +106,7 @@ def _unseen(this: Fit, left: Statistics) -> tuple[str, ...]:
     for u, value, std in zip(this.hypothesis.unknowns, this.minimum.values, spread, strict=True):
         size = abs(value) if u.logarithmic else abs(u.prior or 0.0)  # of what the declared deviation is a part
         declared = u.prior_std * size if np.isfinite(u.prior_std) and size else 0.0
-        nothing = std > LEARNED * declared if declared else std > abs(value) > 0.0
+        nothing = std > NOTHING_LEARNED * declared if declared else std > abs(value) > 0.0
         if not u.nuisance and nothing and moves.get(u.name, 0.0) <= BELIEVABLE:
             rows.append(u.name)
     return tuple(rows)

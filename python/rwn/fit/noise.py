@@ -33,6 +33,9 @@ def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> d
         pairs = [(r, left[signal]) for r, left in zip(runs, residuals, strict=True) if signal in left]
         found = [_noise(r.masked(signal, values)) for r, values in pairs if values.size > 8]
         differenced = max(float(np.median(found)) if found else 1.0, 1e-12)
+        # a simulation that runs away leaves more than was recorded at all: that is no noise
+        moved = max((_rms(r.signal(signal)) for r in runs if r.signal(signal).size), default=0.0)
+        differenced = min(differenced, moved or differenced)
         encoder = signal == "position" or (signal == "speed" and any(r.speed_measured.shows_counts for r in runs))
         levels[signal] = steps if steps and encoder else max(steps, differenced)
     if "position" in levels:
@@ -73,5 +76,9 @@ def _coloured(
 
 def _noise(residual: Array) -> float:
     spread = noise_from_differences(residual)
-    rms = float(np.sqrt(np.nanmean(residual**2)))
+    rms = _rms(residual)
     return min(spread, rms) if spread > 0.0 else rms
+
+
+def _rms(x: Array) -> float:
+    return float(np.sqrt(np.nanmean(x**2)))

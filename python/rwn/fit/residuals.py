@@ -12,13 +12,14 @@ from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.recording.noise import WHITE as WHITE_NOISE
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import RAN_AWAY
 
 Array = NDArray[np.float64]
 
 MOST_COLOURED = 1.4  # coloured energy of a residual that may still be measurement noise
-RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2,
+RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2
 LEVEL = 0.01  # of the test whether what is left has structure
-LOUD = 1.3  # where the residual has at least so much variance in units of the noise
+LOUD = 1.3  # variance of a residual, in units of the noise, below which its loudest band says nothing
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,6 +94,8 @@ def structured(joined: Mapping[str, Array]) -> tuple[str, ...]:
 
 def _distance_from_white(x: Array) -> float:
     """sqrt(m) times the largest distance of the cumulative periodogram of m frequencies from a straight line."""
+    if np.nanmax(np.abs(x), initial=0.0) ** 2 > RAN_AWAY:
+        return np.inf
     x = np.where(np.isfinite(x), x, 0.0)
     power = _power(np.fft.rfft(x))[1 : (x.size + 1) // 2]
     if power.size < 8 or not power.any():
@@ -121,13 +124,14 @@ def variances(problem: Problem, this: Fit) -> dict[str, float]:
     """Mean squared weighted error of a fit by signal, over all recordings; 1: the noise alone, inf: it ran away."""
     joined = join(problem, problem.residuals(this.vector, this.active))
     found = {s: float(np.nanmean(r**2)) if np.isfinite(r).any() else 0.0 for s, r in joined.items()}
-    return {s: v if np.isfinite(v) else np.inf for s, v in found.items()}
+    return {s: v if v < RAN_AWAY else np.inf for s, v in found.items()}
 
 
 def variance(problem: Problem, this: Fit) -> float:
-    """The same over all signals together."""
+    """The same over all signals together; inf: it ran away."""
     joined = join(problem, problem.residuals(this.vector, this.active))
-    return sum(_energies(joined).values()) / max(_count(joined), 1)
+    left = sum(_energies(joined).values()) / max(_count(joined), 1)
+    return left if left < RAN_AWAY else np.inf
 
 
 def accuracy_lost(problem: Problem, this: Fit, other: Problem, that: Fit) -> float:
@@ -155,6 +159,8 @@ def statistics_of(joined: Mapping[str, Array]) -> Statistics:
     """Statistics of weighted residuals (n,) by signal."""
     energies, count = _energies(joined), _count(joined)
     whole = sum(energies.values())
+    if whole > RAN_AWAY:  # a simulation that ran away shows one thing
+        return Statistics(count=count, variance=np.inf, correlation_time=float(max(count, 1)), coloured=np.inf)
     correlated = sum(energies[s] * correlation_time(r) for s, r in joined.items())
     return Statistics(
         count=count,

@@ -23,12 +23,12 @@ from rwn.parallel import side_by_side
 Array = NDArray[np.float64]
 
 SECANTS = (0.2, 0.06, 0.02)  # relative steps, coarse to fine
-STEPS = 6  # along each of them
-ITERATIONS = 12  # with derivatives
-GAIN = 2e-3  # least relative gain in cost that is worth another turn, or step
-TURNS = 3  # of the best fits
+STEPS = 6  # most iterations by secants of one relative step
+ITERATIONS = 12  # most of the fit by derivatives that ends a turn
+GAIN = 2e-3  # least relative gain in cost that is worth another turn, or a finer secant
+TURNS = 3  # most turns, by secants and then by derivatives, of a fit that may be the best
 RIVAL = 2.0  # cost in units of the best, up to which a fit may still turn out to be better
-NEAR_ZERO = 0.02  # of its range or its prior: what a parameter near zero is stepped by, as if it were that large
+NEAR_ZERO = 0.02  # share of its range or prior that a parameter near zero counts as, for a step relative to its size
 
 
 def nonsmooth_unknowns(this: Hypothesis, *names: str) -> list[int]:

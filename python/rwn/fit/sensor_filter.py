@@ -36,8 +36,8 @@ LEAST, MOST = 0.1, 0.95  # of phi: a filter faster than half a sample changes no
 NOISE_ALONE = 2.0  # variance of what is new in a residual against its rough noise, up to which it is noise alone
 ITERATIONS = 8  # of a fit that begins near its end
 SHARES = 24  # values of phi that are compared: at few rows a time constant the right one is told to a few per cent
-DIPS = 3  # of the likelihood between them, that are refined
-EXACT = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
+DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
+LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
 ROUNDS = 2  # in which the filters of several signals are estimated beside each other
 
 
@@ -230,7 +230,7 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFil
     beside = np.concatenate([[np.inf], scores, [np.inf]])
     dips = np.flatnonzero((scores <= beside[:-2]) & (scores <= beside[2:]))  # another motor may do with another filter
     around = [tried[[max(k - 1, 0), min(k + 1, SHARES - 1)]] for k in dips[np.argsort(scores[dips])][:DIPS]]
-    exact = {"xatol": EXACT}
+    exact = {"xatol": LOG_TOLERANCE}
     refined = [minimize_scalar(negative_log_posterior, bounds=b, method="bounded", options=exact) for b in around]
     found = min(refined, key=lambda each: float(each.fun))
     time_constant = float(np.exp(found.x))

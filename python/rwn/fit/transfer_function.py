@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 STARTS_OF_STATE = 16  # most starts of the search for an initial state
 TIME_CONSTANTS = (3.0, 10.0, 30.0, 100.0)  # first guesses of the slowest pole, in samples
 FASTER = (1.0, 4.0)  # first guesses of the other poles against it
-DAMPING = 0.3  # their damping ratio
+DAMPING = 0.3  # damping ratio of the first guesses of pairs of poles
 
 
 @dataclass(frozen=True, kw_only=True)

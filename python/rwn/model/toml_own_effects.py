@@ -22,7 +22,7 @@ class ParameterEntry(msgspec.Struct, forbid_unknown_fields=True):
     strength: bool = False
 
 
-class EffectEntry(msgspec.Struct, forbid_unknown_fields=True):
+class OwnEffectEntry(msgspec.Struct, forbid_unknown_fields=True):
     """A table [own_effects.<name>] of a model file."""
 
     term: str
@@ -32,7 +32,7 @@ class EffectEntry(msgspec.Struct, forbid_unknown_fields=True):
     source: str = ""
 
 
-def from_entry(name: str, entry: EffectEntry, drive: Drive, *, where: str) -> OwnEffect:
+def from_entry(name: str, entry: OwnEffectEntry, drive: Drive, *, where: str) -> OwnEffect:
     """The effect that a table of the model file `where` defines. Raises InputError."""
     parameters = tuple(
         OwnParameter(name=key, **msgspec.structs.asdict(p)) for key, p in entry.parameters.items()

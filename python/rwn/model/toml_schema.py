@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 
 from rwn.errors import InputError, closest, unknown
-from rwn.model.toml_own_effects import EffectEntry, ParameterEntry
+from rwn.model.toml_own_effects import OwnEffectEntry, ParameterEntry
 from rwn.recording.columns import Initial
 from rwn.recording.intersample import AUTO
 
@@ -53,7 +53,7 @@ class File(msgspec.Struct, forbid_unknown_fields=True):
     motor: dict[str, Any]
     uncertainty: dict[str, Number | dict[str, Number]] = {}  # of the motor, and of its effects by name
     effects: dict[str, dict[str, Number]] = {}
-    own_effects: dict[str, EffectEntry] = {}
+    own_effects: dict[str, OwnEffectEntry] = {}
     load: LoadTable = msgspec.field(default_factory=LoadTable)
     recording: RecordingTable = msgspec.field(default_factory=RecordingTable)
 
@@ -139,6 +139,6 @@ def _table_at(keys: list[str]) -> type[msgspec.Struct]:
     tables: dict[str, type[msgspec.Struct]] = {
         "recording": RecordingTable,
         "load": LoadTable,
-        "own_effects": EffectEntry,
+        "own_effects": OwnEffectEntry,
     }
     return tables.get(keys[0] if keys else "", File)

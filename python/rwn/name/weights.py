@@ -11,7 +11,8 @@ from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 
 MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it counts for
-EXACT = 1000.0  # most that noise alone counts for: a simulation is exact to about 0.1 % of the squared error
+MOST_SAMPLES = 1000.0  # most independent samples that noise counts for: a simulation is exact to 0.1 % of its square
+LOST = 1e12  # log of evidence against a fit whose simulation ran away: what no recording outweighs, and still a number
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +32,7 @@ class RankedFit:
 
 def effective_samples(left: Statistics) -> float:
     """How many independent samples a residual counts for, against a fit that leaves more."""
-    return min(left.effective, EXACT if left.at_the_floor else MISSPECIFIED)
+    return min(left.effective, MOST_SAMPLES if left.at_the_floor else MISSPECIFIED)
 
 
 def weigh(
@@ -47,14 +48,14 @@ def weigh(
     finals = fits if finals is None else finals
     effective = effective_samples(left)
     scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
-    least = min(f.cost for f in finals)
+    least = min((f.cost for f in finals if np.isfinite(f.cost)), default=0.0)
     base = min(f.unknowns_seen for f in finals)
     scores = []
     for f in finals:
         unknowns = f.unknowns_seen - base
         names = sum((prior or {}).get(name, 0.0) for name in f.added)
         scores.append(
-            -(f.cost - least) / scale
+            -(min((f.cost - least) / scale, LOST) if np.isfinite(f.cost) else LOST)
             - 0.5 * unknowns * np.log(max(effective, 2.0))
             - len(f.added) * np.log(rivals)
             + names

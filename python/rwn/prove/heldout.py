@@ -17,9 +17,9 @@ from rwn.fit.residuals import correlation_time
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.inverse_dynamics import force_error
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import RAN_AWAY
 
 Array = NDArray[np.float64]
-RAN_AWAY = 1e100  # error of a simulation that diverged
 FEWEST = 20  # samples that a row judges
 DRAWS = 400  # of the bootstrap
 NOISE_FLOOR = (
@@ -28,6 +28,7 @@ NOISE_FLOOR = (
     "nothing but noise is left; at least the step that the values are rounded to, and of encoder counts that step; "
     "null for a driving force, which is not measured"
 )
+GAIN = "1 - corrected / refitted; null: nothing was added, one of them ran away, or there was no error to remove"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,12 +40,26 @@ class HeldoutRow:
     signal: str
     unit: str
     samples: Annotated[int, Meta(description="that were judged: measured, of this region, not fitted")]
-    nominal: Annotated[float, Meta(description="rms free-run error of the model as given, in unit")]
+    nominal: Annotated[float, Meta(description="rms free-run error of the model as given, in unit; inf: it ran away")]
     refitted: Annotated[float, Meta(description="the same of the nominal model with its parameters refitted")]
     corrected: Annotated[float | None, Meta(description="the same of the corrected model; null: nothing was added")]
     noise_floor: Annotated[float | None, Meta(description=NOISE_FLOOR)]
-    gain: Annotated[float | None, Meta(description="1 - corrected / refitted")] = None
+    gain: Annotated[float | None, Meta(description=GAIN)] = None
     gain_interval: Annotated[tuple[float, float] | None, Meta(description="95 %, block bootstrap")] = None
+
+    @property
+    def certain_gain(self) -> tuple[float, float]:
+        """Bounds of the gain, also where no share can say it: next to an error of 0 or one that ran away."""
+        if self.gain_interval is not None:
+            return self.gain_interval
+        if self.corrected is None or self.corrected == self.refitted:
+            return 0.0, 0.0
+        return (1.0, 1.0) if self.corrected < self.refitted else (-np.inf, -np.inf)
+
+    @property
+    def left(self) -> float:
+        """The error that stays."""
+        return self.refitted if self.corrected is None else self.corrected
 
 
 def heldout_rows(
@@ -86,10 +101,10 @@ def heldout_rows(
 def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed: int) -> list[HeldoutRow]:
     """Error of the inverse dynamics relative to the driving force, in percent of its norm."""
     parts = [force_error(problem.simulator, run, h.vector, h.active) for h in compared]
-    errors, force = [e for e, _ in parts], parts[0][1]
+    errors, force = [np.clip(e, -RAN_AWAY, RAN_AWAY) for e, _ in parts], parts[0][1]
     if not force.size:
         return []
-    percent = [100.0 * float(np.linalg.norm(e) / np.linalg.norm(force)) for e in errors]
+    percent = [100.0 * _rms(e) / _rms(force) for e in errors]
     found = len(percent) == 3
     return [
         HeldoutRow(
@@ -104,8 +119,7 @@ def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed:
 def _errors(problem: Problem, run: Run, this: Hypothesis) -> dict[str, Array]:
     alone = replace(problem, runs=(run.following_nothing(),))
     found = alone.residuals(this.vector, this.active)[0]
-    # a run that left for infinity is cut at a finite number, so that it can be squared
-    return {signal: np.clip(error, -RAN_AWAY, RAN_AWAY) for signal, error in found.items()}
+    return dict(found)
 
 
 def _slow(run: Run) -> NDArray[np.bool_]:
@@ -141,15 +155,17 @@ def _row(
     )
 
 
-def _gain(before: float, after: float) -> float:
-    """Share of an error that is removed; of none at all nothing can be."""
+def _gain(before: float, after: float) -> float | None:
+    """Share of an error that is removed; None where there is no such share."""
+    if not (np.isfinite(before) and np.isfinite(after)):
+        return None
     if before > 0.0:
         return 1.0 - after / before
-    return 0.0 if after == 0.0 else -np.inf
+    return 0.0 if after == 0.0 else None
 
 
 def _rms(x: Array) -> float:
-    return float(np.sqrt(np.nanmean(x**2))) if np.nanmax(np.abs(x)) < RAN_AWAY else float("inf")
+    return float(np.sqrt(np.nanmean(x**2))) if np.nanmax(np.abs(x)) < 0.5 * RAN_AWAY else float("inf")
 
 
 def heldout_error(rows: Sequence[HeldoutRow]) -> float:
@@ -193,21 +209,22 @@ def _free_run(rows: Sequence[HeldoutRow]) -> list[HeldoutRow]:
 
 
 def _any_certainly_better(rows: Sequence[HeldoutRow]) -> bool:
-    return any(r.gain_interval[0] > 0.0 for r in rows if r.region == "all" and r.gain_interval is not None)
+    return any(r.certain_gain[0] > 0.0 for r in rows if r.region == "all")
 
 
 def _any_certainly_worse(rows: Sequence[HeldoutRow]) -> bool:
-    return any(r.gain_interval[1] < 0.0 for r in rows if r.region == "all" and r.gain_interval is not None)
+    return any(r.certain_gain[1] < 0.0 for r in rows if r.region == "all")
 
 
-def gain_interval(before: Array, after: Array, *, seed: int, draws: int = DRAWS) -> tuple[float, float]:
-    """95 % interval of 1 - rms(after)/rms(before) by circular block bootstrap.
+def gain_interval(before: Array, after: Array, *, seed: int, draws: int = DRAWS) -> tuple[float, float] | None:
+    """95 % interval of 1 - rms(after)/rms(before) by circular block bootstrap; None where no gain is known.
 
     Blocks of twice the correlation time of the longer-lived squared error (after Politis, White 2004).
     """
     n = before.size
-    if max(np.nanmax(np.abs(before)), np.nanmax(np.abs(after))) >= RAN_AWAY:
-        return -np.inf, -np.inf
+    whole = _gain(_rms(before), _rms(after))
+    if whole is None or not before.any():
+        return None if whole is None else (whole, whole)
     length = int(np.clip(2.0 * max(correlation_time(before), correlation_time(after)), 1, max(1, n // 4)))
     rng = np.random.default_rng(seed)
     sums = np.stack([_block_sums(before**2, length), _block_sums(after**2, length)])

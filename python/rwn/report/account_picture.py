@@ -10,7 +10,7 @@ from rwn.report import text as words
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.sentences import SLIGHT
 
-UNLIKELY = 0.02  # probability below which an effect has no bar
+DRAWN = 0.02  # probability from which an effect has a bar
 
 
 def account_picture(found: DiagnosisData) -> str:
@@ -25,7 +25,7 @@ def account_picture(found: DiagnosisData) -> str:
 
 
 def _rows(found: DiagnosisData) -> Iterator[str]:
-    near = [effect for effect in found.account if effect.together >= UNLIKELY]
+    near = [effect for effect in found.account if effect.together >= DRAWN]
     for effect in near:
         yield _row("acts" if effect.stated else "doubtful", _name(effect), effect.share, _said(effect))
     left = found.remainder

@@ -20,6 +20,11 @@ from rwn.report.plot import Plot
 from rwn.report.sensor_filter import FittedFilter
 
 FORMAT = 1  # of diagnosis.json and curves.json; a reader of another number cannot rely on what it knows
+NUMBER = {
+    "description": "a number, or where it is not finite, which JSON does not have, the word for it",
+    "type": ["number", "string"],
+    "pattern": "^(inf|-inf|nan)$",
+}
 LEFT_OUT = ("command", "corrected", "curves", "elapsed")  # of diagnosis.json
 
 
@@ -90,13 +95,16 @@ class DiagnosisData:
     corrected: Any = None  # the corrected rwn.Model; written to corrected.toml, left out of the JSON
 
     def to_json(self) -> bytes:
-        """`diagnosis.json`: what depends on input and seed alone, without the curves."""
+        """`diagnosis.json`: what depends on input and seed alone, without the curves.
+
+        A number that is not finite is a word (`NUMBER`).
+        """
         kept = {name: value for name, value in vars(self).items() if name not in LEFT_OUT}
         return _text({"format": FORMAT, **kept})
 
     def curves_json(self) -> bytes:
         """`curves.json`: the pictures, SI, to six digits. NaN becomes null."""
-        plots = msgspec.to_builtins(self.curves, enc_hook=_plain)
+        plots = _in_words(msgspec.to_builtins(self.curves, enc_hook=_plain))
         lines = b",\n".join(msgspec.json.encode(plot) for plot in plots)
         return b'{"format": %d, "curves": [\n%b\n]}\n' % (FORMAT, lines)
 
@@ -113,7 +121,7 @@ class DiagnosisData:
             drawn = msgspec.json.decode(curves)
             plain = {name: value for name, value in plain.items() if name not in LEFT_OUT}
             plain["curves"] = drawn.get("curves", []) if isinstance(drawn, dict) else drawn
-        return msgspec.convert(plain, cls, dec_hook=_array)
+        return msgspec.convert(plain, cls, dec_hook=_array, strict=False)  # strict: no number may be a word
 
     @classmethod
     def schema(cls) -> dict[str, Any]:
@@ -127,14 +135,34 @@ class DiagnosisData:
             parts.pop(name)
         return {
             "$schema": "https://json-schema.org/draft/2020-12/schema", **top, "title": "diagnosis.json",
-            "properties": {"format": {"const": FORMAT}, **kept}, "required": ["format", *top["required"]],
-            "$defs": parts,
+            "properties": {"format": {"const": FORMAT}, **_with_words(kept)}, "required": ["format", *top["required"]],
+            "$defs": {**_with_words(parts), "Number": NUMBER},
         }  # fmt: skip
 
 
 def _text(plain: Mapping[str, Any]) -> bytes:
-    encoded = msgspec.json.encode(msgspec.to_builtins(plain, enc_hook=_plain))
+    encoded = msgspec.json.encode(_in_words(msgspec.to_builtins(plain, enc_hook=_plain)))
     return msgspec.json.format(encoded, indent=1) + b"\n"
+
+
+def _in_words(plain: Any) -> Any:
+    """The same with a word in the place of each number that JSON does not have: null is what is not known."""
+    if isinstance(plain, dict):
+        return {name: _in_words(value) for name, value in plain.items()}
+    if isinstance(plain, list | tuple):
+        return [_in_words(value) for value in plain]
+    return repr(plain) if isinstance(plain, float) and not np.isfinite(plain) else plain
+
+
+def _with_words(schema: Any) -> Any:
+    """A schema in which each number is a NUMBER."""
+    if isinstance(schema, list):
+        return [_with_words(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    if schema.get("type") == "number":
+        return {"$ref": "#/$defs/Number", **{name: rule for name, rule in schema.items() if name != "type"}}
+    return {name: _with_words(part) for name, part in schema.items()}
 
 
 def _plain(value: Any) -> Any:

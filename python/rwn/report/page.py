@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import re
 from collections.abc import Iterator, Sequence
 from html import escape
@@ -99,7 +100,9 @@ def _facts(found: DiagnosisData) -> str:
         names = "this name" if len(found.effects) == 1 else "the least sure of these names"
         facts.append((words.likelihood(likely), f"probability of {names}"))
     elif found.verdict == "unexplained":
-        facts.append((f"{words.number(found.remainder.error**0.5, 2)} × noise", "is left, rms, and has no name here"))
+        left = found.remainder.error**0.5
+        times = f"{words.number(left, 2)} × noise" if math.isfinite(left) else "a motion that ran away"
+        facts.append((times, "is left, rms, and has no name here"))
     elif found.adequate_probability is not None:
         facts.append((words.likelihood(found.adequate_probability), "probability that nothing is missing"))
     row = headline(found)

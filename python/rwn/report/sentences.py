@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -23,7 +24,7 @@ from rwn.report.text import (
     unknown_name,
 )
 
-FAR_OFF = 2.0  # error in units of the noise, from which three quarters of its square are something else
+STANDS_OUT = 2.0  # error in units of the noise, from which three quarters of its square are something else
 SLIGHT = 0.005  # share of a mismatch or an error that is not worth a sentence
 
 
@@ -96,13 +97,15 @@ def _more_than_noise(found: DiagnosisData) -> Iterator[str]:
     """Where an adequate model fails on what it was not fitted to, by the signal that fails most."""
     rows = [row for row in found.heldout if row.region == "all" and row.signal != "position"]
     row = max(rows, key=over_noise, default=None)
-    if row is not None and over_noise(row) > FAR_OFF:
+    if row is not None and over_noise(row) > STANDS_OUT:
         where = f"the {row.signal} error is {number(over_noise(row), 2)} times its noise"
+        where = where if math.isfinite(row.left) else f"the simulated {row.signal} runs away"
         yield f"But on {recording_in_words(row.recording)}, {where}: that run shows what the fitted ones do not."
 
 
 def _unexplained(found: DiagnosisData) -> tuple[str, ...]:
-    what = found.location.description or f"something in the {found.equation} equation"
+    somewhere = f"something in the {found.equation} equation" if found.equation else "the motion is not followed"
+    what = found.location.description or somewhere
     drawn = (f"In corrected.toml stands for it: {found.stand_in}.",) if found.stand_in else ()
     joint = "; it is" if what.startswith(STRONGEST) else ":"
     return (f"Something is missing that has no name here{joint} {what}.", *drawn, *_proof(found, "Adding that"))
@@ -135,21 +138,29 @@ def headline(found: DiagnosisData) -> HeldoutRow | None:
 def before_after(row: HeldoutRow) -> tuple[str, str]:
     """The two errors that a proof compares: refitted and corrected, or where nothing is added as given and refitted."""
     before, after = (row.nominal, row.refitted) if row.corrected is None else (row.refitted, row.corrected)
-    scale, unit = prefix_for(max(before, after), row.unit)
-    return f"{number(before * scale)} {unit}".strip(), f"{number(after * scale)} {unit}".strip()
+    scale, unit = row_prefix(row)
+    return error_in_words(before, scale, unit), error_in_words(after, scale, unit)
+
+
+def row_prefix(row: HeldoutRow) -> tuple[float, str]:
+    """Scale and unit of the larger of the two errors that the proof compares, so that table and headline are alike."""
+    pair = (row.nominal, row.refitted) if row.corrected is None else (row.refitted, row.corrected)
+    return prefix_for(max((e for e in pair if math.isfinite(e)), default=0.0), row.unit)
+
+
+def error_in_words(error: float, scale: float, unit: str) -> str:
+    """An error in a unit, or that the simulation ran away."""
+    return f"{number(error * scale)} {unit}".strip() if math.isfinite(error) else "ran away"
 
 
 def over_noise(row: HeldoutRow) -> float:
     """The error that stays, in units of the signal's noise; 0 where that is not known."""
-    error = row.refitted if row.corrected is None else row.corrected
-    return error / row.noise_floor if row.noise_floor else 0.0
+    return row.left / row.noise_floor if row.noise_floor else 0.0
 
 
 def worse(row: HeldoutRow) -> bool:
     """Whether the correction certainly raises this error."""
-    if row.gain is None:
-        return False
-    return row.gain < 0.0 if row.gain_interval is None else row.gain_interval[1] < 0.0
+    return row.certain_gain[1] < 0.0
 
 
 def recording_in_words(name: str) -> str:
@@ -161,25 +172,40 @@ def recording_in_words(name: str) -> str:
 
 def _proof(found: DiagnosisData, how: str) -> Iterator[str]:
     row = headline(found)
-    if row is None or row.gain is None:
+    if row is None or row.corrected is None:
         return
-    before, after = before_after(row)
-    where = f"the {row.signal} error on {recording_in_words(row.recording)},"
-    if abs(row.gain) < SLIGHT:
-        yield f"{how} changes nothing in {where} {after}: something larger is off there."
-    else:
-        does = "reduces" if row.gain >= 0 else "increases"
-        yield f"{how} {does} {where} from {before} to {after} ({percent(abs(row.gain))})."
+    yield _compared(row, row.corrected, how)
     for other in found.heldout:
         if other is not row and other.region == "all" and worse(other):
             before, after = before_after(other)
-            yield f"But the {other.signal} error on {other.recording} gets worse, from {before} to {after}."
+            if math.isfinite(other.left):
+                yield f"But the {other.signal} error on {other.recording} gets worse, from {before} to {after}."
+            else:
+                yield f"But the simulated {other.signal} on {other.recording} runs away."
         elif _hides(row, other):
             after, times = before_after(other)[1], number(over_noise(other), 2)
-            yield f"The {other.signal} error there is still {times} times its noise, {after}."
+            still = f"error there is still {times} times its noise, {after}"
+            yield f"The {other.signal} {still if math.isfinite(other.left) else 'there runs away with and without it'}."
+
+
+def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
+    """What a correction does to the error of one recording."""
+    before, after = before_after(row)
+    there = f"on {recording_in_words(row.recording)},"
+    where = f"the {row.signal} error {there}"
+    if not math.isfinite(corrected):
+        left = "makes" if math.isfinite(row.refitted) else "does not keep"
+        return f"{how} {left} the simulated {row.signal} {there} {'run' if left == 'makes' else 'from running'} away."
+    if not math.isfinite(row.refitted):
+        return f"{how} keeps the simulated {row.signal} {there} from running away: its error is {after}."
+    if corrected == row.refitted or (row.gain is not None and abs(row.gain) < SLIGHT):
+        return f"{how} changes nothing in {where} {after}: something larger is off there."
+    does = "increases" if (corrected > row.refitted if row.gain is None else row.gain < 0.0) else "reduces"
+    share = f" ({percent(abs(row.gain))})" if row.gain is not None else ""
+    return f"{how} {does} {where} from {before} to {after}{share}."
 
 
 def _hides(row: HeldoutRow, other: HeldoutRow) -> bool:
     """Whether the headline says nothing of what is left in another signal; a position adds up what the speed shows."""
     beside = (other.recording, other.region) == (row.recording, "all") and other.signal not in (row.signal, "position")
-    return beside and over_noise(other) > max(FAR_OFF, over_noise(row))
+    return beside and over_noise(other) > max(STANDS_OUT, over_noise(row))

@@ -11,7 +11,7 @@ from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding
 from rwn.report import text as words
 from rwn.report.diagnosis_data import DiagnosisData, Source
-from rwn.report.sentences import worse
+from rwn.report.sentences import error_in_words, row_prefix, worse
 
 UNLIKELY = 0.01  # probability below which another explanation is none
 
@@ -129,8 +129,8 @@ def heldout_table(rows: Sequence[HeldoutRow]) -> str:
 
 def _heldout_row(row: HeldoutRow) -> list[str]:
     errors = (row.nominal, row.refitted, row.corrected, row.noise_floor)
-    scale, unit = words.prefix_for(_compared(row), row.unit)
-    shown = ["–" if e is None else f"{words.number(e * scale)}&nbsp;{escape(unit)}" for e in errors]
+    scale, unit = row_prefix(row)
+    shown = ["–" if e is None else escape(error_in_words(e, scale, unit)).replace(" ", "&nbsp;") for e in errors]
     said = (0, 1) if row.corrected is None else (1, 2)
     shown = [f"<b>{text}</b>" if k in said else text for k, text in enumerate(shown)]
     gain = "–" if row.gain is None else words.percent(row.gain).replace("-", "−")
@@ -141,11 +141,6 @@ def _heldout_row(row: HeldoutRow) -> list[str]:
     if worse(row):
         gain = f'<b class="flag">▲ worse</b> {gain}'
     return [escape(row.recording), escape(row.region), escape(row.signal), str(row.samples), *shown, gain]
-
-
-def _compared(row: HeldoutRow) -> float:
-    """The larger of the two errors that the proof compares: the table has the same prefix as the headline."""
-    return max(row.nominal, row.refitted) if row.corrected is None else max(row.refitted, row.corrected)
 
 
 def parameter_table(found: DiagnosisData) -> str:

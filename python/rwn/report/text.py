@@ -98,6 +98,8 @@ def _rounded_together(value: float, half: float) -> tuple[str, str, str]:
 def percent(share: float) -> str:
     """A share as a percentage with no more digits than it deserves."""
     value = 100 * share
+    if not math.isfinite(value):
+        return "–"
     if 99 <= abs(value) < 100:
         return f"{value:.1f} %" if abs(value) < 99.95 else ("−" if value < 0 else "") + "> 99.9 %"
     return f"{value:.0f} %" if abs(value) >= 10 or value == 0 else f"{value:.1f} %"
@@ -105,6 +107,8 @@ def percent(share: float) -> str:
 
 def likelihood(probability: float) -> str:
     """A probability as a percentage that never claims certainty."""
+    if math.isnan(probability):
+        return "–"
     return "> 99 %" if probability > 0.99 else "< 1 %" if probability < 0.01 else percent(round(probability, 2))
 
 

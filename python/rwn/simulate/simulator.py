@@ -19,6 +19,8 @@ from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
+RAN_AWAY = 1e100  # size of a signal, in SI, at which a simulation is cut, so that errors can be squared
+
 
 @dataclass(frozen=True, kw_only=True)
 class Output:
@@ -86,7 +88,7 @@ class Simulator:
     def simulate(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:
         """Signals (n,) of a run under the effects `active`, and their derivatives by the parameters `by`.
 
-        `vector` holds the start of the run (`started`); speed is as it was measured.
+        `vector` holds the start of the run (`started`); speed is as it was measured. Signals end at RAN_AWAY.
         """
         status, *arrays = _core.simulate(self.task(run), _of_core(vector), list(active), list(by), self.work)
         signals = dict(zip(MEASURED, arrays[:3], strict=True))
@@ -94,7 +96,8 @@ class Simulator:
         if run.speed_measured.is_difference:
             signals["speed"] = difference(run.speed_measured, run.time, signals["position"])
             slopes["speed"] = difference(run.speed_measured, run.time, slopes["position"])
-        return Output(status=status, signals=signals, slopes=slopes)
+        within = {signal: np.clip(values, -RAN_AWAY, RAN_AWAY) for signal, values in signals.items()}
+        return Output(status=status, signals=within, slopes=slopes)
 
     def normal_equations(
         self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int], *, noise: Mapping[str, Noise],

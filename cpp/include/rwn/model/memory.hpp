@@ -5,7 +5,7 @@
 
 namespace rwn {
 
-inline constexpr int max_memories = 8;
+inline constexpr int max_memories = 16;  // of all effects together: every one may act at once
 
 /// Room for max_memories numbers, of which only those in use are copied with the state that they belong to.
 template <class S>

@@ -24,7 +24,7 @@ Complex = NDArray[np.complex128]
 
 MAINS = (50.0, 60.0)  # Hz
 ORDERS = (1, 2, 3, 4, 5, 7)  # harmonics; a rectifier makes the even ones
-LOWEST = (1, 2)  # of which hum has one at least
+LOWEST = (1, 2)  # harmonics of which hum has one at least
 CLOCK = 0.002  # how far a line may lie off, relatively: the mains 0.1 Hz, and a logger's clock as much
 LEVEL = 0.001  # chance of hum in a signal without it: 1 % of a diagnosis, of some ten signals
 TAPERS = 7  # of which the odd ones see a line; each line takes a band of (TAPERS + 1) / length
