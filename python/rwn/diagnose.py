@@ -16,6 +16,7 @@ from rwn.errors import InputError
 from rwn.faults.explain import Explained, explained
 from rwn.faults.fault import without
 from rwn.faults.late_enable import LateEnable, late_beside, powered
+from rwn.fit.nominal import check_it_runs
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
@@ -59,6 +60,7 @@ def diagnose(
 
     Raises:
         InputError: where a recording is not usable, does not fit the model, or is given twice.
+        NoResultError: where the refitted model cannot be simulated over a recording that is fitted.
     """
     began = time.perf_counter()
     say = progress or _silent
@@ -100,6 +102,7 @@ def _decided(
     say: Progress,
 ) -> _Case:  # fmt: skip
     found = explained(recordings, model, say=say, effort=effort)
+    check_it_runs(found.ranking.problem, found.ranking.nominal)
     say("proving it on data that were not fitted", AFTER_SEARCH)
     for fault in found.faults:
         heldout = without(heldout, fault)
