@@ -53,7 +53,7 @@ def diagnose(
         jobs: threads (default: all processors); the result does not depend on it.
         effort: what the search may cost, as a multiple of the usual; a warning says what was not tried for it. Where
             what was found explains too little, a search of three times that follows.
-        progress: called with what is being done and how far it is, 0 to 1.
+        progress: called with what is being done and how far it is, 0 to 1; a search that follows begins at 0 again.
 
     Returns:
         The verdict, located region, named effects with intervals, corrected model and the curves that show it.
@@ -73,8 +73,8 @@ def diagnose(
     with thread_pool(jobs or os.cpu_count() or 1):
         case = _decided(recordings, heldout, model, seed=seed, effort=effort, say=say)
         if case.decision.is_poor:
-            say(f"what was found explains too little: searching {LONGER:g} times as long", AFTER_SEARCH)
-            longer = _decided(recordings, heldout, model, seed=seed, effort=LONGER * effort, say=_after(say))
+            say(f"what was found explains too little: searching {LONGER:g} times as long", 0.0)
+            longer = _decided(recordings, heldout, model, seed=seed, effort=LONGER * effort, say=say)
             case = min(case, longer, key=lambda c: c.decision.remainder.error)
         say("correcting the model", 0.9)
         found, model = case.found, case.found.model
@@ -111,11 +111,6 @@ def _decided(
     unseen = measured_alike([judging_run(r, found.model) for r in heldout], found.ranking.problem.whole)
     decision = decide(found.ranking, unseen, found.model, seed=seed)
     return _Case(found=found, late=late, unseen=unseen, decision=decision)
-
-
-def _after(say: Progress) -> Progress:
-    """Progress of what comes once more, after the rest of the search."""
-    return lambda what, done: say(what, max(done, AFTER_SEARCH))
 
 
 def _check_options(seed: int, jobs: int | None, effort: float) -> None:
