@@ -16,7 +16,9 @@ from rwn.errors import InputError
 from rwn.faults.explain import Explained, explained
 from rwn.faults.fault import without
 from rwn.faults.late_enable import LateEnable, late_beside, powered
+from rwn.fit.declared import check_declared
 from rwn.fit.nominal import check_it_runs
+from rwn.fit.preparation import prepare
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
@@ -70,6 +72,8 @@ def diagnose(
     refuse_doubles([*fitted, *judged])
     recordings, findings = inspected(fitted)
     heldout, unseen_findings = inspected(judged)
+    if model.effects:
+        check_declared(prepare(recordings, model), model)
     with thread_pool(jobs or os.cpu_count() or 1):
         case = _decided(recordings, heldout, model, seed=seed, effort=effort, say=say)
         if case.decision.is_poor:
