@@ -167,6 +167,8 @@ def _proof(found: DiagnosisData, how: str) -> Iterator[str]:
     where = f"the {row.signal} error on {recording_in_words(row.recording)},"
     if abs(row.gain) < SLIGHT:
         yield f"{how} changes nothing in {where} {after}: something larger is off there."
+    elif row.gain_interval is not None and row.gain_interval[0] <= 0.0 <= row.gain_interval[1]:
+        yield f"{how} changes little for certain: {where} goes from {before} to {after}."
     else:
         does = "reduces" if row.gain >= 0 else "increases"
         yield f"{how} {does} {where} from {before} to {after} ({percent(abs(row.gain))})."
