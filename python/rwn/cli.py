@@ -51,7 +51,7 @@ def diagnose(
     overwrite: Overwrite = False,
     profile: Profile = None,
 ) -> None:
-    """Locate the mismatch, name the missing physics, model it and show that the simulation improves."""
+    """Locate the mismatch, name the missing physics, model it and show that it helps; exit code 3: it does not run."""
     from rwn.model.recordings import read_recordings
     from rwn.report.files import output_folder
     from rwn.report.provenance import source

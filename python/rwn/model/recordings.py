@@ -40,9 +40,30 @@ def check_recording(recording: Recording, model: Model, *, compared: bool = True
             expected="rad and rad/s" if wants == "rotary" else "m and m/s",
             fix="set linear in [motor], or map the column with a scale such as 0.01 m/rad",
         )
+    _check_sensors(recording, model, where)
     moved = _check_movement(recording, model, where) if compared else ()
     warnings = (*recording.warnings, *moved)
     return replace(recording, warnings=tuple(dict.fromkeys(warnings)))
+
+
+# Largest delay or time constant of a sensor: of more than a tenth of a run too little would be left to compare. In a
+# short run the 40 rows up to which `diagnose` looks for a delay itself (LONGEST_SHIFT), so that it reads what it wrote.
+_SHARE, _ROWS = 0.1, 40
+
+
+def _check_sensors(recording: Recording, model: Model, where: str) -> None:
+    step = float(np.median(np.diff(recording.time)))
+    most = max(_SHARE * recording.duration, min(_ROWS * step, 0.8 * recording.duration))
+    layout = model.recording
+    for kind, times in (("delays", layout.delays), ("filters", layout.filters)):
+        for signal, time in times.items():
+            if signal in recording.signals and not abs(time) <= most * (1.0 + 1e-9):
+                raise InputError(
+                    f"{time:g} s, where {where} lasts {recording.duration:g} s",
+                    where=f"{model.source or 'model'}, [recording] {kind}.{signal}",
+                    expected=f"at most {most:.3g} s: a tenth of a recording, or {_ROWS} rows",
+                    fix='correct the value or its unit: a number is in s, "4 ms" is text',
+                )
 
 
 def _missing(recording: Recording, name: str, why: str) -> InputError:
