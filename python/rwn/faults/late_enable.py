@@ -19,12 +19,11 @@ from rwn.fit.nominal import nominal_of
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import worth
 from rwn.fit.problem import Problem
-from rwn.model.initial_state import CERTAIN
+from rwn.model.initial_state import CERTAIN, resolution
 from rwn.model.model import Model
 from rwn.name.observable import observable
 from rwn.name.screening import screen
 from rwn.recording.inspection import Finding
-from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording, beginnings
 from rwn.simulate.run import Run, run_of
 
@@ -153,10 +152,20 @@ def _first_moved(signal: Array) -> int:
     sums, squares = np.cumsum(off)[half - 1], np.cumsum(off**2)[half - 1]
     middle = sums / half
     rms = np.sqrt(np.maximum(squares / half - middle**2, 0.0))
-    limit = np.maximum(stdtrit(half, ndtr(CERTAIN)) * rms, CERTAIN * quantum(signal))
+    limit = np.maximum(stdtrit(half, ndtr(CERTAIN)) * rms, CERTAIN * _least_change(signal))
     moved = (int(k) for k in np.flatnonzero(np.abs(off - middle) > limit) if k >= FEWEST)
     lasting = (k for k in moved if np.median(np.abs(off[k : 2 * k + 1] - middle[k])) > limit[k])
     return next(lasting, signal.size - 1)
+
+
+def _least_change(signal: Array) -> float:
+    """What a signal (n,) that stood still may change by at once, also where it was constant until then: a step or so.
+
+    Rows between values of coarse steps lie on no steps themselves: then a change that nine of ten changes exceed.
+    """
+    changes = np.abs(np.diff(signal))
+    changes = changes[changes > 0.0]
+    return max(resolution(signal, signal.size), float(np.quantile(changes, 0.1)) if changes.size else 0.0)
 
 
 def _worthwhile(
