@@ -59,7 +59,7 @@ RECORDINGS: dict[str, tuple[Callable[[], Any], str]] = {
     "no recording but a number": (lambda: 3, "cannot be read from the int"),
     "no recording but None": (lambda: None, "cannot be read from the NoneType"),
     "a file that is not there": (lambda: "nowhere.csv", "no such file"),
-    "a table without units": (lambda: {"time": TIME, "voltage": VOLTAGE}, "has no unit"),
+    "a table without units": (lambda: {"time": TIME, "voltage": VOLTAGE}, "'time', 'voltage' have no unit"),
     "a table without a known column": (lambda: {"a": TIME}, "no column is called like a signal"),
 }
 COMPARED: dict[str, tuple[Callable[[], Any], str]] = {

@@ -13,7 +13,17 @@ from numpy.typing import NDArray
 
 from rwn.errors import InputError
 from rwn.recording.check import check_lengths, check_samples
-from rwn.recording.columns import Layout, column_map, in_si, is_linear, no_unit, si_unit, units_of, unused
+from rwn.recording.columns import (
+    Layout,
+    column_map,
+    in_si,
+    is_linear,
+    no_unit,
+    refuse_without_units,
+    si_unit,
+    units_of,
+    unused,
+)
 from rwn.recording.formats import Table, read_table
 from rwn.recording.formats.frame import table_of_object
 from rwn.recording.formats.part import name_of
@@ -146,6 +156,7 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
     is_path = isinstance(source, str | Path)
     table = read_table(Path(source), layout.wanted) if is_path else table_of_object(source, layout.wanted)
     mapping = column_map(table, layout)
+    refuse_without_units(table, mapping)
     linear = is_linear(table, mapping)
     values = {name: in_si(table, name, column, linear=linear) for name, column in mapping.items()}
     time = values.pop(TIME.name, None)
