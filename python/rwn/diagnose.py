@@ -67,6 +67,8 @@ def diagnose(
     began = time.perf_counter()
     say = progress or _silent
     _check_options(seed, jobs, effort)
+    if not callable(say):
+        raise InputError(f"progress is {say!r}", where="diagnose", expected="a function", fix="pass progress=print")
     model = model_of(model)
     fitted, judged = recordings_to_fit(recordings, model), read_recordings(heldout, model)
     refuse_doubles([*fitted, *judged])

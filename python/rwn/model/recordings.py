@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rwn.errors import InputError
+from rwn.model.files import model_of
 from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
 from rwn.recording.check import MIN_SAMPLES, SMALLEST, check_samples
@@ -100,12 +102,13 @@ def _check_movement(recording: Recording, model: Model, where: str) -> tuple[str
     return (f"{where}: '{drive.input}' is constant: a single step says little about what is missing",)
 
 
-def read_recordings(sources: Any, model: Model, *, compared: bool = True) -> list[Recording]:
+def read_recordings(sources: Any, model: Model | str | Path, *, compared: bool = True) -> list[Recording]:
     """Read and check every recording against the model.
 
-    `sources`: one or several of paths, tables in Python (see `read_recording`) and recordings. `compared`: see
-    `check_recording`. Raises InputError, also for a recording that is given twice.
+    `sources`: one or several of paths, tables in Python (see `read_recording`) and recordings; `model`: a model or its
+    file. `compared`: see `check_recording`. Raises InputError, also for a recording that is given twice.
     """
+    model = model_of(model)
     recordings = [
         check_recording(
             one if isinstance(one, Recording) else read_recording(one, layout=model.recording), model, compared=compared

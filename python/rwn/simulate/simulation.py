@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +18,16 @@ from rwn.model.recordings import read_recordings
 from rwn.recording.columns import Layout
 from rwn.recording.delays import delayed
 from rwn.recording.filters import as_filtered
+from rwn.recording.recording import table_of_signals
 from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import Run, run_of
 from rwn.simulate.simulator import Simulator
 from rwn.values import Values
+
+if TYPE_CHECKING:
+    import pandas
 
 Array = NDArray[np.float64]
 
@@ -36,6 +40,15 @@ class Simulation(Values):
     signals: Mapping[str, Array]
     status: str
     advice: str
+    linear: bool = False
+
+    def table(self) -> pandas.DataFrame | dict[str, Array]:
+        """Time and signals (n_t,) as columns `speed [rad/s]` in SI, which `read_recording` takes.
+
+        A dictionary of arrays where pandas is not installed.
+        """
+        found: pandas.DataFrame | dict[str, Array] = table_of_signals(self.time, self.signals, linear=self.linear)
+        return found
 
     def __repr__(self) -> str:
         return f"<Simulation {self.status}: {', '.join(self.signals)}; {len(self.time)} samples>"
@@ -77,6 +90,7 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
         signals={name: _as_logged(name, run, _held(values), model.recording) for name, values in shown.items()},
         status=status,
         advice=_core.simulation_advice(status),
+        linear=model.linear,
     )
 
 
