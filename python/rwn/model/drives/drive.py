@@ -65,7 +65,7 @@ _TABLE = {row["name"]: row for row in _core.motor_parameter_table()}
 def nominal(
     name: str, *, linear_unit: str = "", positive: bool = False, required: bool = True
 ) -> NominalParameter:
-    """A parameter of the motor, with unit and meaning as the core states them (drive.hpp)."""
+    """A parameter of the motor, with unit and meaning as the core states them (motor.hpp)."""
     row = _TABLE[name]
     return NominalParameter(
         name=name, unit=row["unit"], meaning=row["meaning"], linear_unit=linear_unit, positive=positive,
