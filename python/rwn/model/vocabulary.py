@@ -133,6 +133,11 @@ def motor_index(name: str) -> int:
     return _positions()[name]
 
 
+def motor_values(vector: NDArray[np.float64]) -> dict[str, float]:
+    """The motor's own parameters by name, of a parameter vector (all,)."""
+    return {name: vector[k] for k, name in enumerate(motor_parameters())}
+
+
 def state_indices(order: int) -> list[int]:
     """Positions of the initial state x1, x2, .. of a transfer function in the parameter vector."""
     return [_positions()[f"x{i + 1}"] for i in range(order)]

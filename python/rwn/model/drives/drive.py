@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.errors import InputError, unknown
+from rwn.recording.signals import SIGNALS
+
+Numbers = TypeVar("Numbers", float, NDArray[np.float64])
 
 SITES = frozenset({"torque", "load", "voltage", "flux", "actuator", "sensor"})
 
@@ -47,6 +53,30 @@ class Drive:
     def nominal(self, order: int) -> tuple[NominalParameter, ...]:  # noqa: ARG002
         """The nominal parameters that a model of this kind can have; `order`: of a transfer function."""
         return self.parameters
+
+    @property
+    def input_unit(self) -> str:
+        """The SI unit of the input."""
+        signal = SIGNALS[self.input]
+        return signal.linear_unit if self.linear else signal.unit
+
+    def driving_torque(self, motor: Mapping[str, float], current: Numbers, given: Numbers) -> Numbers:  # noqa: ARG002
+        """What drives the mechanics [N m] at a current [A] and an input; numbers or (n,) each.
+
+        `motor`: values of its parameters, here and below.
+        """
+        return given
+
+    def resting_current(self, motor: Mapping[str, float], speed: Numbers, given: Numbers) -> Numbers:
+        """The current [A] at which a winding is at rest with a speed [rad/s] under an input; numbers or (n,) each.
+
+        Raises NotImplementedError where there is no winding.
+        """
+        raise NotImplementedError(f"a {self.kind} has no winding")
+
+    def speed_damping(self, motor: Mapping[str, float]) -> float:  # noqa: ARG002
+        """Torque [N m] per speed [rad/s] by which what drives it brakes, beside the friction."""
+        return 0.0
 
     def read(self, motor: Mapping[str, Any], *, where: str) -> tuple[dict[str, Any], int]:
         """What [motor] gives, as parameter -> value with or without a unit, and the order. Raises InputError."""
