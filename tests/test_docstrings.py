@@ -18,7 +18,14 @@ import pytest
 
 import rwn
 
-SHAPE = r"\(\w[\w +]*,[\w +,]*\)|elementwise|as `(?:parameters|theta)`|order of `parameters`"
+WORDS = (  # of dimensions, beside single letters and numbers
+    "all", "columns", "count", "cycles", "groups", "inputs", "iterations", "n_parameters", "n_t", "order", "outputs",
+    "parameters", "patterns", "wavelets",
+)  # fmt: skip
+DIMENSION = rf"(?:\d+ \+ )?(?:\d+ )?(?:\d+|[A-Za-z]|{'|'.join(WORDS)})(?: \+ \d+)?"  # n, cycles + 1, 5 + 4 wavelets
+SHAPE = (
+    rf"\({DIMENSION}(?:,|(?:, {DIMENSION})+)\)|elementwise|as `(?:parameters|theta)`|order of `parameters`"
+)
 UNITS = {"voltage": "[V]", "speed": "[rad/s]", "current": "[A]", "torque": "[N m]", "time": "[s]", "sample_time": "[s]"}
 ARRAY = re.compile(r"\b(ArrayLike|Array|NDArray)\b")
 
@@ -77,6 +84,18 @@ def test_the_modules_are_looked_at() -> None:
     assert len(MODULES) > 500
     assert "rwn.fit.fit.refit" in MODULES
     assert "rwn.name.starts.Attempt.cost" in MODULES
+
+
+@pytest.mark.parametrize("text", ["(n,)", "(n, p)", "(2, 2)", "(5 + 4 wavelets,)", "(cycles + 1, 5)", "(n_t, n)"])
+def test_a_shape_is_one(text: str) -> None:
+    assert re.fullmatch(SHAPE, text)
+
+
+@pytest.mark.parametrize(
+    "text", ["(after Politis, White 2004)", "(error, driving force)", "(centre, dilation)", "(a, then held)", "(n)"]
+)
+def test_prose_in_brackets_is_no_shape(text: str) -> None:
+    assert not re.search(SHAPE, text)
 
 
 @pytest.mark.parametrize("name", MODULES)

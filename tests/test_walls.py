@@ -36,6 +36,30 @@ def test_few_modules_stand_at_the_top() -> None:
     assert len(list(Path(rwn.__file__).parent.glob("*.py"))) <= 12
 
 
+# What the headers and sources of each room of C++ include of other rooms; the kernels are built once per processor.
+ROOMS: dict[str, set[str]] = {
+    "numerics": set(),
+    "kernels": set(),
+    "networks": {"numerics", "kernels"},
+    "model": {"numerics"},
+    "simulate": {"numerics", "model"},
+    "fit": {"numerics", "kernels", "simulate"},
+}
+
+
+def test_the_rooms_of_c_plus_plus_include_what_they_may() -> None:
+    """No circles, and a wall that is gone is gone from the list."""
+    taken: dict[str, set[str]] = {room: set() for room in ROOMS}
+    for place in ("cpp/include/rwn", "cpp/src"):
+        for path in (ROOT / place).rglob("*.[ch]pp"):
+            room = path.relative_to(ROOT / place).parts[0]
+            included = re.findall(r'^#include "rwn/(\w+)/', path.read_text(encoding="utf-8"), re.MULTILINE)
+            taken[room] |= set(included) - {room}
+    assert taken == ROOMS
+    for room, others in ROOMS.items():
+        assert not any(room in ROOMS[other] for other in others)
+
+
 LONGEST_FILE, LONGEST_FUNCTION = 300, 60  # lines: what a reader can hold at once
 SOURCES = [p for top in ("python", "cpp", "tests", "bench", "tools") for p in (ROOT / top).rglob("*.[chp][py]*")]
 SOURCES = [path for path in SOURCES if path.suffix in (".py", ".cpp", ".hpp")]

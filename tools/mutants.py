@@ -30,7 +30,7 @@ UNITS = {
     "cpp/kernels/recurrent_bounds.hpp": (RECURRENT,),
     "cpp/kernels/recurrent_step.cpp": (RECURRENT,),
     # the batch trainers, which call it too, keep the right one: their tests cannot help
-    "cpp/include/rwn/networks/plant_gain.hpp": (STRUCTURED, "cpp/tests/networks/structured_network_test.cpp"),
+    "cpp/include/rwn/kernels/plant_gain.hpp": (STRUCTURED, "cpp/tests/networks/structured_network_test.cpp"),
 }
 TESTS = "*ecurrent*:*tructured*:*ThesisRates*:*PlantGain*:*SideBySide*:*side_by_side*"
 # pattern, replacement, what it does; applied to one place of one line

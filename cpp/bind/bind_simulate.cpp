@@ -60,6 +60,7 @@ py::dict describe_effect() {
   d["source"] = std::string(E::info.source);
   d["parameters"] = describe_all(E::parameters);
   d["turns"] = E::traits.turns;
+  d["one_sided"] = E::traits.one_sided;
   d["second_mass"] = has(E::traits.hooks, Hook::joint);
   d["guess"] = std::string(to_string(E::traits.guess));
   d["special_case"] = std::string(E::traits.special_case);

@@ -3,7 +3,7 @@
 
 #include "rwn/numerics/pack.hpp"
 #include "rwn/kernels/structured_step.hpp"
-#include "rwn/networks/plant_gain.hpp"
+#include "rwn/kernels/plant_gain.hpp"
 
 namespace rwn::RWN_ISA {
 

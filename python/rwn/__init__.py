@@ -1,4 +1,4 @@
-"""rwn: locate, name, model and prove what a DC-motor drive simulation leaves out."""
+"""rwn: name, model and prove what a DC-motor drive simulation leaves out, and draw where it lies."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
-Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="CSV or .mat files to fit to.")]
+Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="Files to fit to, of any format.")]
 ModelFile = Annotated[Path, typer.Option("--model", help="The nominal model (TOML).")]
 Profile = Annotated[
     str | None, typer.Option("--profile", help="The tool that exported the recordings: odrive, moteus, twincat ..")
@@ -51,7 +51,7 @@ def diagnose(
     overwrite: Overwrite = False,
     profile: Profile = None,
 ) -> None:
-    """Locate the mismatch, name the missing physics, model it and show that it helps; exit code 3: it does not run."""
+    """Name the missing physics, model it, show that it helps, draw where it lies; exit code 3: it does not run."""
     from rwn.model.recordings import read_recordings
     from rwn.report.files import output_folder
     from rwn.report.provenance import source

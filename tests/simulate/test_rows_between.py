@@ -7,8 +7,8 @@ import pytest
 
 import rwn
 from rwn.model.vocabulary import table
+from started_effects import started
 
-LEFT_OUT = "power-law-drag"  # its reference speed has no scale: at 1 rad/s the drawn drag is too steep for any row
 EXACT = 0.02
 
 
@@ -22,12 +22,11 @@ def _drawn(rng: np.random.Generator) -> tuple[rwn.Model, str]:
         motor |= {"resistance": rng.uniform(1.0, 4.0), "inductance": 10.0 ** rng.uniform(-5.0, -3.3)}
     sizes = {"torque": 0.1, "speed": 100.0, "voltage": 10.0, "current": 3.0, "inertia": motor["inertia"],
              "time_step": 2e-3, "duration": 3.0, "loss": 10.0}  # fmt: skip
-    names = [name for name in table() if name != LEFT_OUT]
+    names = list(table())
     effects = {}
     for name in rng.choice(names, int(rng.integers(0, 3)), replace=False):
-        parameters = table()[str(name)].parameters
-        effects[str(name)] = {p.name: p.start if p.fixed else p.start * p.scale.of(sizes) for p in parameters}
-        for p in parameters:
+        effects[str(name)] = started(table()[str(name)], sizes)
+        for p in table()[str(name)].parameters:
             motor.pop(p.replaces or "", None)
     return rwn.Model(kind=kind, parameters=motor, effects=effects), "voltage" if kind == "dc" else "torque"
 

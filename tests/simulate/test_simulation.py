@@ -10,6 +10,7 @@ import pytest
 import rwn
 from rwn.model.model import Model
 from rwn.model.vocabulary import Effect, table
+from started_effects import started
 
 # a small motor: the winding settles within half a sample
 MOTOR = {"resistance": 6.0, "inductance": 2e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 4e-5,
@@ -20,11 +21,6 @@ QUANTITIES = {  # that parameters are measured against
 }  # fmt: skip
 STEP, PARTS = 6e-4, 8
 EXACT = 1e-4
-JUMPS = ("sensor-quantization",)
-
-
-def _values(effect: Effect) -> dict[str, float]:
-    return {p.name: p.start if p.fixed else p.start * p.scale.of(QUANTITIES) for p in effect.parameters}
 
 
 def _run(effect: Effect, parts: int) -> tuple[np.ndarray, np.ndarray]:
@@ -35,14 +31,14 @@ def _run(effect: Effect, parts: int) -> tuple[np.ndarray, np.ndarray]:
     motor = dict(MOTOR)
     for parameter in effect.parameters:
         motor.pop(parameter.replaces or "", None)
-    model = Model(kind="dc", parameters=motor, effects={effect.name: _values(effect)})
+    model = Model(kind="dc", parameters=motor, effects={effect.name: started(effect, QUANTITIES)})
     signals = {"voltage": np.repeat(levels, parts)}
     done = rwn.simulate(model, rwn.Recording(name="fine.csv", time=time, signals=signals))
     assert done.status == "ok"
     return done.signals["current"][::parts], done.signals["speed"][::parts]
 
 
-@pytest.mark.parametrize("name", [n for n in table() if n not in JUMPS])
+@pytest.mark.parametrize("name", [n for n, effect in table().items() if not effect.jumps])
 def test_a_long_step_is_as_exact_as_short_ones(name: str) -> None:
     effect = table()[name]
     coarse, fine = _run(effect, 1), _run(effect, PARTS)
@@ -101,7 +97,7 @@ def test_no_measured_signal_drives_a_free_run(name: str) -> None:
     """Whatever is measured beyond the first samples, the simulation is the same."""
     effect, rng = table()[name], np.random.default_rng(9)
     motor = {k: v for k, v in MOTOR.items() if k not in {p.replaces for p in effect.parameters}}
-    model = Model(kind="dc", parameters=motor, effects={name: _values(effect)})
+    model = Model(kind="dc", parameters=motor, effects={name: started(effect, QUANTITIES)})
     voltage = np.repeat(rng.uniform(-10.0, 10.0, 12), 40)
     time = STEP * np.arange(voltage.size)
     input_alone = rwn.Recording(name="run.csv", time=time, signals={"voltage": voltage})

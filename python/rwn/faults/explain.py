@@ -9,6 +9,7 @@ from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.fault import Fault
 from rwn.faults.late_enable import LateEnable, late_enables, needed, powered, retimed
 from rwn.faults.resolve import resolved
+from rwn.fit.fit import Fit
 from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
 from rwn.fit.sensor_filter import stating_filters
 from rwn.fit.unrecorded_input import with_unrecorded_input
@@ -77,7 +78,8 @@ def explained(
     if stated is not model and stated.recording.intersample != HELD:  # what is missing may look like another law
         again = stating(stated, likeliest(ranking.problem, best))
     if (still, again) != (late, stated):
-        faults, ranking = resolved(_as_acted(powered(recordings, still, model), again), again, say=say, effort=effort)
+        as_acted = _as_acted(powered(recordings, still, model), again, None if faults else best)
+        faults, ranking = resolved(as_acted, again, say=say, effort=effort)
     for wrong in contradicted(ranking):
         free = without_declared(again, wrong)
         others, freed = resolved(_as_acted(powered(recordings, still, model), again), free, say=say, effort=effort)
@@ -88,5 +90,6 @@ def explained(
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)
 
 
-def _as_acted(recordings: Sequence[Recording], model: Model) -> list[Recording]:
-    return without_unknown(with_unrecorded_input(recordings, model), model)
+def _as_acted(recordings: Sequence[Recording], model: Model, best: Fit | None = None) -> list[Recording]:
+    """The recordings with their input as it acted under the best explanation so far; None: the nominal model."""
+    return without_unknown(with_unrecorded_input(recordings, model, best), model)

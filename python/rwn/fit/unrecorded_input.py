@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
+from rwn.fit.sensor_filter import refitted_beside
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE, PiecewiseInput
@@ -35,8 +36,12 @@ FINE = 8  # steps of a response per row
 ROUNDS = 2  # of fitting the model and the input
 
 
-def with_unrecorded_input(recordings: Sequence[Recording], model: Model) -> list[Recording]:
+def with_unrecorded_input(
+    recordings: Sequence[Recording], model: Model, explanation: Fit | None = None
+) -> list[Recording]:
     """The recordings with their input as it acted by the model's law and the motion.
+
+    `explanation`: of the motion, refitted; None: the nominal model, under which an input that acts late, say, is bent.
 
     Raises InputError where a recording does not fit the model.
     """
@@ -48,6 +53,8 @@ def with_unrecorded_input(recordings: Sequence[Recording], model: Model) -> list
     made = [replace(r, applied_input=a) for r, a in zip(recordings, applied, strict=True)]
     for _ in range(ROUNDS):
         problem, this = nominal_of(made, model)
+        if explanation is not None:
+            (this,) = refitted_beside([explanation], problem)
         left = problem.residuals(this.vector, this.active)
         for k, (run, given) in enumerate(zip(problem.runs, applied, strict=True)):
             if given is not None and given.spread.any() and not run.restart_every:

@@ -9,7 +9,6 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.model.drives.dc import resting_current
 from rwn.model.model import Model
 from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
@@ -124,5 +123,4 @@ def _first_slope(time: Array, position: Array, noise: float) -> tuple[float, flo
 
 def _steady_current(signals: Mapping[str, Array], speed: float, model: Model) -> float:
     """The current at which the winding is at rest with the speed."""
-    known = {name: model.motor[name] for name in ("resistance", "back_emf_constant")}
-    return resting_current(speed, float(signals[model.drive.input][0]), **known)
+    return model.drive.resting_current(model.motor, speed, float(signals[model.drive.input][0]))

@@ -132,13 +132,13 @@ class OwnEffect:
     def _names(self) -> dict[str, str]:
         """Every name that the equation may use, with its SI unit; a parameter's own name comes first."""
         linear = self.drive.linear
-        known = {name: unit[linear] or _input_unit(self.drive) for name, unit in VARIABLES.items()}
+        known = {name: unit[linear] or self.drive.input_unit for name, unit in VARIABLES.items()}
         nominal = {p.name: (p.linear_unit if linear else "") or p.unit for p in self.drive.parameters}
         return known | nominal | {p.name: p.unit for p in self.parameters}
 
     @property
     def _unit(self) -> str:
-        return TERMS[self.term][1 + self.drive.linear] or _input_unit(self.drive)
+        return TERMS[self.term][1 + self.drive.linear] or self.drive.input_unit
 
 
 def _step(
@@ -151,10 +151,6 @@ def _step(
         operation, place = known[step.name]
         return operation, 0.0, place
     return step.operation, step.number, 0
-
-
-def _input_unit(drive: Drive) -> str:
-    return {"voltage": "V", "torque": "N m", "force": "N"}[drive.input]
 
 
 def _check_parameter(p: OwnParameter, where: str) -> None:

@@ -74,10 +74,16 @@ class Effect:
     index: int  # in the C++ table; a user's own effects count on behind it
     first: int  # position of its first parameter in the parameter vector
     turns: bool = False  # whether it depends on the angle
+    one_sided: bool = False  # whether it tells a direction from the other, or an angle from its opposite
     second_mass: bool = False  # whether it brings one; there is room for one
     guess: str = "scan"  # where first guesses come from, besides what its parameters scan (effect.hpp)
     special_case: str = ""  # the simpler effect that it is at one value of a parameter
     own: bool = False  # defined by the user
+
+    @property
+    def jumps(self) -> bool:
+        """Whether a signal jumps from value to value under it, so that it has no slope to fit by."""
+        return self.guess == "values"
 
     @property
     def at_an_end(self) -> bool:
@@ -125,6 +131,11 @@ def table() -> Mapping[str, Effect]:
 def motor_index(name: str) -> int:
     """Position of a motor parameter, or of a coefficient of a transfer function, in the parameter vector."""
     return _positions()[name]
+
+
+def motor_values(vector: NDArray[np.float64]) -> dict[str, float]:
+    """The motor's own parameters by name, of a parameter vector (all,)."""
+    return {name: vector[k] for k, name in enumerate(motor_parameters())}
 
 
 def state_indices(order: int) -> list[int]:

@@ -217,7 +217,7 @@ def _any_certainly_worse(rows: Sequence[HeldoutRow]) -> bool:
 
 
 def gain_interval(before: Array, after: Array, *, seed: int, draws: int = DRAWS) -> tuple[float, float] | None:
-    """95 % interval of 1 - rms(after)/rms(before) by circular block bootstrap; None where no gain is known.
+    """95 % interval of 1 - rms(after)/rms(before), of errors (n,), by circular block bootstrap; None where it has none.
 
     Blocks of twice the correlation time of the longer-lived squared error (after Politis, White 2004).
     """

@@ -34,7 +34,7 @@ def needed_force(
 
 
 def force_error(simulator: Simulator, run: Run, vector: Array, active: Sequence[int]) -> tuple[Array, Array]:
-    """(error, driving force), decimated; empty where no position is recorded or the recording is too short."""
+    """Error and driving force (n,), decimated; empty where no position is recorded or the recording is too short."""
     from scipy.signal import butter, decimate, filtfilt  # late: scipy takes half a second to load
 
     step = run.sample_time

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
-from rwn.model.drives.dc import resting_current
 from rwn.model.drives.drive import Drive
-from rwn.model.vocabulary import motor_index
+from rwn.model.vocabulary import motor_values
 from rwn.recording.smoothing import smooth
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import Simulator
@@ -57,8 +56,7 @@ def unknown_inputs(
         speed=speed, acceleration=acceleration, current=current,
     )  # fmt: skip
     if drive.winding and not current.size:
-        known = {name: float(vector[motor_index(name)]) for name in ("resistance", "back_emf_constant")}
-        current = resting_current(speed, given, **known)
+        current = drive.resting_current(motor_values(vector), speed, given)
     return UnknownInputs(
         time=run.time,
         speed=speed,

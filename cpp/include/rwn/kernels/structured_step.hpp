@@ -2,7 +2,7 @@
 // Plain structs and function pointers only: this header is included by files built for different processors.
 #pragma once
 
-#include "rwn/networks/plant_gain.hpp"
+#include "rwn/kernels/plant_gain.hpp"
 
 namespace rwn {
 

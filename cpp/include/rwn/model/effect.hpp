@@ -82,6 +82,7 @@ struct EffectTraits {
   bool dry = false;              // contributes to the level of dry friction
   bool turns = false;            // depends on the angle
   bool loaded = false;           // depends on the torque that the drive transmits
+  bool one_sided = false;        // tells a direction from the other, or an angle from its opposite
   int memories = 0;              // numbers that it remembers from step to step
   Guess guess = Guess::scan;
   std::string_view special_case{};  // the simpler effect that it is at one value of a parameter, tried in its place

@@ -15,7 +15,7 @@ namespace rwn {
 inline constexpr int max_own_effects = 6;
 inline constexpr int max_own_parameters = 8;  // of one effect
 
-/// What the formula is; the equation is that of drive.hpp.
+/// What the formula is; the equation is that of motor.hpp.
 enum class Term { torque, friction, load, drop, resistance, flux, inductance, input, current, speed, position };
 inline constexpr std::string_view term_names[] = {"torque",     "friction", "load",    "drop",  "resistance", "flux",
                                                   "inductance", "input",    "current", "speed", "position"};

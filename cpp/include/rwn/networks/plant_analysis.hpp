@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "rwn/networks/plant_gain.hpp"
+#include "rwn/kernels/plant_gain.hpp"
 
 namespace rwn {
 

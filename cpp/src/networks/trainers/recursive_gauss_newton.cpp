@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "rwn/networks/plant_gain.hpp"
+#include "rwn/kernels/plant_gain.hpp"
 
 namespace rwn {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "rwn/networks/plant_gain.hpp"
+#include "rwn/kernels/plant_gain.hpp"
 #include "rwn/networks/trainers/structured_feeds.hpp"
 
 namespace rwn {

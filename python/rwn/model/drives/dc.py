@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from collections.abc import Mapping
+from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
+from rwn.model.drives.drive import MECHANICS, Drive, Numbers, nominal
 
-from rwn.model.drives.drive import MECHANICS, Drive, nominal
 
-Numbers = TypeVar("Numbers", float, NDArray[np.float64])
+@dataclass(frozen=True, kw_only=True)
+class Winding(Drive):
+    """A voltage drives a current, and that the shaft."""
 
-DC = Drive(
+    def driving_torque(self, motor: Mapping[str, float], current: Numbers, given: Numbers) -> Numbers:  # noqa: ARG002
+        """Kt i, of numbers or (n,)."""
+        return motor["torque_constant"] * current
+
+    def resting_current(self, motor: Mapping[str, float], speed: Numbers, given: Numbers) -> Numbers:
+        """Without inductance, of numbers or (n,): as that of the core's drive (drives/dc.hpp) without effects."""
+        return (given - motor["back_emf_constant"] * speed) / motor["resistance"]
+
+    def speed_damping(self, motor: Mapping[str, float]) -> float:
+        """Kt Ke / R, where the current is at rest with the speed."""
+        coupling = motor["torque_constant"] * motor["back_emf_constant"]
+        return coupling / motor["resistance"]
+
+
+DC = Winding(
     kind="dc",
     input="voltage",
     outputs=("speed", "position", "current"),
@@ -24,11 +39,3 @@ DC = Drive(
     ),
     winding=True,
 )
-
-
-def resting_current(speed: Numbers, voltage: Numbers, *, resistance: float, back_emf_constant: float) -> Numbers:
-    """The current [A] at which the winding is at rest with a speed [rad/s] under a voltage [V]; numbers or (n,) each.
-
-    As `resting_current` of the core's drive (cpp/include/rwn/model/drives/dc.hpp), without effects.
-    """
-    return (voltage - back_emf_constant * speed) / resistance

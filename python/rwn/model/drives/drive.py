@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.errors import InputError, unknown
+from rwn.recording.signals import SIGNALS
+
+Numbers = TypeVar("Numbers", float, NDArray[np.float64])
 
 SITES = frozenset({"torque", "load", "voltage", "flux", "actuator", "sensor"})
 
@@ -48,6 +54,30 @@ class Drive:
         """The nominal parameters that a model of this kind can have; `order`: of a transfer function."""
         return self.parameters
 
+    @property
+    def input_unit(self) -> str:
+        """The SI unit of the input."""
+        signal = SIGNALS[self.input]
+        return signal.linear_unit if self.linear else signal.unit
+
+    def driving_torque(self, motor: Mapping[str, float], current: Numbers, given: Numbers) -> Numbers:  # noqa: ARG002
+        """What drives the mechanics [N m] at a current [A] and an input; numbers or (n,) each.
+
+        `motor`: values of its parameters, here and below.
+        """
+        return given
+
+    def resting_current(self, motor: Mapping[str, float], speed: Numbers, given: Numbers) -> Numbers:
+        """The current [A] at which a winding is at rest with a speed [rad/s] under an input; numbers or (n,) each.
+
+        Raises NotImplementedError where there is no winding.
+        """
+        raise NotImplementedError(f"a {self.kind} has no winding")
+
+    def speed_damping(self, motor: Mapping[str, float]) -> float:  # noqa: ARG002
+        """Torque [N m] per speed [rad/s] by which what drives it brakes, beside the friction."""
+        return 0.0
+
     def read(self, motor: Mapping[str, Any], *, where: str) -> tuple[dict[str, Any], int]:
         """What [motor] gives, as parameter -> value with or without a unit, and the order. Raises InputError."""
         if "order" in motor:
@@ -65,7 +95,7 @@ _TABLE = {row["name"]: row for row in _core.motor_parameter_table()}
 def nominal(
     name: str, *, linear_unit: str = "", positive: bool = False, required: bool = True
 ) -> NominalParameter:
-    """A parameter of the motor, with unit and meaning as the core states them (drive.hpp)."""
+    """A parameter of the motor, with unit and meaning as the core states them (motor.hpp)."""
     row = _TABLE[name]
     return NominalParameter(
         name=name, unit=row["unit"], meaning=row["meaning"], linear_unit=linear_unit, positive=positive,

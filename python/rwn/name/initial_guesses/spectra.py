@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
-from rwn.model.drives.dc import resting_current
-from rwn.model.vocabulary import Effect, motor_index
+from rwn.model.vocabulary import Effect, motor_values
 from rwn.name.initial_guesses.guess import Guess
 from rwn.recording.speed_measurement import integral
 from rwn.simulate.inverse_dynamics import needed_force
@@ -196,8 +195,7 @@ def current_of(problem: Problem, motor: Array, run: Run) -> Array:
         return run.input
     if run.current.size:
         return run.current
-    known = {name: float(motor[motor_index(name)]) for name in ("resistance", "back_emf_constant")}
-    return resting_current(run.speed, run.input, **known)
+    return problem.drive.resting_current(motor_values(motor), run.speed, run.input)
 
 
 def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:

@@ -28,7 +28,7 @@ struct AsymmetricFriction {
                                                    .scale = scale::torque,
                                                    .strength = true,
                                                    .replaces = coulomb_friction}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply, .varies = false, .dry = true};
+  static constexpr EffectTraits traits{.hooks = Hook::apply, .varies = false, .dry = true, .one_sided = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

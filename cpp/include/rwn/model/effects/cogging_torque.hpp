@@ -19,7 +19,10 @@ struct CoggingTorque {
                                                    .start = 12.0,
                                                    .order = true},
                                          periodic::phase};
-  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .turns = true, .guess = Guess::spectrum};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate,
+                                       .turns = true,
+                                       .one_sided = true,
+                                       .guess = Guess::spectrum};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

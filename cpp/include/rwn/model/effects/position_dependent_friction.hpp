@@ -27,7 +27,10 @@ struct PositionDependentFriction {
                                                    .start = 0.3,
                                                    .strength = true},
                                          periodic::phase};
-  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .dry = true, .turns = true};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate,
+                                       .dry = true,
+                                       .turns = true,
+                                       .one_sided = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

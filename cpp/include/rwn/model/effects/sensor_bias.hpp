@@ -25,7 +25,7 @@ struct SensorBias {
                                                    .start = 0.0,
                                                    .scale = scale::current,
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::sense};
+  static constexpr EffectTraits traits{.hooks = Hook::sense, .one_sided = true};
 
   template <class S>
   static void sense(const S* p, Reading<S>& y, const S*) {

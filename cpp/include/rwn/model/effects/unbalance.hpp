@@ -9,7 +9,7 @@ struct Unbalance {
   static constexpr EffectInfo info{"unbalance", Site::torque, "T = -A sin(theta + p)",
                                    "an off-centre mass in gravity: one period per revolution", "Newton"};
   static constexpr std::array parameters{periodic::peak_torque, periodic::phase};
-  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .turns = true};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .turns = true, .one_sided = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

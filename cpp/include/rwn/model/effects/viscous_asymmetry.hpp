@@ -18,7 +18,7 @@ struct ViscousAsymmetry {
                                                    .scale = scale::damping,
                                                    .scan = {0.02, -0.02},
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply};
+  static constexpr EffectTraits traits{.hooks = Hook::apply, .one_sided = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
