@@ -183,5 +183,12 @@ def test_where_nothing_explains_it_a_longer_search_follows(
 
     monkeypatch.setattr(module, "explained", recorded)
     run = rwn.Recording(name="x", time=time, signals={"torque": asked, "speed": speed})
-    assert rwn.diagnose([run], model, effort=0.1).verdict == ("unexplained" if wandering else "adequate")
+    said: list[tuple[str, float]] = []
+    found = rwn.diagnose([run], model, effort=0.1, progress=lambda what, done: said.append((what, done)))
+    assert found.verdict == ("unexplained" if wandering else "adequate")
     assert efforts == searches
+    begun = [k for k, (what, _) in enumerate(said) if "searching 3 times as long" in what]
+    assert len(begun) == len(searches) - 1
+    for k in begun:  # with a span of its own, so that the time that is left is that of this search
+        assert [done for _, done in said[k : k + 2]] == [0.0, 0.0]
+    assert said[-1][1] > 0.9

@@ -13,7 +13,7 @@ import pytest
 import typer
 
 from rwn.endings import NO_RESULT, REFUSED, STOPPED, run
-from rwn.errors import InputError
+from rwn.errors import InputError, NoResultError
 
 
 @pytest.fixture(autouse=True)
@@ -42,6 +42,7 @@ def _stopped_and_reworded() -> None:
     [
         (lambda: None, 0, ""),
         (lambda: NO_RESULT, NO_RESULT, ""),
+        (_raises(NoResultError("diverged", "Look.", where="a")), NO_RESULT, "rwn: a: diverged: Look. Nothing was w"),
         (_raises(InputError("no", where="a.csv")), REFUSED, "rwn: a.csv: no\n"),
         (_raises(ValueError("two\nlines")), REFUSED, "rwn: two lines\n"),
         (_raises(FileNotFoundError(2, "No such file", "a")), REFUSED, "rwn: a: No such file; expected a file"),

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import made_up
 import rwn
 from rwn.errors import InputError
 
@@ -58,7 +59,7 @@ RECORDINGS: dict[str, tuple[Callable[[], Any], str]] = {
     "no recording but a number": (lambda: 3, "cannot be read from the int"),
     "no recording but None": (lambda: None, "cannot be read from the NoneType"),
     "a file that is not there": (lambda: "nowhere.csv", "no such file"),
-    "a table without units": (lambda: {"time": TIME, "voltage": VOLTAGE}, "has no unit"),
+    "a table without units": (lambda: {"time": TIME, "voltage": VOLTAGE}, "'time', 'voltage' have no unit"),
     "a table without a known column": (lambda: {"a": TIME}, "no column is called like a signal"),
 }
 COMPARED: dict[str, tuple[Callable[[], Any], str]] = {
@@ -196,3 +197,50 @@ def test_paths_tables_and_recordings_give_the_same(tmp_path: Path) -> None:
     np.testing.assert_array_equal(
         rwn.simulate(tmp_path / "motor.toml", table).signals["speed"], rwn.simulate(MODEL, made).signals["speed"]
     )
+
+
+@pytest.mark.parametrize(
+    ("call", "held"),
+    [
+        (lambda: rwn.Recording(name="r", time=TIME, signals=None), "signals is a NoneType"),  # type: ignore[arg-type]
+        (lambda: rwn.read_model(None), "the path is None"),  # type: ignore[arg-type]
+        (lambda: rwn.Diagnosis.load(None), "the path is None"),  # type: ignore[arg-type]
+        (lambda: rwn.save(MODEL, None), "the path is None"),  # type: ignore[arg-type]
+        (lambda: made_up.found().save(None), "the path is None"),  # type: ignore[arg-type]
+        (lambda: made_up.found().plot(3), "unknown figure '3'"),  # type: ignore[arg-type]
+        (lambda: rwn.diagnose(_recording(), MODEL, progress="x"), "progress is 'x'"),  # type: ignore[arg-type]
+        (lambda: rwn.plot(made_up.found()), "its method plot()"),
+        (lambda: _recording(speed=np.ma.masked_greater(SPEED, 39.0)), "samples of 'speed' are masked"),
+        (lambda: _recording(np.ma.masked_greater(TIME, 0.1)), "samples of 'time' are masked"),
+        (
+            lambda: rwn.read_recording({"time [s]": TIME, "speed [rad/s]": np.ma.masked_greater(SPEED, 39.0)}),
+            "samples of 'speed' are masked",
+        ),
+        (lambda: _recording(speed=SPEED > 0.0), "'speed' is no vector of real numbers"),
+        (lambda: replace(MODEL, order=-1), "order is -1"),
+        (lambda: rwn.Model(kind="lti", parameters={}, order=0), "order is 0"),
+        (lambda: rwn.Model(kind="lti", parameters={}, order=True), "order is True"),
+    ],
+)
+def test_what_no_call_can_take_is_refused(call: Callable[[], Any], held: str) -> None:
+    with pytest.raises(InputError, match="; fix: ") as said:
+        call()
+    assert held in str(said.value)
+
+
+def test_a_mask_that_masks_nothing_is_no_matter() -> None:
+    assert _recording(speed=np.ma.masked_greater(SPEED, 1e9)) == _recording()
+
+
+def test_a_model_may_be_its_file_wherever_one_is_taken(tmp_path: Path) -> None:
+    rwn.save(MODEL, tmp_path / "motor.toml")
+    rwn.save(_recording(), tmp_path / "run.csv")
+    (read,) = rwn.read_recordings(str(tmp_path / "run.csv"), str(tmp_path / "motor.toml"))
+    assert list(read.signals) == ["voltage", "current", "speed"]
+
+
+def test_a_simulation_is_a_table_that_is_read_again() -> None:
+    made = rwn.simulate(MODEL, _recording())
+    again = rwn.read_recording(made.table())
+    np.testing.assert_array_equal(again.signals["speed"], made.signals["speed"])
+    np.testing.assert_array_equal(again.time, TIME)

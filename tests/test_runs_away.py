@@ -1,4 +1,4 @@
-"""Simulations that run away end in words and files like any other, never in a traceback."""
+"""Simulations that run away end in words, never in a traceback."""
 
 from __future__ import annotations
 
@@ -22,15 +22,12 @@ k = 1e-4
 """
 
 
-@pytest.mark.slow
-def test_a_torque_that_grows_with_the_cube_of_the_speed_is_diagnosed_saved_and_read(tmp_path: Path) -> None:
+def test_a_torque_that_grows_with_the_cube_of_the_speed_has_no_result(tmp_path: Path) -> None:
     run, kept = (recorded(seed, lambda speed, _: -0.004 * np.sign(speed), samples=600) for seed in (1, 2))
     lines = ["[motor]", 'kind = "dc"', *(f"{name} = {value!r}" for name, value in MOTOR.items()), CUBE]
     (tmp_path / "motor.toml").write_text("\n".join(lines))
-    found = rwn.diagnose([run], tmp_path / "motor.toml", heldout=[kept], effort=0.1)
-    assert all(np.isfinite([e.probability, e.together, e.evidence.odds]).all() for e in found.account)
-    found.save(tmp_path / "result")
-    assert rwn.Diagnosis.load(tmp_path / "result") == found
+    with pytest.raises(rwn.NoResultError, match="the refitted model: formula-failed"):
+        rwn.diagnose([run], tmp_path / "motor.toml", heldout=[kept], effort=0.1)
 
 
 @pytest.mark.parametrize("doubt", [0.5, 3.0])
@@ -46,7 +43,10 @@ def test_an_unstable_transfer_function_is_no_account_of_a_stable_motor(samples: 
     model = rwn.Model(
         kind="lti", order=1, parameters={"b0": 300.0, "a0": -400.0}, uncertainty={"b0": doubt, "a0": doubt}
     )
+    if samples == 3000:
+        with pytest.raises(rwn.NoResultError, match="diverge"):
+            rwn.diagnose([run], model, effort=0.1)
+        return
     found = rwn.diagnose([run], model, effort=0.1)
     assert found.verdict == "unexplained"
-    assert any("an unstable model" in warning for warning in found.warnings) == (samples == 3000)
     assert rwn.Diagnosis.from_json(found.to_json()).verdict == found.verdict

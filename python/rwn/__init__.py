@@ -5,6 +5,7 @@ from __future__ import annotations
 from rwn._core import __version__ as __version__
 from rwn.diagnose import diagnose as diagnose
 from rwn.errors import InputError as InputError
+from rwn.errors import NoResultError as NoResultError
 from rwn.fit.identify import Identification as Identification
 from rwn.fit.identify import identify as identify
 from rwn.model.files import read_model as read_model

@@ -16,6 +16,9 @@ from rwn.errors import InputError
 from rwn.faults.explain import Explained, explained
 from rwn.faults.fault import without
 from rwn.faults.late_enable import LateEnable, late_beside, powered
+from rwn.fit.declared import check_declared
+from rwn.fit.nominal import check_it_runs
+from rwn.fit.preparation import prepare
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
@@ -52,27 +55,32 @@ def diagnose(
         jobs: threads (default: all processors); the result does not depend on it.
         effort: what the search may cost, as a multiple of the usual; a warning says what was not tried for it. Where
             what was found explains too little, a search of three times that follows.
-        progress: called with what is being done and how far it is, 0 to 1.
+        progress: called with what is being done and how far it is, 0 to 1; a search that follows begins at 0 again.
 
     Returns:
         The verdict, located region, named effects with intervals, corrected model and the curves that show it.
 
     Raises:
         InputError: where a recording is not usable, does not fit the model, or is given twice.
+        NoResultError: where the refitted model cannot be simulated over a recording that is fitted.
     """
     began = time.perf_counter()
     say = progress or _silent
     _check_options(seed, jobs, effort)
+    if not callable(say):
+        raise InputError(f"progress is {say!r}", where="diagnose", expected="a function", fix="pass progress=print")
     model = model_of(model)
     fitted, judged = recordings_to_fit(recordings, model), read_recordings(heldout, model)
     refuse_doubles([*fitted, *judged])
     recordings, findings = inspected(fitted)
     heldout, unseen_findings = inspected(judged)
+    if model.effects:
+        check_declared(prepare(recordings, model), model)
     with thread_pool(jobs or os.cpu_count() or 1):
         case = _decided(recordings, heldout, model, seed=seed, effort=effort, say=say)
         if case.decision.is_poor:
-            say(f"what was found explains too little: searching {LONGER:g} times as long", AFTER_SEARCH)
-            longer = _decided(recordings, heldout, model, seed=seed, effort=LONGER * effort, say=_after(say))
+            say(f"what was found explains too little: searching {LONGER:g} times as long", 0.0)
+            longer = _decided(recordings, heldout, model, seed=seed, effort=LONGER * effort, say=say)
             case = min(case, longer, key=lambda c: c.decision.remainder.error)
         say("correcting the model", 0.9)
         found, model = case.found, case.found.model
@@ -100,6 +108,7 @@ def _decided(
     say: Progress,
 ) -> _Case:  # fmt: skip
     found = explained(recordings, model, say=say, effort=effort)
+    check_it_runs(found.ranking.problem, found.ranking.nominal)
     say("proving it on data that were not fitted", AFTER_SEARCH)
     for fault in found.faults:
         heldout = without(heldout, fault)
@@ -108,11 +117,6 @@ def _decided(
     unseen = measured_alike([judging_run(r, found.model) for r in heldout], found.ranking.problem.whole)
     decision = decide(found.ranking, unseen, found.model, seed=seed)
     return _Case(found=found, late=late, unseen=unseen, decision=decision)
-
-
-def _after(say: Progress) -> Progress:
-    """Progress of what comes once more, after the rest of the search."""
-    return lambda what, done: say(what, max(done, AFTER_SEARCH))
 
 
 def _check_options(seed: int, jobs: int | None, effort: float) -> None:

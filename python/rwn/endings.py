@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 import typer
 
-from rwn.errors import plain
+from rwn.errors import NoResultError, plain
 
 REFUSED = 2  # exit code of bad input
 NO_RESULT = 3  # of a computation that ran and has no result to stand by
@@ -42,6 +42,9 @@ def run(command: Callable[[], Any]) -> NoReturn:
         status = command()
     except (typer.Abort, KeyboardInterrupt):
         status = STOPPED
+    except NoResultError as error:
+        print(f"rwn: {error} Nothing was written.", file=sys.stderr)
+        status = NO_RESULT
     except Exception as error:
         # an import that Ctrl-C cut short fails in other words, and so does what asked for it
         if not ctrl_c.pressed:

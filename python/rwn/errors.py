@@ -19,6 +19,14 @@ class InputError(ValueError):
         super().__init__(" ".join("; ".join(part for part in parts if part).split()))
 
 
+class NoResultError(RuntimeError):
+    """A computation that ran and has no result to stand by: its `status` and what to do about it (`advice`)."""
+
+    def __init__(self, status: str, advice: str, *, where: str) -> None:
+        self.status, self.advice, self.where = status, advice, plain(where)
+        super().__init__(f"{self.where}: {status}: {advice}")
+
+
 def plain(text: str, *, longest: int = LONGEST) -> str:
     """A text for a terminal: control characters escaped (a file may hold such), cut where it is very long."""
     shown = "".join(c if c.isprintable() or c in "\n\t\r" else repr(c)[1:-1] for c in text[: longest + 1])

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from rwn.errors import InputError
+from rwn.errors import InputError, plain
 
 
 @contextmanager
@@ -34,3 +35,13 @@ def input_file(path: Path, expected: str) -> Iterator[None]:
             expected=expected,
             fix="check the path and its permissions",
         ) from error
+
+
+def path_of(given: object, example: str) -> Path:
+    """A path, of text or of one. Raises InputError where it is neither."""
+    if isinstance(given, str | os.PathLike):
+        return Path(given)
+    raise InputError(
+        f"the path is {plain(repr(given), longest=40)}", where=type(given).__name__, expected="a path",
+        fix=f'pass for instance "{example}"',
+    )  # fmt: skip

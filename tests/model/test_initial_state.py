@@ -40,6 +40,15 @@ def test_a_first_sample_off_zero_is_motion_with_the_current_that_goes_with_it() 
     assert set(start.spread) == {"initial_speed", "initial_current", "initial_position"}
 
 
+@pytest.mark.parametrize(("lost", "in_motion"), [(1, True), (3, True), (400, False)])
+def test_where_the_first_sample_is_missing_the_next_that_was_measured_tells(lost: int, in_motion: bool) -> None:
+    missing = {"speed": np.arange(TIME.size) < lost}
+    signals = _signals(np.where(missing["speed"], 1e6, 60.0))
+    start = initial_state_of(TIME, signals, MODEL, missing=missing)
+    assert start.in_motion is in_motion
+    assert start.state[1] == pytest.approx(60.0 if in_motion else 0.0, abs=0.3)
+
+
 def test_the_model_file_may_say_it() -> None:
     resting = replace(MODEL, recording=replace(MODEL.recording, initial="rest"))
     assert not initial_state_of(TIME, _signals(np.full(TIME.size, 60.0)), resting).in_motion

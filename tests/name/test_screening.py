@@ -170,3 +170,18 @@ def test_a_model_that_is_exact_is_adequate() -> None:
     seen = rwn.simulate(model, run).signals
     signals = {"voltage": voltage, "current": seen["current"], "speed": seen["speed"]}
     assert rwn.diagnose([replace(run, signals=signals)], model).verdict == "adequate"
+
+
+def test_effects_come_in_the_order_of_the_best_of_their_fits(lagging: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An effect that another start has led astray is not behind those that are worse than its best."""
+    base = fit_nominal(lagging)
+
+    def ended(name: str, cost: float) -> Attempt:
+        of = starts(lagging, base, name, orders=1)[0]
+        minimum = replace(base.minimum, values=of.hypothesis.vector[: len(of.hypothesis.unknowns)], cost=cost)
+        return Attempt(of, Fit(hypothesis=of.hypothesis, minimum=minimum))
+
+    ends = [ended("speed-sensor-lag", 2.0), ended("input-delay", 5.0), ended("speed-sensor-lag", 9.0)]
+    monkeypatch.setattr(screening, "_to_the_end", lambda *_, **__: ends)
+    found = screen(lagging, base, ["speed-sensor-lag", "input-delay"])
+    assert [(f.added, f.cost) for f in found] == [(("speed-sensor-lag",), 2.0), (("input-delay",), 5.0)]

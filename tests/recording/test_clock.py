@@ -20,6 +20,16 @@ def test_jittered_rows_with_gaps_are_counted_by_their_clock() -> None:
     assert clock.off - np.mean(clock.off) == pytest.approx(off - np.mean(off), abs=0.01)
 
 
+@pytest.mark.parametrize("reach", [0.25, 0.3, 0.4])
+@pytest.mark.parametrize("rows", [400, 4000])
+def test_rows_far_beside_their_ticks_are_counted_too(reach: float, rows: int) -> None:
+    """The first rows alone do not tell the period well enough to count by."""
+    rng = np.random.default_rng(rows)
+    kept = np.flatnonzero(np.append(True, rng.uniform(size=rows - 1) > 0.01))
+    clock = clock_of(3.0 + 5e-3 * (kept + rng.uniform(-reach, reach, kept.size)))
+    assert np.array_equal(clock.ticks, kept)
+
+
 def test_a_perfect_clock_has_no_jitter() -> None:
     clock = clock_of(0.5 + 1e-3 * np.arange(100))
     assert clock.lost == 0

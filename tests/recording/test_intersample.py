@@ -45,13 +45,14 @@ def test_lost_rows_of_a_ramp_are_bridged() -> None:
 
 def test_rows_beside_the_ticks_of_a_clock_show_the_voltage_of_the_last_tick() -> None:
     rng = np.random.default_rng(1)
-    voltage = np.repeat(rng.uniform(-3.0, 3.0, 41), 10)[: TIME.size]  # changes at every tenth tick
-    off = rng.uniform(-0.3, 0.3, TIME.size)
+    time = 1e-3 * np.arange(1601)
+    voltage = np.repeat(rng.uniform(-3.0, 3.0, 161), 10)[: time.size]  # changes at every tenth tick
+    off = rng.uniform(-0.3, 0.3, time.size)
     off[4::10], off[5::10], off[9::10], off[10::10] = -0.1, -0.1, 0.1, 0.1  # both ticks about a change are seen
     off[[0, -1]] = 0.0
-    when = TIME + 1e-3 * off
-    shown = voltage[np.floor(np.arange(TIME.size) + off).astype(int)]
-    fine = np.linspace(0.0, TIME[-1], 20 * (TIME.size - 1) + 1)
+    when = time + 1e-3 * off
+    shown = voltage[np.floor(np.arange(time.size) + off).astype(int)]
+    fine = np.linspace(0.0, time[-1], 20 * (time.size - 1) + 1)
     truth = np.interp(when, fine, _speed(fine, np.append(np.repeat(voltage[:-1], 20), voltage[-1])))
     right, held = (np.max(np.abs(_speed(when, shown, law) - truth)) for law in ("ticks", "held"))
     assert right < 0.2 * held

@@ -7,6 +7,7 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
+from rwn.report.law_figures import _over_time
 from rwn.report.plot import Plot, Trace
 from rwn.report.plot_text import in_words
 from rwn.report.plots import figure
@@ -37,6 +38,19 @@ def test_a_cloud_keeps_its_outermost_points() -> None:
     kept = thin_cloud(y)
     assert kept.size < 1.2 * MOST_POINTS
     assert y[kept].min() == -7.0
+
+
+def test_a_law_over_time_keeps_its_peaks() -> None:
+    """An oscillation of many periods, which means of stretches would flatten; recordings do not run into each other."""
+    t = np.arange(20_000) * 1e-3
+    y = 1.83 * np.sin(40.0 * t)
+    drawn = _over_time(np.concatenate([t, t]), np.concatenate([y, 0.5 * y]), [t.size, t.size])
+    (gap,) = np.flatnonzero(np.isnan(drawn.y))
+    assert drawn.x[gap] == t[-1]
+    assert np.max(drawn.y[:gap]) == pytest.approx(1.83, rel=1e-3)
+    assert np.max(drawn.y[gap + 1 :]) == pytest.approx(0.915, rel=1e-3)
+    assert np.all(np.diff(drawn.x[:gap]) > 0.0)
+    assert drawn.x.size <= MOST_POINTS + 10
 
 
 def test_one_outlier_does_not_flatten_a_law() -> None:

@@ -8,6 +8,7 @@ import pytest
 
 import made_up
 from made_up_curves import law
+from rwn.decide.account import Remainder
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.diagnosis_data import Beneath
 from rwn.report.next_steps import next_steps
@@ -46,6 +47,10 @@ STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
     "found, without a run of its own": (
         replace(made_up.found(), sources=made_up.SOURCES[:2]),
         ("To tell it from", "corrected.toml holds the model with the effects", "Keep one recording back"),
+    ),
+    "found, and something that has no name here beside it": (
+        replace(made_up.found(), remainder=Remainder(share=0.12, error=3.0, signals=("speed",))),
+        ("To tell it from", "For what they leave: where you know", "Record again", "corrected.toml"),
     ),
     "too little motion": (
         replace(made_up.adequate(), verdict="insufficient-excitation"),

@@ -109,3 +109,15 @@ def test_where_plotly_is_missing_that_is_said(run: rwn.Recording, monkeypatch: p
     monkeypatch.setattr(builtins, "__import__", imported)
     with pytest.raises(rwn.InputError, match=r"plotly is not installed.*pip install 'rwn\[plot\]'"):
         rwn.plot(run)
+
+
+@pytest.mark.usefixtures("_plotly")
+def test_one_model_or_a_list_is_called_as_its_file(run: rwn.Recording) -> None:
+    named = _lines(rwn.plot(run, {"model.toml": MODEL}))
+    model = rwn.read_model(MODEL)
+    for given in (MODEL, str(MODEL), model, [MODEL], (model,)):
+        assert _lines(rwn.plot(run, given)) == named
+    names = {name for name, _ in _lines(rwn.plot(run, [model, MODEL, replace(model, source="")]))}
+    assert {"model.toml", "model.toml (2)", "model"} <= names
+    with pytest.raises(rwn.InputError, match="4 models are given"):
+        rwn.plot(run, [MODEL] * 4)

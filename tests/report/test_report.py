@@ -11,8 +11,9 @@ import pytest
 import made_up
 from rwn.report import write_report
 from rwn.report.diagnosis import Diagnosis
+from rwn.report.page import page
 from rwn.report.sentences import before_after, headline
-from rwn.report.tables import heldout_table
+from rwn.report.tables import alternative_table, heldout_table
 
 
 def _text(found: Diagnosis, folder: Path) -> str:
@@ -136,3 +137,13 @@ def test_missing_numbers_are_dashes() -> None:
 @pytest.mark.parametrize("state", made_up.ALL)
 def test_it_is_small(state: str, tmp_path: Path) -> None:
     assert len(_text(made_up.ALL[state](), tmp_path).encode()) < 1_500_000
+
+
+def test_other_explanations_are_not_said_to_explain_where_nothing_does() -> None:
+    """Their probabilities are of each other: beside "no effect that has a name comes near" 70 % reads as near."""
+    others = replace(made_up.unexplained(), alternatives=made_up.found().alternatives)
+    assert "Of what has a name, the likeliest" in alternative_table(others)
+    assert "Other explanation" in alternative_table(made_up.found())
+    assert "Refitted alone: The fit converged." in page(
+        replace(made_up.found(), nominal_fit=replace(made_up.found().nominal_fit, advice="The fit converged."))
+    )

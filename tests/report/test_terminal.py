@@ -17,6 +17,12 @@ from rwn.report.effect_text import lines as effect_lines
 from rwn.report.progress import Progress, remaining
 from rwn.report.terminal import lines, print_verdict
 
+
+class _Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -74,12 +80,20 @@ def test_piped_progress_is_a_line_for_each_stage() -> None:
     assert stream.getvalue() == "  0 %  reading\n 50 %  fitting\n"
 
 
-def test_a_terminal_sees_a_bar_that_vanishes() -> None:
-    class Terminal(io.StringIO):
-        def isatty(self) -> bool:
-            return True
+def test_the_time_that_is_left_is_that_of_what_is_done_once_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    """100 s for a search, then 5 s for a tenth of a longer one: 45 s are left, not 945 s."""
+    clock, said = [0.0], []
+    monkeypatch.setattr("rwn.report.progress.time.monotonic", lambda: clock[0])
+    with Progress(_Terminal()) as progress:
+        assert progress._bar is not None
+        monkeypatch.setattr(progress._bar, "update", lambda *_, left, **__: said.append(left))
+        for clock[0], fraction in ((100.0, 0.85), (100.0, 0.0), (105.0, 0.1)):
+            progress("searching", fraction)
+    assert said == ["about 18 s left", "", "about 45 s left"]
 
-    stream = Terminal()
+
+def test_a_terminal_sees_a_bar_that_vanishes() -> None:
+    stream = _Terminal()
     with Progress(stream) as progress:
         progress("fitting", 0.5)
     assert "fitting" in stream.getvalue()

@@ -66,6 +66,16 @@ def test_a_loss_is_not_called_a_gain() -> None:
     assert "increases" in verdict_sentence(worse)
 
 
+def test_a_gain_that_may_be_none_is_not_stated() -> None:
+    found = made_up.found()
+    cases = ((0.035, (-0.02, 0.08), False), (-0.03, (-0.1, 0.0), False), (0.1, (0.01, 0.2), True))
+    for gain, interval, certain in cases:
+        row = replace(found.heldout[0], gain=gain, gain_interval=interval)
+        said = verdict_sentence(replace(found, heldout=(row,)))
+        assert ("changes little for certain: the speed error" in said) != certain
+        assert (f"({words.percent(abs(gain))})" in said) == certain
+
+
 @pytest.mark.parametrize(
     ("share", "text"),
     [(0.0, "0 %"), (0.034, "3.4 %"), (0.87, "87 %"), (0.996, "99.6 %"), (0.99999, "> 99.9 %")],

@@ -27,3 +27,26 @@ def test_a_fit_that_did_not_converge_is_said(
     chosen: Any = SimpleNamespace(added=added, final=SimpleNamespace(minimum=SimpleNamespace(status=status)))
     found = assemble._warnings(ranking, chosen, (), ())
     assert any("before it converged" in text for text in found) == said
+
+
+def test_what_ran_into_a_limit_bears_plain_names(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(assemble, "_does_not_run", lambda _: [])
+    better = SimpleNamespace(
+        added=("amplifier-gain-curve", "coulomb-friction"), limits_met=("amplifier-gain-curve.exponent",)
+    )
+    ranking: Any = SimpleNamespace(weighted=SimpleNamespace(noise={}), cut_short=0, at_a_limit=(better,))
+    chosen: Any = SimpleNamespace(added=(), final=None)
+    (said,) = assemble._warnings(ranking, chosen, (), ())
+    assert said.startswith("amplifier gain curve + Coulomb friction fits better, but exponent of amplifier gain curve")
+
+
+def test_a_contradicted_parameter_bears_its_plain_name() -> None:
+    unknown = SimpleNamespace(name="back_emf_constant", prior=0.1)
+    chosen: Any = SimpleNamespace(
+        final=SimpleNamespace(
+            hypothesis=SimpleNamespace(unknowns=[unknown]), minimum=SimpleNamespace(values=[0.2])
+        )
+    )
+    model: Any = SimpleNamespace(uncertainty={"back_emf_constant": 0.05})
+    (said,) = assemble._contradictions(chosen, model)
+    assert "in back emf constant: it moved to 2 times" in said

@@ -55,6 +55,7 @@ def cases(count: int, seed: int, good: Path) -> Iterator[Case]:
     yield from _tables()
     yield from _recordings()
     yield from _models()
+    yield from layouts()
     yield from _formulas()
     yield from _places()
     yield from _commands()
@@ -124,6 +125,21 @@ def _models() -> Iterator[Case]:
     unstable = '[motor]\nkind = "lti"\norder = 1\nb0 = 300\na0 = -40000\n[uncertainty]\nb0 = 3\na0 = 3\n'
     command = ("diagnose", "a.csv", "--model", "motor.toml", "--out", "out")
     yield Case(kind="model file", what="unstable", command=command, files={"motor.toml": unstable.encode()}, refuse=False)
+
+
+def layouts() -> Iterator[Case]:
+    """Every number under [recording], in a model that is fitted: which of those below a user may mean."""
+    meant: dict[str, tuple[str, ...]] = {
+        "sample_time": ("6",), "initial_samples": ("6",), "from": ("-5",), "to": ("6",), "decimate": (),
+        "delays.speed": (), "filters.speed": (), "delays.current": ("-5", "6"),  # there is no current
+        "filters.current": ("6",), "columns.speed.scale": ("-5", "6"),
+    }  # fmt: skip
+    for key, good in meant.items():
+        for number in ("8" * 401, str(2**63), "1e21", "-5", "6", "1e300"):
+            files = {"motor.toml": (MODEL + f"[recording]\n{key} = {number}\n").encode()}
+            for command in (("identify", "a.csv", "--model", "motor.toml", "--out", "f.toml"), ("check", "a.csv", "--model", "motor.toml")):
+                what = f"{command[0]}, {key} = {number[:20]}"
+                yield Case(kind="model file", what=what, command=command, files=files, refuse=number not in good)
 
 
 def _formulas() -> Iterator[Case]:

@@ -134,23 +134,38 @@ def retimed(
 def _standing_samples(recording: Recording, model: Model) -> int:
     """Samples from the first on that stand still, of a recording with an input in them; 0 of others."""
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
-    moved = [_moves(x) for x in measured]
-    samples = min((int(np.argmax(m)) if m.any() else m.size - 1 for m in moved), default=0)
+    samples = min(map(_first_moved, measured), default=0)
     given = np.asarray(recording.signals[model.drive.input])[: max(samples - FEWEST, 0)]
     return samples if samples > FEWEST and given.any() else 0
 
 
-def _moves(signal: Array) -> NDArray[np.bool_]:
-    """Which samples (n,) are certainly elsewhere than the first.
+def _first_moved(signal: Array) -> int:
+    """The first sample that is certainly elsewhere than those before, with most of as many that follow; else the last.
 
-    The noise, white or not, is measured on the first half of what came before each sample: a motion that sets in
-    slowly is hardly in it.
+    Where the signal stood, and its noise, white or not, are those of the first half of what came before each sample: a
+    motion that sets in slowly is hardly in it. A few samples tell little of either (Student's distribution).
     """
-    counts = np.arange(1, signal.size + 1)
+    from scipy.special import ndtr, stdtrit  # late: the command line starts without it
+
+    half = np.maximum(np.arange(1, signal.size + 1) // 2, 1)
     off = signal - np.median(signal[:FEWEST])
-    rms = np.sqrt(np.cumsum(off**2) / counts)[np.maximum(counts // 2, 1) - 1]
-    moves: NDArray[np.bool_] = np.abs(off) > CERTAIN * np.maximum(rms, resolution(signal, signal.size))
-    return moves
+    sums, squares = np.cumsum(off)[half - 1], np.cumsum(off**2)[half - 1]
+    middle = sums / half
+    rms = np.sqrt(np.maximum(squares / half - middle**2, 0.0))
+    limit = np.maximum(stdtrit(half, ndtr(CERTAIN)) * rms, CERTAIN * _least_change(signal))
+    moved = (int(k) for k in np.flatnonzero(np.abs(off - middle) > limit) if k >= FEWEST)
+    lasting = (k for k in moved if np.median(np.abs(off[k : 2 * k + 1] - middle[k])) > limit[k])
+    return next(lasting, signal.size - 1)
+
+
+def _least_change(signal: Array) -> float:
+    """What a signal (n,) that stood still may change by at once, also where it was constant until then: a step or so.
+
+    Rows between values of coarse steps lie on no steps themselves: then a change that nine of ten changes exceed.
+    """
+    changes = np.abs(np.diff(signal))
+    changes = changes[changes > 0.0]
+    return max(resolution(signal, signal.size), float(np.quantile(changes, 0.1)) if changes.size else 0.0)
 
 
 def _worthwhile(

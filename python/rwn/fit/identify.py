@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rwn.fit.declared import check_declared
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
 from rwn.fit.intersample import with_intersample
@@ -83,6 +84,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     runs, findings = inspected(recordings_to_fit(recordings, model))
     model = with_intersample(runs, model)
     problem = prepare(runs, model)
+    check_declared(problem, model)
     this = fit_nominal(problem)
     problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))
     this = fit_nominal(problem)

@@ -9,10 +9,15 @@ it under every choice.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.levenberg_marquardt import prior_cost
 from rwn.fit.problem import Problem
+from rwn.recording.intersample import between_ticks
+from rwn.simulate.run import Run
+
+Array = NDArray[np.float64]
 
 ORDER = 8  # of the autoregressions
 DECISIVE = float(np.log(1000.0))  # how much likelier another choice has to be than what is usual
@@ -24,16 +29,48 @@ def log_posterior(problem: Problem, this: Fit) -> float:
 
 
 def log_likelihood(problem: Problem, this: Fit) -> float:
-    """Of what a fit leaves, each signal an autoregression of its own; up to a constant."""
+    """Of what a fit leaves, each signal an autoregression of its own; up to a constant.
+
+    An autoregression is over even steps: errors of uneven rows are those of the samples that these would lie between,
+    and the noise of a row, where it was not interpolated, is larger there the farther it lies from its tick.
+    """
     residuals = problem.residuals(this.vector, this.active)
     likelihood = 0.0
     for signal in dict.fromkeys(s for left in residuals for s in left):
         pairs = [(r, left[signal]) for r, left in zip(problem.runs, residuals, strict=True) if signal in left]
-        compared = [x[np.isfinite(x)] for x in (r.masked(signal, left) for r, left in pairs)]
-        windows = [np.lib.stride_tricks.sliding_window_view(x, ORDER + 1) for x in compared if x.size > ORDER]
+        even = [_evenly(r, signal, left) for r, left in pairs]
+        windows = [np.lib.stride_tricks.sliding_window_view(x, ORDER + 1) for x, _ in even if x.size > ORDER]
         if windows:
             joined = np.concatenate(windows)
+            noise = np.concatenate([w[ORDER:] for x, w in even if x.size > ORDER])
             before, now = joined[:, :-1], joined[:, -1]
-            new = now - before @ np.linalg.lstsq(before, now)[0]
-            likelihood -= 0.5 * sum(r.time.size for r, _ in pairs) * float(np.log(np.mean(new**2) + 1e-300))
+            weights = np.linalg.lstsq(before, now)[0]
+            new = now - before @ weights
+            samples = sum(r.time.size for r, _ in pairs)
+            likelihood -= 0.5 * samples * _log_variance(new, noise, 1.0 + float(weights @ weights))
     return likelihood
+
+
+def _log_variance(new: Array, noise: Array, noises: float) -> float:
+    """Mean logarithm of the variance of what is new in errors, and of its squares over it.
+
+    `noise`: of the rows (n,), 1 on the scale of the errors where none is amplified; `noises`: of how many rows it is
+    made up. The rest of what is new is no noise, and alike in all rows.
+    """
+    whole = float(np.mean(new**2)) + 1e-300
+    share = min(noises * float(np.mean(noise)) / whole, 1.0)
+    relative = 1.0 + share * (noise / np.mean(noise) - 1.0)
+    return float(np.log(np.mean(new**2 / relative) + 1e-300) + np.mean(np.log(relative)))
+
+
+def _evenly(run: Run, signal: str, errors: Array) -> tuple[Array, Array]:
+    """Errors of a signal at the ticks of a clock that the rows lie beside, and the variance of their noise, (m,) each.
+
+    Without those that are not known.
+    """
+    rows = between_ticks(run.time)
+    if rows is None:
+        known = np.isfinite(run.masked(signal, errors))
+        return errors[known], np.ones(int(known.sum()))
+    even, lost = rows.samples(np.nan_to_num(errors), run.not_compared(signal))
+    return even[~lost], rows.amplification[~lost]

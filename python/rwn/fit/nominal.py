@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from rwn import _core
+from rwn.errors import NoResultError
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.noise import with_noise_of
 from rwn.fit.preparation import prepare
@@ -21,3 +25,16 @@ def weighted_by_nominal(problem: Problem) -> tuple[Problem, Fit]:
 def nominal_of(recordings: Sequence[Recording], model: Model) -> tuple[Problem, Fit]:
     """The same of recordings. Raises InputError where one does not fit the model."""
     return weighted_by_nominal(prepare(recordings, model))
+
+
+def check_it_runs(problem: Problem, nominal: Fit) -> None:
+    """Raises NoResultError where the refitted nominal model cannot be simulated over a recording: nothing that is
+    compared with it would be a number."""
+    free = problem.in_free_run()
+    for run in free.runs:
+        made = free.simulate(run, nominal.vector, nominal.active)
+        shown = [made.signals[name] for name in free.drive.outputs]
+        finite = all(np.isfinite(values).all() for values in shown)  # a sensor's law may overflow by itself
+        status = made.status if finite or made.status != "ok" else "diverged"
+        if status != "ok":
+            raise NoResultError(status, _core.simulation_advice(status), where=f"{run.name}, the refitted model")

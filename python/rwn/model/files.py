@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from rwn.errors import InputError
-from rwn.input_file import input_file
+from rwn.input_file import input_file, path_of
 from rwn.model.model import EffectTable, Model
 from rwn.model.toml_reader import parse_model
 from rwn.model.toml_writer import format_model
@@ -16,7 +16,7 @@ def read_model(path: str | Path, *, effects: EffectTable | None = None) -> Model
 
     Raises InputError: what, in which table and key, what was expected, how to fix it.
     """
-    return parse_model(_read_text(Path(path)), where=str(path), effects=effects)
+    return parse_model(_read_text(path_of(path, "motor.toml")), where=str(path), effects=effects)
 
 
 def model_of(source: Model | str | Path) -> Model:
@@ -35,7 +35,7 @@ def model_of(source: Model | str | Path) -> Model:
 
 def write_model(model: Model, path: str | Path) -> None:
     """Write a model file that `read_model` reads back as an equal model."""
-    Path(path).write_text(format_model(model), encoding="utf-8")
+    path_of(path, "motor.toml").write_text(format_model(model), encoding="utf-8")
 
 
 def _read_text(path: Path) -> str:

@@ -41,12 +41,13 @@ def initial_state_of(
     """The start of a recording (n,) each, SI, by what the model's [recording] table says of it or its first samples.
 
     A position that was recorded starts within its noise or its steps of the first sample; of one that was not, nothing
-    is known once the shaft turned before. `missing`: samples (n,) that
-    were not measured; of a signal that begins with one nothing is read.
+    is known once the shaft turned before. `missing`: samples (n,) that were not measured; of a signal that begins with
+    some, the first that was counts as the first, if it is among the samples that may tell the start.
     """
-    signals = {n: x for n, x in signals.items() if n == "position" or n not in missing or not missing[n][0]}
-    position = signals.get("position", np.empty(0))
     first = model.recording.initial_samples
+    signals = {n: x if n == "position" else _from_measured(x, missing.get(n), first) for n, x in signals.items()}
+    signals = {n: x for n, x in signals.items() if x.size}
+    position = signals.get("position", np.empty(0))
     known_to = {n: resolution(signals[n], first) for n in signals if n != model.drive.input}
     spread = {}
     place = 0.0
@@ -70,6 +71,14 @@ def initial_state_of(
             current = _steady_current(signals, speed, model)
         spread["initial_current"] = max(abs(current), known_to.get("current", 0.0), 1e-9)
     return InitialState(in_motion=True, state=(current if model.drive.winding else 0.0, speed, place), spread=spread)
+
+
+def _from_measured(signal: Array, missing: NDArray[np.bool_] | None, first: int) -> Array:
+    """A signal (n,) from its first measured sample on, which stands for those before; empty where that is late."""
+    if missing is None or not missing[0]:
+        return signal
+    begin = int(np.argmin(missing))
+    return np.concatenate([np.full(begin, signal[begin]), signal[begin:]]) if 0 < begin < first else np.empty(0)
 
 
 def resolution(signal: Array, first: int) -> float:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.errors import unknown
+from rwn.errors import InputError, unknown
 from rwn.model import drives, vocabulary
 from rwn.model.checks import (
     LARGEST,
@@ -96,6 +96,12 @@ class Model:
     def __post_init__(self) -> None:
         if self.kind not in drives.KINDS:
             raise unknown("kind", self.kind, drives.KINDS, where=self.source or "model")
+        most = drives.MOST_ORDER if drives.KINDS[self.kind].coefficients else 0
+        if isinstance(self.order, bool) or not isinstance(self.order, int) or not min(most, 1) <= self.order <= most:
+            raise InputError(
+                f"order is {self.order!r}", where=self.source or "model", fix="correct order, or leave it out",
+                expected=f"a whole number from 1 to {most}" if most else f"none, for a drive of kind {self.kind}",
+            )  # fmt: skip
         if self.linear and drives.KINDS[self.kind].on_a_line is None:
             on_a_line = [kind for kind, drive in drives.KINDS.items() if drive.on_a_line]
             raise refused_linear(self.linear, self.source or "model", on_a_line)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rwn.errors import InputError
+from rwn.model.files import model_of
 from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
 from rwn.recording.check import MIN_SAMPLES, SMALLEST, check_samples
@@ -40,9 +42,30 @@ def check_recording(recording: Recording, model: Model, *, compared: bool = True
             expected="rad and rad/s" if wants == "rotary" else "m and m/s",
             fix="set linear in [motor], or map the column with a scale such as 0.01 m/rad",
         )
+    _check_sensors(recording, model, where)
     moved = _check_movement(recording, model, where) if compared else ()
     warnings = (*recording.warnings, *moved)
     return replace(recording, warnings=tuple(dict.fromkeys(warnings)))
+
+
+# Largest delay or time constant of a sensor: of more than a tenth of a run too little would be left to compare. In a
+# short run the 40 rows up to which `diagnose` looks for a delay itself (LONGEST_SHIFT), so that it reads what it wrote.
+_SHARE, _ROWS = 0.1, 40
+
+
+def _check_sensors(recording: Recording, model: Model, where: str) -> None:
+    step = float(np.median(np.diff(recording.time)))
+    most = max(_SHARE * recording.duration, min(_ROWS * step, 0.8 * recording.duration))
+    layout = model.recording
+    for kind, times in (("delays", layout.delays), ("filters", layout.filters)):
+        for signal, time in times.items():
+            if signal in recording.signals and not abs(time) <= most * (1.0 + 1e-9):
+                raise InputError(
+                    f"{time:g} s, where {where} lasts {recording.duration:g} s",
+                    where=f"{model.source or 'model'}, [recording] {kind}.{signal}",
+                    expected=f"at most {most:.3g} s: a tenth of a recording, or {_ROWS} rows",
+                    fix='correct the value or its unit: a number is in s, "4 ms" is text',
+                )
 
 
 def _missing(recording: Recording, name: str, why: str) -> InputError:
@@ -79,12 +102,13 @@ def _check_movement(recording: Recording, model: Model, where: str) -> tuple[str
     return (f"{where}: '{drive.input}' is constant: a single step says little about what is missing",)
 
 
-def read_recordings(sources: Any, model: Model, *, compared: bool = True) -> list[Recording]:
+def read_recordings(sources: Any, model: Model | str | Path, *, compared: bool = True) -> list[Recording]:
     """Read and check every recording against the model.
 
-    `sources`: one or several of paths, tables in Python (see `read_recording`) and recordings. `compared`: see
-    `check_recording`. Raises InputError, also for a recording that is given twice.
+    `sources`: one or several of paths, tables in Python (see `read_recording`) and recordings; `model`: a model or its
+    file. `compared`: see `check_recording`. Raises InputError, also for a recording that is given twice.
     """
+    model = model_of(model)
     recordings = [
         check_recording(
             one if isinstance(one, Recording) else read_recording(one, layout=model.recording), model, compared=compared

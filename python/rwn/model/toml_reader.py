@@ -7,8 +7,8 @@ import sys
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from rwn.errors import InputError, unknown
-from rwn.model.checks import check_numbers
+from rwn.errors import InputError, plain, unknown
+from rwn.model.checks import LARGEST, check_numbers
 from rwn.model.drives import KINDS
 from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
 from rwn.model.model import LOADS, EffectTable, Model, effect_table
@@ -20,6 +20,8 @@ from rwn.recording.columns import Column, Layout
 from rwn.recording.intersample import known_law
 from rwn.recording.profiles import profile
 from rwn.recording.signals import COLUMNS, MEASURED, TIME
+
+_MOST_ROWS = 10**6  # that one row stands for: what is fitted has at least 50 of them, and no bench records 5e7
 
 
 def parse_model(text: str, *, where: str, effects: EffectTable | None = None) -> Model:
@@ -187,10 +189,11 @@ def _layout(given: RecordingTable, where: str) -> Layout:
             fix="write for instance 0.001",
         )
     for name, count in (("initial_samples", given.initial_samples), ("decimate", given.decimate)):
-        if count < 1:
+        if not 1 <= count <= _MOST_ROWS:
             raise InputError(
-                f"{name} is {count}", where=where, expected="a positive whole number", fix="write for instance 20"
-            )
+                f"{name} is {plain(str(count), longest=40)}", where=where,
+                expected=f"a whole number from 1 to {_MOST_ROWS}", fix="write for instance 20",
+            )  # fmt: skip
     start, end = (
         None if value is None else _seconds(value, f"{where} {name}")
         for name, value in (("from", given.start), ("to", given.end))
@@ -203,7 +206,7 @@ def _layout(given: RecordingTable, where: str) -> Layout:
         columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples,
         start=start, end=end, decimate=given.decimate, profile=_profile(given.profile, where),
         intersample=known_law(given.intersample, where=f"{where} intersample"),
-        delays=_by_signal(given.delays, f"{where} delays"),
+        delays=_delays(given.delays, f"{where} delays"),
         filters=_filters(given.filters, f"{where} filters"),
     )  # fmt: skip
 
@@ -222,10 +225,16 @@ def _by_signal(given: dict[str, Number], where: str) -> dict[str, float]:
     return {name: _number(time, TIME.unit, f"{where}.{name}") for name, time in given.items()}
 
 
+def _delays(given: dict[str, Number], where: str) -> dict[str, float]:
+    found = _by_signal(given, where)
+    check_numbers(found, where=where)
+    return found
+
+
 def _filters(given: dict[str, Number], where: str) -> dict[str, float]:
     found = _by_signal(given, where)
     for name, time in found.items():
-        if not 0.0 < time < math.inf:
+        if not 0.0 < time <= LARGEST:
             raise InputError(
                 f"the filter of the {name} has a time constant of {time:g} s", where=where, expected="a positive time",
                 fix='write for instance "2 ms"',

@@ -59,8 +59,10 @@ def screen(
     best_here = best * here / base.cost if np.isfinite(best) else best
     near = _down_secants(attempts, on, here, best_here)
     ends = _to_the_end(problem, near, on, best_here=best_here, best=best)
-    found = [end.fit for end in sorted(ends, key=lambda end: end.cost)]
-    return list({f.added: f for f in reversed(found)}.values())[::-1]
+    best_of: dict[tuple[str, ...], Fit] = {}
+    for end in sorted(ends, key=lambda end: end.cost):
+        best_of.setdefault(end.fit.added, end.fit)
+    return list(best_of.values())
 
 
 def _first_round(problem: Problem, base: Fit, these: Sequence[Start], keep: int, patience: int) -> list[Start]:

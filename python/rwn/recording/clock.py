@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 IRREGULAR = 1e-3  # jitter that is more than rounded timestamps
-FEW = 8  # rows over which the median step counts ticks well enough
+FIRST = 512  # rows that show a clock beside which they lie up to 0.4 periods off
+SEARCHED = 4.0  # deviations of the median step of these, within which the period is looked for
+PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,19 +43,33 @@ class Clock:
 def clock_of(time: Array) -> Clock:
     """The clock of rows at `time` (n,) [s], n at least 2, increasing: the line through the times over their ticks.
 
-    The ticks of twice as many rows are counted by the line through those before: jitter does not add up. Rows that
-    share a tick keep no clock: each counts as one.
+    The ticks are those of the period at which the rows' phases agree best, of the first rows and then of twice as many:
+    jitter does not add up. Rows that share a tick keep no clock: each counts as one.
     """
-    usual = float(np.median(np.diff(time)))
-    period, start, rows = usual, float(time[0]), FEW
-    while True:
-        ticks = np.rint((time[:rows] - start) / period)
-        if np.any(np.diff(ticks) < 1):
-            ticks, period, start, rows = np.arange(time.size), usual, float(time[0]), time.size
-            break
-        period, start = (float(x) for x in np.polyfit(ticks, time[:rows], 1))
-        if rows >= time.size:
-            break
-        rows *= 2
+    rows = min(FIRST, time.size)
+    steps = np.diff(time[:rows])
+    usual = float(np.median(steps))
+    spread = float(np.percentile(np.abs(steps - usual), 68.0)) / usual
+    reach = SEARCHED * 1.25 * spread / np.sqrt(steps.size)  # 1.25: of a median, against a mean
+    period, start = _agreeing(time[:rows], usual, min(reach, 0.3))
+    while rows < time.size:
+        rows = min(2 * rows, time.size)
+        period, start = _agreeing(time[:rows], period, 2.0 / rows)
+    ticks = np.rint((time - start) / period)
+    if np.any(np.diff(ticks) < 1):
+        ticks, period = np.arange(time.size, dtype=np.float64), usual
+    else:
+        period = float(np.polyfit(ticks, time, 1)[0])
+    start = float(np.mean(time - period * ticks))
     off = (time - start) / period - ticks
     return Clock(period=period, start=start + period * ticks[0], ticks=(ticks - ticks[0]).astype(np.int64), off=off)
+
+
+def _agreeing(time: Array, period: float, reach: float) -> tuple[float, float]:
+    """The period within a relative `reach` of one, and a tick, about which rows at `time` (n,) lie closest."""
+    cycles = (time - time[0]) / period
+    shifts = np.linspace(-reach, reach, 2 * int(np.ceil(PER_CYCLE * reach * cycles[-1])) + 1)
+    sums = [complex(np.exp(2j * np.pi * (1.0 + shift) * cycles).sum()) for shift in shifts]
+    best = int(np.argmax(np.abs(sums)))
+    period = period / (1.0 + float(shifts[best]))
+    return period, float(time[0]) + period * float(np.angle(sums[best])) / (2.0 * np.pi)

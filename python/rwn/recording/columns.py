@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -85,7 +85,8 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
     if (layout.columns or layout.profile) and not any(table.units.values()):
         by_name = set()
     mapping = {name: Column(source=name) for name in by_name if name in table.units}
-    mapping |= _by_profile(table, layout) | dict(layout.columns)
+    known = _by_profile(table, layout)
+    mapping |= known | {name: _placed(table, name, column, known) for name, column in layout.columns.items()}
     used = {column.source for column in mapping.values()}
     for name in table.units:
         signal = meant(name) if by_name and layout.profile is None and name not in used else None
@@ -112,6 +113,12 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
             fix=f'write for instance: columns.speed = {{ source = "{next(iter(table.units), "w")}", unit = "rad/s" }}',
         )
     return mapping
+
+
+def _placed(table: Table, name: str, column: Column, known: Mapping[str, Column]) -> Column:
+    """A column of the map that bears its signal's name alone: where the file has none of it, that of the profile."""
+    unsaid = column.source == name and name not in table.units
+    return replace(column, source=known[name].source) if unsaid and name in known else column
 
 
 def _remedy(table: Table, name: str, signal: str) -> str:
@@ -158,6 +165,24 @@ def unused(table: Table, mapping: Mapping[str, Column]) -> tuple[str, ...]:
         return ()
     shown = ", ".join(extra[:8]) + (f" and {len(extra) - 8} more" if len(extra) > 8 else "")
     return (f"{table.where}: not used: {shown}",)
+
+
+def refuse_without_units(table: Table, mapping: Mapping[str, Column]) -> None:
+    """Raises InputError that names every column which does not say what its numbers are in, where several do not."""
+    lacking = {
+        name: column for name, column in mapping.items()
+        if column.unit is None and column.source in table.units and not table.units[column.source]
+    }  # fmt: skip
+    if len(lacking) > 1:
+        ordered = {name: lacking[name] for name in COLUMNS if name in lacking}
+        si = {name: si_unit(COLUMNS[name], False) for name in ordered}
+        written = ", ".join(f"'{c.source} [{si[n]}]'" for n, c in ordered.items())
+        keys = ", ".join(f"columns.{n} = {{ source = '{c.source}', unit = '{si[n]}' }}" for n, c in ordered.items())
+        raise InputError(
+            f"columns {', '.join(repr(c.source) for c in ordered.values())} have no unit",
+            where=table.where, expected="name [unit]",
+            fix=f"write {written} or what their numbers are in, or add to [recording] in the model file: {keys}",
+        )  # fmt: skip
 
 
 def is_linear(table: Table, mapping: Mapping[str, Column]) -> bool:

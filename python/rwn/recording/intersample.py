@@ -1,7 +1,8 @@
 """How the input acted between the rows of a recording: held, bridged over lost rows, or changing at other instants.
 
-A law takes the rows' times (n,) and input (n,) and gives the instants from which the input had which values, or None
-where it says the same as "held". Adding one is a function and its line in `INTERSAMPLE`.
+Where rows lie between samples that were taken when the input changed, the law says so too. A law takes the rows' times
+(n,) and input (n,) and gives the instants from which the input had which values, or None where it says the same as
+"held". Adding one is a function and its line in `INTERSAMPLE`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import unknown
-from rwn.recording.clock import clock_of
+from rwn.recording.clock import Clock, clock_of
+from rwn.recording.interpolated import InterpolatedRows, interpolated_rows
 from rwn.values import Values
 
 Array = NDArray[np.float64]
@@ -44,12 +46,21 @@ class PiecewiseInput(Values):
         return PiecewiseInput(instants=instants, values=self.values[first:], spread=self.spread[first:])
 
 
+def _own_samples(time: Array) -> None:
+    """A row is what was at its time."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class IntersampleLaw:
-    """How an input acts between rows, and how that is said."""
+    """How an input acts between rows, and how that is said.
+
+    `samples`: of rows at times (n,) that lie between samples at the ticks of a clock, how; `applied` then counts from
+    the first tick. None: a row is what was at its time.
+    """
 
     applied: Callable[[Array, Array], PiecewiseInput | None]
     words: str
+    samples: Callable[[Array], InterpolatedRows | None] = _own_samples
 
 
 def known_law(name: str, *, where: str) -> str:
@@ -76,20 +87,37 @@ def _in_parts(time: Array, values: Array, *, parts: int) -> PiecewiseInput | Non
     return _on_lines(time, values, parts * ticks)
 
 
-def _at_ticks(time: Array, values: Array) -> PiecewiseInput | None:
-    """It changed at the ticks of a clock beside which the rows were taken: a row shows that of the last tick."""
+def _clock_beside(time: Array) -> Clock | None:
+    """The clock beside whose ticks the rows were taken; None where it is theirs, or none is seen."""
     clock = clock_of(time)
-    if not JITTER < clock.jitter < 0.5 or clock.lost >= time.size:
+    return clock if JITTER < clock.jitter < 0.5 and clock.lost < time.size else None
+
+
+def between_ticks(time: Array) -> InterpolatedRows | None:
+    """Rows at times (n,) as lines between samples at the ticks of the clock that they lie beside; None: of none."""
+    clock = _clock_beside(time)
+    return None if clock is None or np.abs(clock.off).max() >= 0.5 else interpolated_rows(time, clock)
+
+
+def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> PiecewiseInput | None:
+    """It changed at the ticks of a clock beside which the rows were taken: a row shows that of the last tick.
+
+    `begin`: of the first tick [s]; None: as the rows' times have it.
+    """
+    clock = _clock_beside(time)
+    if clock is None:
         return None
+    begin = clock.start if begin is None else begin
     last = np.floor(clock.ticks + clock.off).astype(np.int64)  # tick before each row
     first = np.concatenate([[True], np.diff(last) > 0])
     shown, seen = last[first], values[first]
     ticks = np.arange(last[0], last[-1] + 1)
     after = np.searchsorted(shown, ticks)  # the first shown tick that is not before each
     step = np.abs(np.diff(seen, prepend=seen[:1]))[after]
-    instants = clock.start + clock.period * ticks
-    instants[0] = time[0]
-    late = np.concatenate([[True], instants[1:] > time[0]])
+    first_time = time[0] if begin == clock.start else begin
+    instants = begin + clock.period * ticks
+    instants[0] = first_time
+    late = np.concatenate([[True], instants[1:] > first_time])
     return PiecewiseInput(
         instants=instants[late],
         values=np.interp(ticks, shown, seen)[late],
@@ -124,5 +152,10 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
     "line": IntersampleLaw(applied=partial(_in_parts, parts=FINE), words="it moved on a line from row to row"),
     "ticks": IntersampleLaw(
         applied=_at_ticks, words="it changed at the ticks of a clock beside which the rows were taken"
+    ),
+    "interpolated": IntersampleLaw(
+        applied=partial(_at_ticks, begin=0.0),
+        words="it changed at the ticks of a clock, between whose samples the rows were interpolated",
+        samples=between_ticks,
     ),
 }

@@ -13,10 +13,21 @@ from numpy.typing import NDArray
 
 from rwn.errors import InputError
 from rwn.recording.check import check_lengths, check_samples
-from rwn.recording.columns import Layout, column_map, in_si, is_linear, no_unit, si_unit, units_of, unused
+from rwn.recording.columns import (
+    Layout,
+    column_map,
+    in_si,
+    is_linear,
+    no_unit,
+    refuse_without_units,
+    si_unit,
+    units_of,
+    unused,
+)
 from rwn.recording.formats import Table, read_table
 from rwn.recording.formats.frame import table_of_object
 from rwn.recording.formats.part import name_of
+from rwn.recording.formats.table import refuse_mask
 from rwn.recording.intersample import PiecewiseInput
 from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
@@ -55,6 +66,11 @@ class Recording(Values):
     units: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if not isinstance(self.signals, Mapping):
+            raise InputError(
+                f"signals is a {type(self.signals).__name__}", where=self.name, expected="a dictionary of arrays",
+                fix='pass for instance {"voltage": u, "speed": w}',
+            )  # fmt: skip
         time = _vector(self.name, "time", self.time)
         signals = {name: _vector(self.name, name, values) for name, values in self.signals.items()}
         for name, values in signals.items():
@@ -86,11 +102,7 @@ class Recording(Values):
 
         A dictionary of arrays where pandas is not installed.
         """
-        columns = {
-            f"{name} [{si_unit(COLUMNS[name], self.linear)}]": values
-            for name, values in {TIME.name: self.time, **self.signals}.items()
-        }
-        found: pandas.DataFrame | dict[str, Array] = table_of_columns(columns)
+        found: pandas.DataFrame | dict[str, Array] = table_of_signals(self.time, self.signals, linear=self.linear)
         return found
 
     def beginning(self, rows: int) -> Recording:
@@ -107,14 +119,21 @@ class Recording(Values):
         return float(self.time[-1] - self.time[0]) if len(self) else 0.0
 
 
+def table_of_signals(time: Array, signals: Mapping[str, Array], *, linear: bool) -> Any:
+    """Time and signals (n_t,) as columns `speed [rad/s]` in SI."""
+    named = {TIME.name: time, **signals}
+    return table_of_columns({f"{name} [{si_unit(COLUMNS[name], linear)}]": x for name, x in named.items()})
+
+
 def beginnings(recordings: Sequence[Recording]) -> list[Recording]:
     """As much of each recording as tells how it was made."""
     return [r.beginning(ENOUGH) for r in recordings]
 
 
 def _vector(name: str, signal: str, values: Any) -> Array:
+    refuse_mask(name, signal, values)
     array = np.asarray(values)
-    if array.ndim != 1 or array.dtype.kind not in "fiub":
+    if array.ndim != 1 or array.dtype.kind not in "fiu":
         raise InputError(
             f"'{signal}' is no vector of real numbers (shape {array.shape}, {array.dtype})",
             where=name,
@@ -137,6 +156,7 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
     is_path = isinstance(source, str | Path)
     table = read_table(Path(source), layout.wanted) if is_path else table_of_object(source, layout.wanted)
     mapping = column_map(table, layout)
+    refuse_without_units(table, mapping)
     linear = is_linear(table, mapping)
     values = {name: in_si(table, name, column, linear=linear) for name, column in mapping.items()}
     time = values.pop(TIME.name, None)

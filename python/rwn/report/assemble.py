@@ -35,7 +35,7 @@ from rwn.report.diagnosis_data import Alternative, Beneath, Location
 from rwn.report.next_steps import NEAR
 from rwn.report.nominal_fit import nominal_fit
 from rwn.report.sensor_filter import FittedFilter, fitted_filters
-from rwn.report.text import located
+from rwn.report.text import listing, located, plain_name, unknown_name
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
@@ -177,9 +177,10 @@ def _warnings(
             "leaves room for them, and so do recordings of fewer samples, without the parts that say little"
         )
     for f in ranking.at_a_limit[:1]:
+        met = [unknown_name(name) for name in f.limits_met]
         texts.append(
-            f"{' + '.join(f.added)} fits better, but {', '.join(f.limits_met)} ran into a limit: there the law bends "
-            "towards one that it is not, and it is not named"
+            f"{' + '.join(map(plain_name, f.added))} fits better, but {listing(met)} ran into a "
+            "limit: there the law bends towards one that it is not, and it is not named"
         )
     return tuple(texts)
 
@@ -192,5 +193,5 @@ def _contradictions(chosen: RankedFit, model: Model) -> Iterator[str]:
             off = abs(np.log(value / u.prior)) / declared if value > 0.0 else np.inf
             if off > BELIEVABLE:
                 to = f"{value / u.prior:.2g} times what was given, {off:.1f} declared deviations"
-                said = f"data sheet and recordings contradict each other in {u.name}"
+                said = f"data sheet and recordings contradict each other in {unknown_name(u.name)}"
                 yield f"{said}: it moved to {to if value > 0.0 else 'zero'}"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rwn.errors import InputError, unknown
-from rwn.input_file import input_file
+from rwn.input_file import input_file, path_of
 from rwn.model.files import read_model, write_model
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.exchange import CURVES, MODEL, REPORT, RESULT
@@ -101,7 +101,7 @@ class Diagnosis(DiagnosisData):
                              fix="load the folder that rwn diagnose wrote, or diagnose again")  # fmt: skip
         wanted = next(iter(known)) if name is None else name
         if wanted not in known:
-            raise unknown("figure", wanted, known, where="plot")
+            raise unknown("figure", str(wanted), known, where="plot")
         return drawn(panels(self.curves, known[wanted]), wanted)
 
     def write(self, folder: Path) -> None:
@@ -117,7 +117,7 @@ class Diagnosis(DiagnosisData):
 
         Raises InputError where the folder holds files and `overwrite` is false, or cannot be written.
         """
-        with output_folder(Path(folder), overwrite=overwrite) as aside:
+        with output_folder(path_of(folder, "result"), overwrite=overwrite) as aside:
             self.write(aside)
 
     @classmethod
@@ -126,8 +126,9 @@ class Diagnosis(DiagnosisData):
 
         Raises InputError where a file is missing or is no diagnosis, or another result takes its place meanwhile.
         """
-        with one_result(Path(folder)):
-            return cls._read(Path(folder))
+        path = path_of(folder, "result")
+        with one_result(path):
+            return cls._read(path)
 
     @classmethod
     def _read(cls, folder: Path) -> Diagnosis:

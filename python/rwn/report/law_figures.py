@@ -13,7 +13,7 @@ from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.report.plot import Plot, Trace
 from rwn.report.text import plain_name
-from rwn.report.thinning import thin_cloud, worth_seeing
+from rwn.report.thinning import MOST_POINTS, thin_cloud, thin_line, worth_seeing
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
 Array = NDArray[np.float64]
@@ -65,7 +65,9 @@ def _law(name: str, full: Sequence[UnknownInputs], without: Sequence[UnknownInpu
     if shares_shown[state] < LEAST_SHOWN:
         return None
     x, unit = states[state], UNITS[state].replace("rad/s", "m/s") if linear else UNITS[state]
-    curve, kept = _curve(x, best.effect), thin_cloud(best.left)
+    runs = [u.time.size for u in full]
+    curve = _over_time(x, best.effect, runs) if state == "time" else _curve(x, best.effect)
+    kept = thin_cloud(best.left)
     outside = worth_seeing(best.left, curve.y)
     return Plot(
         slot="law", title=f"{plain_name(name).capitalize()} over {state}".replace("coulomb", "Coulomb"), x_label=state,
@@ -102,6 +104,16 @@ def _share_shown(x: Array, y: Array) -> float:
 def _curve(x: Array, y: Array) -> Trace:
     place, n = _bins(x)
     return Trace(name="", role="corrected", x=np.bincount(place, x, n.size) / n, y=np.bincount(place, y, n.size) / n)
+
+
+def _over_time(time: Array, y: Array, runs: Sequence[int]) -> Trace:
+    """The values themselves (n,) with their peaks, recording by recording: means would flatten what oscillates."""
+    ends, most = np.cumsum(runs), MOST_POINTS // len(runs)
+    parts = [(time[end - n : end], y[end - n : end]) for n, end in zip(runs, ends, strict=True)]
+    drawn = [(t[kept], values[kept]) for t, values in parts for kept in [thin_line([values], most=most)]]
+    broken = [part for t, values in drawn for part in ((t, values), (t[-1:], np.array([np.nan])))][:-1]
+    x, values = (np.concatenate([part[k] for part in broken]) for k in (0, 1))
+    return Trace(name="", role="corrected", x=x, y=values)
 
 
 def _bins(x: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

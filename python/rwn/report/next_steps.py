@@ -6,8 +6,13 @@ from collections.abc import Iterator
 
 from rwn.decide.account import Acting
 from rwn.report.diagnosis_data import DiagnosisData
+from rwn.report.sentences import SLIGHT
 from rwn.report.text import likelihood, listing, plain_name
 
+_WRITE_IT = (
+    "write it as a formula under `[own_effects]` in the model file and diagnose again: it is then fitted and proved "
+    "like any other name."
+)
 NEAR = 0.1  # probability from which a name that is not stated is worth mentioning
 
 
@@ -27,6 +32,9 @@ def _missing(found: DiagnosisData) -> Iterator[str]:
     if found.next_experiment:
         which = "them apart" if len(found.set) > 1 else "it from the next explanations"
         yield f"To tell {which}: {found.next_experiment}"
+    if found.remainder.signals and found.remainder.share >= SLIGHT:
+        yield f"For what they leave: where you know what does it, {_WRITE_IT}"
+        yield from _again(found)
     yield from _use_it("the effects that were found")
     if not any(source.use == "heldout" for source in found.sources) and found.sources:
         yield "Keep one recording back with `--heldout`: a proof on a run of its own is stronger than cross-validation."
@@ -47,22 +55,24 @@ def _adequate(found: DiagnosisData) -> Iterator[str]:
 def _unexplained(found: DiagnosisData) -> Iterator[str]:
     laws = [plot for plot in found.curves if plot.slot == "law"]
     if laws:
-        yield (
-            f"It is drawn over {laws[0].x_label} below. Where you know what does that, write it as a formula under "
-            "`[own_effects]` in the model file and diagnose again: it is then fitted and proved like any other name."
-        )
+        yield f"It is drawn over {laws[0].x_label} below. Where you know what does that, {_WRITE_IT}"
     near = [e for e in found.account if e.together > NEAR]
     if near:
         yield f"Nearest names, not stated: {listing([_nearest(e) for e in near[:3]], 'and')}."
     if found.next_experiment:
         yield found.next_experiment
-    elif found.location.regions:
+    else:
+        yield from _again(found)
+    if found.stand_in:
+        yield from _use_it("what stands for it")
+
+
+def _again(found: DiagnosisData) -> Iterator[str]:
+    if found.location.regions:
         yield (
             "Record again with more of the motion where it is strongest, and one run at half that amplitude: what "
             "grows with it and what does not tells causes apart."
         )
-    if found.stand_in:
-        yield from _use_it("what stands for it")
 
 
 def _nearest(effect: Acting) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from rwn.model.recordings import read_recordings
 from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import MEASURED, SIGNALS
+from rwn.report.diagnosis import Diagnosis
 from rwn.report.plot import Plot, Role, Trace
 from rwn.report.plots import drawn
 from rwn.report.thinning import thin_line
@@ -26,33 +27,51 @@ from rwn.simulate.simulation import simulate
 if TYPE_CHECKING:
     import plotly.graph_objects
 
+Drawn = Model | Identification | str | Path
+
 # Lines and errors of models in their order, as in a report: the last stands out.
 _ROLES: tuple[tuple[Role, Role], ...] = (("nominal", "nominal"), ("refitted", "before"), ("corrected", "after"))
 
 
 def plot(
     recording: Any,
-    models: Mapping[str, Model | Identification | str | Path] | None = None,
+    models: Mapping[str, Drawn] | Sequence[Drawn] | Drawn | None = None,
     *,
     signal: str | None = None,
 ) -> plotly.graph_objects.Figure:
     """The signals of a recording over time; with `models`, one signal, what each makes of the input, and the errors.
 
-    `recording`: a recording, a path or a table in Python. `models`: at most three by the names that they are shown
-    with, each a model, its file or the result of `identify`. `signal`: what is compared, else the speed where it was
-    recorded.
+    `recording`: a recording, a path or a table in Python. `models`: one or at most three, by the names that they are
+    shown with or in a list, each a model, its file or the result of `identify`. `signal`: what is compared, else the
+    speed where it was recorded.
 
     Raises InputError where a recording does not fit a model, there is no such signal, or plotly is not installed.
     """
-    if len(models or {}) > len(_ROLES):
-        raise InputError(f"{len(models or {})} models are given", where="plot", expected="at most three",
+    if isinstance(recording, Diagnosis):
+        raise InputError("this is a diagnosis", where="plot", expected="a recording", fix="call its method plot()")
+    named = _named(models)
+    if len(named) > len(_ROLES):
+        raise InputError(f"{len(named)} models are given", where="plot", expected="at most three",
                          fix="draw them in several figures")  # fmt: skip
-    if not models:
+    if not named:
         shown = recording if isinstance(recording, Recording) else read_recording(recording)
         return drawn(_signals(shown, signal), shown.name)
-    read = {name: m.model if isinstance(m, Identification) else model_of(m) for name, m in models.items()}
+    read = {name: m.model if isinstance(m, Identification) else model_of(m) for name, m in named.items()}
     (run,) = read_recordings([recording], next(iter(read.values())))
     return drawn(_compared(run, read, signal), run.name)
+
+
+def _named(models: Mapping[str, Drawn] | Sequence[Drawn] | Drawn | None) -> Mapping[str, Drawn]:
+    """The models by name: those that have none are called as their files, or "model"."""
+    if models is None or isinstance(models, Mapping):
+        return models or {}
+    listed = list(models) if isinstance(models, list | tuple) else [models]
+    named: dict[str, Any] = {}
+    for one in listed:
+        of_file = one if isinstance(one, str | Path) else getattr(getattr(one, "model", one), "source", "")
+        name = Path(of_file).name or "model"
+        named[name if name not in named else f"{name} ({len(named) + 1})"] = one
+    return named
 
 
 def _signals(run: Recording, wanted: str | None) -> list[Plot]:

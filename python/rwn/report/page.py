@@ -157,7 +157,7 @@ def _place(found: DiagnosisData) -> str:
 def _parameters(found: DiagnosisData) -> str:
     body = tables.parameter_table(found)
     advice = found.nominal_fit.advice
-    return body + (f'<p class="note">{escape(advice)}</p>' if body and advice else "")
+    return body + (f'<p class="note">Refitted alone: {escape(advice)}</p>' if body and advice else "")
 
 
 def _provenance(found: DiagnosisData) -> str:

@@ -14,16 +14,20 @@ EARLIEST = 0.05  # share that must be done before the time that is left is worth
 
 
 class Progress:
-    """Callable as `progress(stage, fraction)`, fraction 0 to 1."""
+    """Callable as `progress(stage, fraction)`, fraction 0 to 1; where it falls, something is done once more, and the
+    time that is left is that of this."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
         self._began = time.monotonic()
-        self._stage = ""
+        self._stage, self._done = "", 0.0
         self._bar: Bar | None = None
         self._task: TaskID | None = None
 
     def __call__(self, stage: str, fraction: float) -> None:
+        if fraction < self._done:
+            self._began = time.monotonic()
+        self._done = fraction
         if self._bar is not None and self._task is not None:
             left = remaining(time.monotonic() - self._began, fraction)
             self._bar.update(self._task, completed=fraction, description=stage, left=left)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rwn.errors import InputError
 from rwn.fit.identify import Identification
+from rwn.input_file import path_of
 from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.recording.recording import Recording, write_csv
@@ -23,7 +24,7 @@ def save(what: Model | Identification | Recording, path: str | Path, *, overwrit
         raise InputError(f"a {type(what).__name__} has no file of its own", where=path,
                          expected="a model, the result of identify, or a recording",
                          fix="save a diagnosis by its method save")  # fmt: skip
-    with output_file(Path(path), overwrite=overwrite) as aside:
+    with output_file(path_of(path, "file.toml"), overwrite=overwrite) as aside:
         if isinstance(what, Recording):
             write_csv(aside, what.time, what.signals, linear=what.linear, units=what.units)
         else:

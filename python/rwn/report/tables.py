@@ -86,7 +86,9 @@ def alternative_table(found: DiagnosisData) -> str:
         for other in found.alternatives
         if other.probability >= UNLIKELY
     ]
-    return table(("Other explanation", "Probability", "What would tell them apart"), rows, numbers_from=9)
+    nameless = "unexplained" in (found.verdict, found.beneath.verdict if found.beneath else "")
+    head = "Of what has a name, the likeliest" if nameless else "Other explanation"
+    return table((head, "Probability", "What would tell them apart"), rows, numbers_from=9)
 
 
 def region_table(regions: Sequence[Region]) -> str:

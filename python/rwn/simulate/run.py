@@ -13,6 +13,7 @@ from rwn.model.initial_state import INITIAL_POSITION, initial_state_of
 from rwn.model.model import Model
 from rwn.recording.delays import in_time
 from rwn.recording.filters import after_missing, before_filter, unfiltered
+from rwn.recording.interpolated import InterpolatedRows
 from rwn.recording.intersample import AUTO, INTERSAMPLE, PiecewiseInput
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
@@ -48,6 +49,7 @@ class Run:
     own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
     input_before: float = 0.0
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
+    interpolated: InterpolatedRows | None = None  # its rows, where the signals are samples that these lay between
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
     angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
     angle_from_start: bool = False  # `angle` is counted from the initial position
@@ -116,7 +118,8 @@ class Run:
         """Its first `end` samples."""
         arrays = ("time", "input", "current", "speed", "position", "angle", "restart_speed", "restart_position")
         cut = {name: getattr(self, name)[:end] for name in arrays}
-        return replace(self, **cut, missing={s: lost[:end] for s, lost in self.missing.items()})
+        missing = {s: lost[:end] for s, lost in self.missing.items()}
+        return replace(self, **cut, missing=missing, interpolated=None)
 
     def since(self, begin: int) -> Run:
         """Its samples from `begin`, from the smoothed motion that was recorded there."""
@@ -129,7 +132,7 @@ class Run:
         return replace(
             self, **cut, time=self.time[begin:] - first, start=(0.0, speed, position), start_spread={}, own=(),
             in_motion=True, input_before=float(self.input[begin - 1]),
-            applied_input=self.applied_input and self.applied_input.since(first),
+            applied_input=self.applied_input and self.applied_input.since(first), interpolated=None,
             missing={s: lost[begin:] for s, lost in self.missing.items()},
         )  # fmt: skip
 
@@ -139,7 +142,30 @@ class Run:
 
     def with_intersample(self, law: str) -> Run:
         """The same with the input acting between the rows by a law of `rwn.recording.intersample`."""
-        return replace(self, applied_input=INTERSAMPLE[law].applied(self.time, self.input))
+        shown = self._as_rows()
+        rows = INTERSAMPLE[law].samples(shown.time)
+        run = replace(shown, applied_input=INTERSAMPLE[law].applied(shown.time, shown.input), interpolated=rows)
+        if rows is None:
+            return run
+        found = {s: rows.samples(run.signal(s), run.missing.get(s)) for s in run.recorded}
+        missing = {**run.missing, **{s: lost for s, (_, lost) in found.items()}}
+        return replace(run._showing({s: values for s, (values, _) in found.items()}, rows.ticks), missing=missing)
+
+    def _as_rows(self) -> Run:
+        """The same with rows that were interpolated as they were recorded; what is missing among the samples is."""
+        rows = self.interpolated
+        if rows is None:
+            return self
+        shown = {s: rows.shown(self.signal(s)) for s in self.recorded}
+        return replace(self._showing(shown, rows.rows), interpolated=None)
+
+    def _showing(self, signals: Mapping[str, Array], time: Array) -> Run:
+        """The same with other signals at other times, and the angle that effects follow by these."""
+        current, speed, position = (signals.get(name, _NONE) for name in ("current", "speed", "position"))
+        angle = self.angle
+        if angle.size:
+            angle = integral(self.speed_measured, time, speed) if self.angle_from_speed else position
+        return replace(self, time=time, current=current, speed=speed, position=position, angle=angle)
 
     def unfiltered(self, signal: str, time_constant: float) -> Run:
         """The same with the speed or the current as it was before a first-order filter of its samples [s]."""
@@ -178,7 +204,11 @@ class Run:
 def run_of(recording: Recording, model: Model) -> Run:
     """A recording as the core takes it; samples are at the rows' times, the input acts as the model's layout says."""
     drive, layout = model.drive, model.recording
-    recording = unfiltered(in_time(recording, layout.delays), layout.filters)
+    law = None if layout.intersample == AUTO else INTERSAMPLE[layout.intersample]
+    recording = in_time(recording, layout.delays)
+    when = recording.time - recording.time[0]
+    rows = law.samples(when) if law else None
+    recording = unfiltered(sampled(recording, rows), layout.filters)
     signals = {name: np.array(values) for name, values in recording.signals.items()}
     given = signals[drive.input]
     time = recording.time - recording.time[0]
@@ -203,11 +233,20 @@ def run_of(recording: Recording, model: Model) -> Run:
         input_before=float(given[0]) if start.in_motion else 0.0,
         angle=position if position.size else integral(way, time, speed),
         angle_from_speed=position.size == 0,
+        interpolated=rows,
     )
-    law = model.recording.intersample
-    if recording.applied_input is not None:
-        return replace(run, applied_input=recording.applied_input)
-    return run if law == AUTO else run.with_intersample(law)
+    known = recording.applied_input
+    return replace(run, applied_input=law.applied(when, run.input) if known is None and law else known)
+
+
+def sampled(recording: Recording, rows: InterpolatedRows | None) -> Recording:
+    """A recording with the samples that its rows lie between in place of them; its input stays."""
+    if rows is None:
+        return recording
+    signals, missing = dict(recording.signals), dict(recording.missing)
+    for name in (s for s in MEASURED if s in signals):
+        signals[name], missing[name] = rows.samples(np.asarray(signals[name]), missing.get(name))
+    return replace(recording, time=recording.time[0] + rows.ticks, signals=signals, missing=missing)
 
 
 def judging_run(recording: Recording, model: Model) -> Run:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +18,16 @@ from rwn.model.recordings import read_recordings
 from rwn.recording.columns import Layout
 from rwn.recording.delays import delayed
 from rwn.recording.filters import as_filtered
+from rwn.recording.recording import table_of_signals
 from rwn.recording.signals import MEASURED
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.initial_state import nearest_state
-from rwn.simulate.run import run_of
+from rwn.simulate.run import Run, run_of
 from rwn.simulate.simulator import Simulator
 from rwn.values import Values
+
+if TYPE_CHECKING:
+    import pandas
 
 Array = NDArray[np.float64]
 
@@ -36,6 +40,15 @@ class Simulation(Values):
     signals: Mapping[str, Array]
     status: str
     advice: str
+    linear: bool = False
+
+    def table(self) -> pandas.DataFrame | dict[str, Array]:
+        """Time and signals (n_t,) as columns `speed [rad/s]` in SI, which `read_recording` takes.
+
+        A dictionary of arrays where pandas is not installed.
+        """
+        found: pandas.DataFrame | dict[str, Array] = table_of_signals(self.time, self.signals, linear=self.linear)
+        return found
 
     def __repr__(self) -> str:
         return f"<Simulation {self.status}: {', '.join(self.signals)}; {len(self.time)} samples>"
@@ -74,9 +87,10 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
     status = output.status if finite or output.status != "ok" else "diverged"
     return Simulation(
         time=recording.time,
-        signals={name: _as_logged(name, run.time, _held(values), model.recording) for name, values in shown.items()},
+        signals={name: _as_logged(name, run, _held(values), model.recording) for name, values in shown.items()},
         status=status,
         advice=_core.simulation_advice(status),
+        linear=model.linear,
     )
 
 
@@ -89,7 +103,9 @@ def _held(values: Array) -> Array:
     return np.where(np.arange(values.size) < first, values, values[first - 1] if first else 0.0)
 
 
-def _as_logged(name: str, time: Array, values: Array, layout: Layout) -> Array:
+def _as_logged(name: str, run: Run, values: Array, layout: Layout) -> Array:
     """A signal (n,) as the files of this layout show it."""
-    tau = layout.filters.get(name, 0.0)
-    return delayed(time, as_filtered(time, values, tau) if tau else values, layout.delays.get(name, 0.0))
+    tau, rows = layout.filters.get(name, 0.0), run.interpolated
+    values = as_filtered(run.time, values, tau) if tau else values
+    shown, time = (values, run.time) if rows is None else (rows.shown(values), rows.rows)
+    return delayed(time, shown, layout.delays.get(name, 0.0))

@@ -47,6 +47,7 @@ __all__ = ["FORMATS", "MAX_SAMPLES", "Table", "read_table"]
 def read_table(path: Path, wanted: Collection[str]) -> Table:
     """The `wanted` columns of a file, by the format of its ending; `file#part` reads a part. Raises InputError."""
     path, part = file_and_part(path)
+    path = _in_bag(path)
     reader = FORMATS.get(path.suffix.lower())
     if reader is None:
         raise InputError(
@@ -57,3 +58,14 @@ def read_table(path: Path, wanted: Collection[str]) -> Table:
         )
     with input_file(path, "a recording file"):
         return part_of(reader, path, part, wanted) if part else reader(path, wanted)
+
+
+def _in_bag(path: Path) -> Path:
+    """The file in the folder of a ROS 2 bag; other paths as they are. Raises InputError where there are several."""
+    files = sorted(path.glob("*.mcap")) if path.is_dir() else []
+    if len(files) > 1:
+        raise InputError(
+            f"the bag is split into {len(files)} files", where=path, expected="a bag of one file",
+            fix=f"name one of them, such as {files[0]}, or join them: ros2 bag convert",
+        )  # fmt: skip
+    return files[0] if files else path

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from bisect import bisect_right
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 
@@ -12,7 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError
-from rwn.recording.formats.csv_dialect import HOW, Dialect, dialect_of, encoding_of, is_number
+from rwn.recording.formats.csv_dialect import (
+    HOW,
+    Dialect,
+    dialect_of,
+    encoding_of,
+    is_number,
+    separated_by_blanks,
+    split,
+    without_blanks,
+)
+from rwn.recording.formats.stamps import Stamps, instant
 from rwn.recording.formats.table import MAX_SAMPLES, Table, too_long
 
 BLOCK = 2**20  # characters that are read at once, and the longest line
@@ -44,6 +54,8 @@ def read_csv(path: Path, wanted: Collection[str] = ()) -> Table:
 def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, line: str = "line") -> Table:
     """The `wanted` columns of lines of text in blocks; `line`: what messages call one. Raises InputError."""
     first = next(blocks, (0, []))
+    if separated_by_blanks(_sample(first[1])):
+        first, blocks = _tabbed(first), map(_tabbed, blocks)
     dialect = dialect_of(_sample(first[1]), wanted, where)
     names = dialect.names
     used = [j for j, name in enumerate(names) if name in wanted]
@@ -52,12 +64,14 @@ def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, 
     starts: list[int] = []  # first row of each block, and the lines (from 1) of its rows
     numbers: list[Sequence[int]] = []
     rows = 0
+    stamps: dict[int, Stamps] | None = None
     for at, lines in chain([first], blocks):
         skipped = max(dialect.first - at, 0)
         numbered, kept = _rows(lines, at + skipped, skipped)
         if not kept:
             continue
-        values = _numbers(numbered, kept, dialect, used, where)
+        stamps = _stamps(kept, dialect, used, where) if stamps is None else stamps
+        values = _numbers(numbered, kept, dialect, used, where, stamps)
         starts.append(rows)
         numbers.append(numbered)
         rows += len(kept)
@@ -69,8 +83,19 @@ def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, 
     for j in used:
         part = parts.pop(0)  # one column after the other, so that two copies of one alone exist at a time
         columns[names[j]] = np.concatenate(part) if part else np.empty(0)
-    units = dict(zip(names, dialect.units, strict=True))
+    units = dict(zip(names, dialect.units, strict=True)) | {names[j]: "s" for j in stamps or ()}
     return Table(where=where, columns=columns, units=units, row=lambda k: f"{line} {_line(starts, numbers, k)}")
+
+
+def _stamps(lines: Sequence[str], dialect: Dialect, used: Sequence[int], where: str) -> dict[int, Stamps]:
+    """The used columns that hold instants, by their place; the first row tells."""
+    cells = split(lines[0], dialect.delimiter, where)
+    begun = {j: instant(cells[j]) for j in used if j < len(cells)}
+    return {j: Stamps(first) for j, first in begun.items() if first is not None}
+
+
+def _tabbed(block: Block) -> Block:
+    return block[0], list(map(without_blanks, block[1]))
 
 
 def _line(starts: Sequence[int], numbers: Sequence[Sequence[int]], row: int) -> int:
@@ -130,7 +155,8 @@ def _rows(lines: list[str], at: int, skipped: int) -> tuple[Sequence[int], list[
 
 
 def _numbers(
-    numbers: Sequence[int], lines: list[str], dialect: Dialect, used: Sequence[int], where: str
+    numbers: Sequence[int], lines: list[str], dialect: Dialect, used: Sequence[int], where: str,
+    stamps: Mapping[int, Stamps],
 ) -> Array:
     """The values (rows, columns) of the used columns."""
     delimiter, width = dialect.delimiter, len(dialect.names)
@@ -170,20 +196,31 @@ def _numbers(
     elif delimiter != ",":
         plain = [line.replace(",", ".") for line in lines]
     try:
+        place = {j: k for k, j in enumerate(used)} if rows is not None else {j: j for j in used}
         return np.loadtxt(
-            plain, delimiter="\t" if quoted else delimiter, ndmin=2, comments=None, usecols=columns
-        )
+            plain, delimiter="\t" if quoted else delimiter, ndmin=2, comments=None, usecols=columns,
+            converters={place[j]: stamp.seconds for j, stamp in stamps.items()}, encoding=None,
+        )  # fmt: skip
     except ValueError as error:
         cells = rows or [line.split(delimiter) for line in lines]
-        raise _first_bad_cell(numbers, cells, dialect, used, where) from error
+        raise _first_bad_cell(numbers, cells, dialect, used, where, stamps) from error
 
 
 def _first_bad_cell(
-    numbers: Sequence[int], rows: Sequence[Sequence[str]], dialect: Dialect, used: Sequence[int], where: str
+    numbers: Sequence[int], rows: Sequence[Sequence[str]], dialect: Dialect, used: Sequence[int], where: str,
+    stamps: Mapping[int, Stamps],
 ) -> InputError:
     for line, row in zip(numbers, rows, strict=True):
         for j in used:
             cell, name = row[j].strip(), dialect.names[j]
+            if j in stamps and instant(cell) is None:
+                return InputError(
+                    f"'{cell[:40]}' in column '{name}' is no instant", where=f"{where}, line {line}",
+                    expected="such as 2024-01-01T12:00:00.001, as in the first row",
+                    fix="correct it or remove the line",
+                )  # fmt: skip
+            if j in stamps:
+                continue
             if not is_number(cell) or (dialect.delimiter != "," and cell.count(",") + cell.count(".") > 1):
                 what = f"'{cell[:40]}' in column '{name}' is not a number" if cell else f"column '{name}' is empty"
                 separated = is_number(cell.replace(",", "").replace(".", "").replace(" ", "").replace("_", ""))

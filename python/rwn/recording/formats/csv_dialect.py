@@ -8,6 +8,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from rwn.errors import InputError
 from rwn.recording import units
@@ -23,6 +24,7 @@ _UNIT_AFTER = (
 )
 _INDEXED = re.compile(r".*\S\[\d+\]")  # r0061[0]: of several, not a unit
 _BRACKETS = re.compile(r"\s*[\[(]?\s*(.*?)\s*[\])]?\s*")
+_BLANKS = re.compile(r"[ ]+(?![ \[(])")
 _ABOVE = 4  # rows of names, units and the like that may stand above the numbers
 _LONGEST = 300  # characters of a cell with a name and a unit: nobody writes such, and matching takes their square
 _JUDGED = 100  # lines from the end of the sample that tell how rows look
@@ -57,6 +59,21 @@ def encoding_of(start: bytes, where: object) -> str:
             fix="export the recording as CSV, or give the file the ending of its format (.mat, .xlsx)",
         )
     return "utf-8"
+
+
+def separated_by_blanks(lines: Sequence[str]) -> bool:
+    """Whether runs of blanks, and nothing else, separate the cells of the first `lines` of a file."""
+    rows = [line for line in lines if line.strip() and not line.startswith("#")]
+    tail = rows[len(rows) // 2 :][-_JUDGED:]
+    cells = [line.split() for line in tail]
+    alone = not any(mark in line for line in tail for mark in ",;\t|\"")
+    return bool(cells) and alone and len(cells[0]) > 1 and all(map(is_number, chain(*cells)))
+
+
+def without_blanks(line: str) -> str:
+    """A line whose cells blanks separate, with tabs between them; a unit in brackets stays with its name."""
+    mark = "#" if line.startswith("#") else ""
+    return mark + _BLANKS.sub("\t", line[len(mark) :].strip())
 
 
 def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str) -> Dialect:

@@ -37,6 +37,7 @@ def table_of(
 
 def vector(where: str, name: str, values: Any) -> NDArray[np.float64]:
     """One column (n_t,) float64; instants and durations in s. Raises InputError."""
+    refuse_mask(where, name, values)
     array = np.atleast_1d(np.squeeze(np.asarray(values)))
     if array.dtype.kind == "M" and array.size:  # instants, as time since the first
         array = array - array.flat[0]
@@ -59,6 +60,16 @@ def vector(where: str, name: str, values: Any) -> NDArray[np.float64]:
     if array.size > MAX_SAMPLES:
         raise too_long(where, array.size)
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def refuse_mask(where: str, name: str, values: Any) -> None:
+    """Raises InputError where samples are masked: numpy would take what stands beneath as measured."""
+    lost = int(np.count_nonzero(np.ma.getmaskarray(values))) if isinstance(values, np.ma.MaskedArray) else 0
+    if lost:
+        raise InputError(
+            f"{lost} of {values.size} samples of '{name}' are masked", where=where, expected="a value for each instant",
+            fix="interpolate them; a Recording takes missing={name: flags} beside them",
+        )  # fmt: skip
 
 
 def too_long(where: str, samples: int) -> InputError:

@@ -1,0 +1,60 @@
+"""Declared effects that no drive of this size can have, though the sign of their values is right."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.errors import InputError
+from rwn.fit.declared import check_declared
+from rwn.fit.preparation import prepare
+from rwn.model.vocabulary import table
+
+MOTOR = rwn.Model(
+    kind="dc",
+    parameters={
+        "resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 3e-4,
+        "viscous_friction": 7e-5,
+    },
+)  # fmt: skip
+TIME = np.arange(300) * 1e-3
+STALL = 0.1 * 6.0 / 0.8  # N m, the torque of the drive at 6 V
+
+
+def _run(volts: float = 6.0) -> rwn.Recording:
+    voltage = volts * np.sin(30.0 * TIME)
+    recording = rwn.Recording(name="run", time=TIME, signals={"voltage": voltage})
+    return replace(recording, signals={"voltage": voltage, **rwn.simulate(MOTOR, recording).signals})
+
+
+@pytest.mark.parametrize(
+    ("effect", "values"),
+    [
+        ("coulomb-friction", {"coulomb_torque": 1e4}),
+        ("quadratic-drag", {"drag_coefficient": 1.0}),
+        ("coulomb-friction", {"coulomb_torque": 101.0 * STALL}),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("ask", [rwn.identify, rwn.diagnose])
+def test_a_value_that_no_such_drive_has_is_refused(ask: object, effect: str, values: dict[str, float]) -> None:
+    assert {p.name for p in table()[effect].parameters} == set(values)
+    model = replace(MOTOR, effects={effect: values})
+    (name,) = values
+    with pytest.raises(InputError, match=rf"\[effects.{effect}\]: {name} is .*; fix: "):
+        ask(_run(), model)  # type: ignore[operator]
+
+
+def test_a_weak_run_of_the_same_drive_does_not_refuse_what_a_strong_one_shows() -> None:
+    """Half the stall torque at 6 V, declared, and a run of 0.3 V: ten times the torque of that run."""
+    model = replace(MOTOR, effects={"coulomb-friction": {"coulomb_torque": 0.5 * STALL}})
+    check_declared(prepare([_run(0.3)], model), model)
+
+
+@pytest.mark.parametrize("value", [-1e9, 1e9])
+def test_a_phase_is_not_bounded(value: float) -> None:
+    cogging = {"amplitude": 0.01, "periods_per_rev": 7.0, "phase": value}
+    model = replace(MOTOR, effects={"cogging-torque": cogging})
+    check_declared(prepare([_run()], model), model)
