@@ -51,7 +51,7 @@ def diagnose(
     overwrite: Overwrite = False,
     profile: Profile = None,
 ) -> None:
-    """Name the missing physics, model it, show that it helps, draw where it lies; exit code 3: it does not run."""
+    """Name the missing physics, model it, prove it and draw where it lies; exit code 3: the model does not run."""
     from rwn.model.recordings import read_recordings
     from rwn.report.files import output_folder
     from rwn.report.provenance import source

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.faults.standstill import FEWEST, first_moved
 from rwn.fit.fit import Fit, fit, fit_nominal, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.likelihood import DECISIVE
@@ -19,7 +20,7 @@ from rwn.fit.nominal import nominal_of
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import worth
 from rwn.fit.problem import Problem
-from rwn.model.initial_state import CERTAIN, resolution
+from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.name.observable import observable
 from rwn.name.screening import screen
@@ -29,7 +30,6 @@ from rwn.simulate.run import Run, run_of
 
 Array = NDArray[np.float64]
 
-FEWEST = 3  # samples that stand still: fewer are what an inductance and an inertia take
 DELAY = "input-delay"
 HOLDING = ("coulomb-friction", "stribeck-friction", "actuator-deadzone")  # under which a drive stands still too
 TRIED = 64  # instants of enabling that are compared at a time
@@ -134,38 +134,9 @@ def retimed(
 def _standing_samples(recording: Recording, model: Model) -> int:
     """Samples from the first on that stand still, of a recording with an input in them; 0 of others."""
     measured = [np.asarray(x) for name, x in recording.signals.items() if name != model.drive.input]
-    samples = min(map(_first_moved, measured), default=0)
+    samples = min(map(first_moved, measured), default=0)
     given = np.asarray(recording.signals[model.drive.input])[: max(samples - FEWEST, 0)]
     return samples if samples > FEWEST and given.any() else 0
-
-
-def _first_moved(signal: Array) -> int:
-    """The first sample that is certainly elsewhere than those before, with most of as many that follow; else the last.
-
-    Where the signal stood, and its noise, white or not, are those of the first half of what came before each sample: a
-    motion that sets in slowly is hardly in it. A few samples tell little of either (Student's distribution).
-    """
-    from scipy.special import ndtr, stdtrit  # late: the command line starts without it
-
-    half = np.maximum(np.arange(1, signal.size + 1) // 2, 1)
-    off = signal - np.median(signal[:FEWEST])
-    sums, squares = np.cumsum(off)[half - 1], np.cumsum(off**2)[half - 1]
-    middle = sums / half
-    rms = np.sqrt(np.maximum(squares / half - middle**2, 0.0))
-    limit = np.maximum(stdtrit(half, ndtr(CERTAIN)) * rms, CERTAIN * _least_change(signal))
-    moved = (int(k) for k in np.flatnonzero(np.abs(off - middle) > limit) if k >= FEWEST)
-    lasting = (k for k in moved if np.median(np.abs(off[k : 2 * k + 1] - middle[k])) > limit[k])
-    return next(lasting, signal.size - 1)
-
-
-def _least_change(signal: Array) -> float:
-    """What a signal (n,) that stood still may change by at once, also where it was constant until then: a step or so.
-
-    Rows between values of coarse steps lie on no steps themselves: then a change that nine of ten changes exceed.
-    """
-    changes = np.abs(np.diff(signal))
-    changes = changes[changes > 0.0]
-    return max(resolution(signal, signal.size), float(np.quantile(changes, 0.1)) if changes.size else 0.0)
 
 
 def _worthwhile(

@@ -1,0 +1,41 @@
+"""How long a signal stood still from its first sample on."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.model.initial_state import CERTAIN, resolution
+
+Array = NDArray[np.float64]
+
+FEWEST = 3  # samples that stand still: fewer are what an inductance and an inertia take
+
+
+def first_moved(signal: Array) -> int:
+    """The first sample that is certainly elsewhere than those before, with most of as many that follow; else the last.
+
+    Where the signal stood, and its noise, white or not, are those of the first half of what came before each sample: a
+    motion that sets in slowly is hardly in it. A few samples tell little of either (Student's distribution).
+    """
+    from scipy.special import ndtr, stdtrit  # late: the command line starts without it
+
+    half = np.maximum(np.arange(1, signal.size + 1) // 2, 1)
+    off = signal - np.median(signal[:FEWEST])
+    sums, squares = np.cumsum(off)[half - 1], np.cumsum(off**2)[half - 1]
+    middle = sums / half
+    rms = np.sqrt(np.maximum(squares / half - middle**2, 0.0))
+    limit = np.maximum(stdtrit(half, ndtr(CERTAIN)) * rms, CERTAIN * _least_change(signal))
+    moved = (int(k) for k in np.flatnonzero(np.abs(off - middle) > limit) if k >= FEWEST)
+    lasting = (k for k in moved if np.median(np.abs(off[k : 2 * k + 1] - middle[k])) > limit[k])
+    return next(lasting, signal.size - 1)
+
+
+def _least_change(signal: Array) -> float:
+    """What a signal (n,) that stood still may change by at once, also where it was constant until then: a step or so.
+
+    Rows between values of coarse steps lie on no steps themselves: then a change that nine of ten changes exceed.
+    """
+    changes = np.abs(np.diff(signal))
+    changes = changes[changes > 0.0]
+    return max(resolution(signal, signal.size), float(np.quantile(changes, 0.1)) if changes.size else 0.0)
