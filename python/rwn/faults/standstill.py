@@ -13,10 +13,11 @@ FEWEST = 3  # samples that stand still: fewer are what an inductance and an iner
 
 
 def first_moved(signal: Array) -> int:
-    """The first sample that is certainly elsewhere than those before, with most of as many that follow; else the last.
+    """The first sample of a signal (n,) that is certainly elsewhere than those before, and stays so; else the last.
 
-    Where the signal stood, and its noise, white or not, are those of the first half of what came before each sample: a
-    motion that sets in slowly is hardly in it. A few samples tell little of either (Student's distribution).
+    Most of as many samples that follow are elsewhere too. Where the signal stood, and its noise, white or not, are
+    those of the first half of what came before each sample: a motion that sets in slowly is hardly in it. A few samples
+    tell little of either (Student's distribution).
     """
     from scipy.special import ndtr, stdtrit  # late: the command line starts without it
 
