@@ -8,7 +8,10 @@ import numpy as np
 import pytest
 
 import rwn
+from rwn.fit.fit import fit
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intersample import stating
+from rwn.fit.nominal import nominal_of
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 
@@ -17,21 +20,45 @@ MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_e
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
 
-@pytest.mark.parametrize("friction", [0.0, 5e-3])
-def test_the_motion_tells_when_a_voltage_stepped_between_two_rows(friction: float) -> None:
-    rng, time = np.random.default_rng(4), 1e-3 * np.arange(6000)
+STEP = 1e-3
+
+
+def _every_second_row(effects: dict[str, dict[str, float]]) -> tuple[np.ndarray, rwn.Recording]:
+    """A voltage that steps now and then, at any of the rows, and every second row of what it moves."""
+    rng, time = np.random.default_rng(4), STEP * np.arange(6000)
     ends = np.cumsum(rng.integers(40, 60, 160))
     voltage = rng.uniform(-3.0, 3.0, 160)[np.searchsorted(ends, np.arange(6000), side="right")]
-    truth = Model(kind="dc", parameters=MOTOR, effects={"coulomb-friction": {"coulomb_torque": friction}})
+    truth = Model(kind="dc", parameters=MOTOR, effects=effects)
     bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
     speed = rwn.simulate(truth, bare).signals["speed"] + 0.05 * rng.standard_normal(time.size)
-    kept = replace(bare, time=time[::2], signals={"voltage": voltage[::2], "speed": speed[::2]})
-    (found,) = with_unrecorded_input([kept], stating(MODEL, "halves"))
+    return voltage, replace(bare, time=time[::2], signals={"voltage": voltage[::2], "speed": speed[::2]})
+
+
+def _missed(voltage: np.ndarray, kept: rwn.Recording, found: rwn.Recording) -> float:
+    """Deviation of the voltage found where a step is not shown, in units of that of the middle of it."""
     assert found.applied_input is not None
     unknown = found.applied_input.spread > 0.3
-    true = voltage[np.rint(found.applied_input.instants[unknown] / 1e-3).astype(int)]
+    true = voltage[np.rint(found.applied_input.instants[unknown] / STEP).astype(int)]
     between = np.interp(found.applied_input.instants[unknown], kept.time, voltage[::2])
-    assert np.std(found.applied_input.values[unknown] - true) < 0.3 * np.std(between - true)
+    return float(np.std(found.applied_input.values[unknown] - true) / np.std(between - true))
+
+
+@pytest.mark.parametrize("friction", [0.0, 5e-3])
+def test_the_motion_tells_when_a_voltage_stepped_between_two_rows(friction: float) -> None:
+    voltage, kept = _every_second_row({"coulomb-friction": {"coulomb_torque": friction}})
+    (found,) = with_unrecorded_input([kept], stating(MODEL, "halves"))
+    assert _missed(voltage, kept, found) < 0.3
+
+
+def test_an_input_that_acts_late_is_told_by_an_explanation_with_the_delay() -> None:
+    """A model without it takes the steps of the voltage for later ones."""
+    late = {"input-delay": {"delay": 1.4 * STEP}}
+    voltage, kept = _every_second_row(late)
+    model = stating(MODEL, "halves")
+    problem, _ = nominal_of([kept], model)
+    explanation = fit(problem, hypothesis(problem.prior, ("input-delay",), problem.scales, late))
+    (bent,), (told,) = (with_unrecorded_input([kept], model, known) for known in (None, explanation))
+    assert _missed(voltage, kept, told) < 0.3 < _missed(voltage, kept, bent)
 
 
 def test_a_held_input_is_known_from_its_rows() -> None:
