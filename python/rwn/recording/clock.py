@@ -12,7 +12,9 @@ Array = NDArray[np.float64]
 IRREGULAR = 1e-3  # jitter that is more than rounded timestamps
 FIRST = 512  # rows that show a clock beside which they lie up to 0.4 periods off
 SEARCHED = 4.0  # deviations of the median step of these, within which the period is looked for
+FARTHEST = 0.3  # relative distance from the median step beyond which most steps would skip a tick
 PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows
+ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,10 +53,11 @@ def clock_of(time: Array) -> Clock:
     usual = float(np.median(steps))
     spread = float(np.percentile(np.abs(steps - usual), 68.0)) / usual
     reach = SEARCHED * 1.25 * spread / np.sqrt(steps.size)  # 1.25: of a median, against a mean
-    period, start = _agreeing(time[:rows], usual, min(reach, 0.3))
+    period, start = _agreeing(time[:rows], usual, min(reach, FARTHEST))
     while rows < time.size:
         rows = min(2 * rows, time.size)
-        period, start = _agreeing(time[:rows], period, 2.0 / rows)
+        two_cycles = 2.0 / rows
+        period, start = _agreeing(time[: rows : -(-rows // ENOUGH)], period, two_cycles)
     ticks = np.rint((time - start) / period)
     if np.any(np.diff(ticks) < 1):
         ticks, period = np.arange(time.size, dtype=np.float64), usual

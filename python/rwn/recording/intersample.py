@@ -107,14 +107,13 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
     clock = _clock_beside(time)
     if clock is None:
         return None
-    begin = clock.start if begin is None else begin
+    begin, first_time = (clock.start, time[0]) if begin is None else (begin, begin)
     last = np.floor(clock.ticks + clock.off).astype(np.int64)  # tick before each row
     first = np.concatenate([[True], np.diff(last) > 0])
     shown, seen = last[first], values[first]
     ticks = np.arange(last[0], last[-1] + 1)
     after = np.searchsorted(shown, ticks)  # the first shown tick that is not before each
     step = np.abs(np.diff(seen, prepend=seen[:1]))[after]
-    first_time = time[0] if begin == clock.start else begin
     instants = begin + clock.period * ticks
     instants[0] = first_time
     late = np.concatenate([[True], instants[1:] > first_time])
