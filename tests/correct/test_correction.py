@@ -83,7 +83,10 @@ def kept(
         ranking=ranking, account=account, chosen=explained(names), rows=errors[names] - errors[""]
     )
     found: Decision = decided
-    return "".join(_proved_part(found, heldout, seed=0).added)
+    part, rows = _proved_part(found, heldout, seed=0)
+    stays: Any = errors["".join(part.added)] - errors[""]
+    assert rows == stays, "the proof is that of what stays"
+    return "".join(part.added)
 
 
 def test_what_helps_stays(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,9 +12,10 @@ import pytest
 from rwn.decide import account as module
 from rwn.decide.account import Account, Acting, Remainder, account, remainder
 from rwn.decide.calibration import ACTS, calibration
-from rwn.decide.evidence import LOST, Evidence, _predicted
+from rwn.decide.evidence import Evidence, _predicted
 from rwn.name.weights import MISSPECIFIED
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import RAN_AWAY
 
 CERTAIN = Evidence(share=0.999, unseen=0.99, part=0.999, odds=5000.0, curve=1.0)
 MODEL: Any = "the model"
@@ -161,5 +162,5 @@ def test_recordings_kept_back_speak_for_what_predicts_them_better_as_loud_as_its
 
 def test_what_has_run_away_on_recordings_kept_back_counts_as_far_off_and_no_more() -> None:
     away = np.where(np.arange(400) < 9, 0.0, np.inf)
-    assert _predicts(away, _of(1.0)) == pytest.approx(_predicts(_of(LOST), _of(1.0)))
+    assert _predicts(away, _of(1.0)) == pytest.approx(_predicts(_of(RAN_AWAY), _of(1.0)))
     assert _predicts(away, away) == 0.0

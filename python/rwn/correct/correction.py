@@ -15,7 +15,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
 from rwn.name.weights import RankedFit
-from rwn.prove.heldout import heldout_error, helps, hurts, log_change
+from rwn.prove.heldout import HeldoutRow, heldout_error, helps, hurts, log_change
 from rwn.prove.proof import compared, proved
 from rwn.simulate.run import Run
 
@@ -60,13 +60,13 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
     warnings = _seen(decision)
     if decision.verdict == "unexplained" and not model.drive.coefficients:
         warnings = (*warnings, NO_NETWORK)
-    kept = _proved_part(decision, heldout, seed=seed)
+    kept, rows = _proved_part(decision, heldout, seed=seed)
     left_out = tuple(name for name in decision.chosen.added if name not in kept.added)
     if left_out:
         instead = " + ".join(name for name in kept.added if name not in decision.chosen.added)
         said = RIVAL_HELPS if instead else NOT_HELPING
         warnings = (*warnings, said.format(names=" + ".join(left_out), instead=instead))
-        decision = replace(decision, rows=proved(decision.ranking, kept, heldout, seed=seed))
+        decision = replace(decision, rows=rows)
     moved = by_free_run(decision, kept, seed=seed)
     if moved is None:
         return Correction(decision=decision, model=fitted_model(kept.final, model), final=kept.final, warnings=warnings)
@@ -85,24 +85,30 @@ def _seen(decision: Decision) -> tuple[str, ...]:
     return (f"{other.words} explains most of what is left: it has no name here",) if other else ()
 
 
-def _proved_part(decision: Decision, heldout: Sequence[Run], *, seed: int) -> RankedFit:
-    """What is stated, or the part of it that is best on recordings that were not fitted.
+def _proved_part(
+    decision: Decision, heldout: Sequence[Run], *, seed: int
+) -> tuple[RankedFit, tuple[HeldoutRow, ...]]:
+    """What is stated, or the part of it that is best on recordings that were not fitted; and the proof of that.
 
     That an effect acts does not make its fitted parameters good enough to predict with, and a load that acted in one
     recording is none in another.
     """
     chosen, ranking = decision.chosen, decision.ranking
+
+    def proof(this: RankedFit) -> tuple[HeldoutRow, ...]:
+        return decision.rows if this is decision.chosen else proved(ranking, this, heldout, seed=seed)
+
     while less := _better_part(decision, chosen, heldout, seed=seed):
         chosen = less
-    rows = decision.rows if chosen is decision.chosen else proved(ranking, chosen, heldout, seed=seed)
+    rows = proof(chosen)
     if not chosen.added or log_change(rows) < 0.0:
-        return chosen
-    others = [
-        r for r in ranking.fits if r.added and (set(r.added) < set(chosen.added) or _in_place(decision, chosen, r))
-    ]
-    judged = [(0.0, ranking.nothing_missing)]
-    judged += [(log_change(proved(ranking, r, heldout, seed=seed)), r) for r in others]
-    return min(judged, key=lambda pair: pair[0])[1]
+        return chosen, rows
+    parts = [r for r in ranking.fits if r.added and set(r.added) < set(chosen.added)]
+    others = [(r, proof(r)) for r in (*parts, *(r for r in ranking.fits if _in_place(decision, chosen, r)))]
+    best, rows = min(others, key=lambda pair: log_change(pair[1]), default=(chosen, rows))
+    if log_change(rows) < 0.0:
+        return best, rows
+    return ranking.nothing_missing, proof(ranking.nothing_missing)
 
 
 def _in_place(decision: Decision, chosen: RankedFit, other: RankedFit) -> bool:

@@ -25,11 +25,11 @@ from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit, effective_samples
 from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import RAN_AWAY
 
 Array = NDArray[np.float64]
 
 ITERATIONS = 8  # of a fit that begins near its end
-LOST = 1e12  # squared error, in units of the noise, of a motion that has run away
 PARTS = 16  # of the work of a stage, for each of these fits
 
 
@@ -126,7 +126,7 @@ def _predicted(judge: Problem, this: Fit, without: Fit) -> float:
     worth.
     """
     after, before = (_without_drift(variances(judge, f)) for f in (this, without))
-    logs = [np.log(min(max(before[s], 1.0), LOST) / min(max(after[s], 1.0), LOST)) for s in after]
+    logs = [np.log(np.clip(before[s], 1.0, RAN_AWAY) / np.clip(after[s], 1.0, RAN_AWAY)) for s in after]
     gain = float(np.mean(logs))
     return 0.5 * effective_samples(statistics(judge, this if gain > 0.0 else without)) * gain if gain else 0.0
 

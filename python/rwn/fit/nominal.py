@@ -28,8 +28,10 @@ def nominal_of(recordings: Sequence[Recording], model: Model) -> tuple[Problem, 
 
 
 def check_it_runs(problem: Problem, nominal: Fit) -> None:
-    """Raises NoResultError where the refitted nominal model cannot be simulated over a recording: nothing that is
-    compared with it would be a number."""
+    """Raises NoResultError where the refitted nominal model cannot be simulated over a recording.
+
+    Nothing that is compared with it would be a number.
+    """
     free = problem.in_free_run()
     for run in free.runs:
         made = free.simulate(run, nominal.vector, nominal.active)
