@@ -23,6 +23,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import variance
 from rwn.fit.sensor_filter import noise_before_filters
 from rwn.model.model import Model
+from rwn.model.recordings import LONGEST_SHIFT
 from rwn.name.ranking import Ranking
 from rwn.name.screening import FURTHER
 from rwn.parallel import side_by_side
@@ -38,7 +39,6 @@ CLEAR = 0.01  # share that is left where a fault and one effect explain all: mor
 SLIGHT = 0.02  # squared error in units of the noise, by which a fault has to be better than a pair of effects
 BETTER = 0.75  # share of what physics alone leaves, that may be left with the fault undone
 FIRST = 4  # explanations that may be one half of a pair
-LONGEST_SHIFT = 40  # samples
 NEAR = (-3, -2, -1, 1, 2, 3)  # samples by which a delay may be off, seen through missing physics
 
 

@@ -48,14 +48,16 @@ def check_recording(recording: Recording, model: Model, *, compared: bool = True
     return replace(recording, warnings=tuple(dict.fromkeys(warnings)))
 
 
+LONGEST_SHIFT = 40  # samples up to which a delay of a channel is looked for
+
 # Largest delay or time constant of a sensor: of more than a tenth of a run too little would be left to compare. In a
-# short run the 40 rows up to which `diagnose` looks for a delay itself (LONGEST_SHIFT), so that it reads what it wrote.
-_SHARE, _ROWS = 0.1, 40
+# short run as many rows as a delay is looked for in, so that `diagnose` reads what it wrote.
+_SHARE = 0.1
 
 
 def _check_sensors(recording: Recording, model: Model, where: str) -> None:
     step = float(np.median(np.diff(recording.time)))
-    most = max(_SHARE * recording.duration, min(_ROWS * step, 0.8 * recording.duration))
+    most = max(_SHARE * recording.duration, min(LONGEST_SHIFT * step, 0.8 * recording.duration))
     layout = model.recording
     for kind, times in (("delays", layout.delays), ("filters", layout.filters)):
         for signal, time in times.items():
@@ -63,7 +65,7 @@ def _check_sensors(recording: Recording, model: Model, where: str) -> None:
                 raise InputError(
                     f"{time:g} s, where {where} lasts {recording.duration:g} s",
                     where=f"{model.source or 'model'}, [recording] {kind}.{signal}",
-                    expected=f"at most {most:.3g} s: a tenth of a recording, or {_ROWS} rows",
+                    expected=f"at most {most:.3g} s: a tenth of a recording, or {LONGEST_SHIFT} rows",
                     fix='correct the value or its unit: a number is in s, "4 ms" is text',
                 )
 
