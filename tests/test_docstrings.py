@@ -76,6 +76,8 @@ def test_a_docstring_says_what_is_needed(name: str, thing: Any, of_class: str) -
         assert re.search(SHAPE, text), f"{name} gives no shape for '{array}' ({annotation})"
         if array in UNITS:
             assert UNITS[array] in text, f"{name} gives no unit for '{array}': expected {UNITS[array]}"
+    unnamed = [given for given in names(thing) if not re.search(rf"\b{given}\b", f"{own}\n{of_class}")]
+    assert not unnamed, f"{name} does not say what these are: {', '.join(unnamed)}"
     if "raise " in checks(thing):
         assert re.search(r"\b[Rr]aises\b", own), f"{name} does not say what it raises"
 
@@ -107,6 +109,21 @@ def test_a_docstring_of_a_module_says_what_is_needed(name: str) -> None:
         assert re.search(SHAPE, f"{own}\n{of_class}"), f"{name} gives no shape of its arrays"
     if "raise " in checks(thing):
         assert re.search(r"\b[Rr]aises\b", own), f"{name} does not say what it raises"
+
+
+def names(thing: Any) -> list[str]:
+    """The arguments of a function or of the making of an object, and its fields."""
+    fields = [field.name for field in dataclasses.fields(thing)] if dataclasses.is_dataclass(thing) else []
+    made = thing.__init__ if inspect.isclass(thing) and not fields else thing
+    arguments = [] if fields else [p for p in inspect.signature(made).parameters if p not in ("self", "cls")]
+    return [name for name in fields + arguments if not name.startswith("_")]
+
+
+def test_arguments_and_fields_are_looked_at() -> None:
+    assert names(rwn.InputError) == ["what", "where", "expected", "fix"]
+    assert names(rwn.MotorParameters)[0] == "resistance"
+    assert names(rwn.Diagnosis.save) == ["folder", "overwrite"]
+    assert sum(len(names(thing)) for _, thing, _ in THINGS) > 190
 
 
 def arrays(thing: Any) -> Iterator[tuple[str, str]]:

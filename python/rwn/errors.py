@@ -9,7 +9,11 @@ LONGEST = 500  # characters of one part of a message
 
 
 class InputError(ValueError):
-    """Input that cannot be used. `str()` is one line: `where: what; expected ...; fix: ...`."""
+    """Input that cannot be used. `str()` is one line: `where: what; expected ...; fix: ...`.
+
+    `what` is wrong; `where`: file, table, row or argument; `expected`: what may stand there; `fix`: what to do. Those
+    that are empty are left out of the line.
+    """
 
     def __init__(self, what: str, *, where: object = "", expected: str = "", fix: str = "") -> None:
         self.what, self.where, self.expected, self.fix = (plain(text) for text in (what, str(where), expected, fix))
@@ -20,7 +24,10 @@ class InputError(ValueError):
 
 
 class NoResultError(RuntimeError):
-    """A computation that ran and has no result to stand by: its `status` and what to do about it (`advice`)."""
+    """A computation that ran and has no result to stand by.
+
+    `status` says how it ended, `advice` what to do about it, `where` in which recording, model or step.
+    """
 
     def __init__(self, status: str, advice: str, *, where: str) -> None:
         self.status, self.advice, self.where = status, advice, plain(where)

@@ -34,15 +34,22 @@ NOTHING_LEARNED = 0.9  # standard deviation after the fit over the declared one,
 
 @dataclass(frozen=True, kw_only=True)
 class Identification:
-    """A fitted model with what can be said of it."""
+    """A fitted model with what can be said of it.
+
+    `model`: with the fitted values (SI). `parameters`: the fitted ones by name, each with value, SI unit and 95 %
+    interval. `status`: `converged`, `iteration-limit`, `stalled` or `diverged`; `advice`: what to do about it.
+    `not_identifiable`: parameters of which these recordings say less than the data sheet does. `residual_over_noise`:
+    rms of what the fit leaves, in units of the noise; 1: nothing but noise. `findings`: what is odd in the recordings,
+    and what was done about it.
+    """
 
     model: Model
     parameters: Mapping[str, Estimate]
     status: str
     advice: str
-    not_identifiable: tuple[str, ...]  # these recordings say less of them than the data sheet does
-    residual_over_noise: float  # rms, 1: nothing but noise is left
-    findings: tuple[Finding, ...] = ()  # what is odd in the recordings, and what was done about it
+    not_identifiable: tuple[str, ...]
+    residual_over_noise: float
+    findings: tuple[Finding, ...] = ()
 
     def __repr__(self) -> str:
         names = ", ".join(self.parameters)

@@ -12,7 +12,7 @@ from rwn.model.toml_writer import format_model
 
 
 def read_model(path: str | Path, *, effects: EffectTable | None = None) -> Model:
-    """Read a model file; see docs/models.md. `effects`: what may stand in [effects] (default: all known).
+    """Read the model file at `path`; see docs/models.md. `effects`: what may stand in [effects] (default: all known).
 
     Raises InputError: what, in which table and key, what was expected, how to fix it.
     """

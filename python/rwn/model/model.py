@@ -71,7 +71,11 @@ NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorte
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Model:
-    """Kind of drive, nominal `parameters` (SI), `effects` name -> parameter values (SI), known `load`s, `recording`s.
+    """A drive of a `kind` (docs/models.md) with its nominal `parameters` (SI).
+
+    `effects`: name -> parameter values (SI); `own_effects`: those that the user defines; `load`: known loads, name ->
+    parameter values (SI). `linear`: moves along a line, in m, m/s and N. `recording`: where a recording's signals
+    stand, and how they were measured. `source`: the file that the model was read from.
 
     `uncertainty`: relative standard deviations of parameters, of those of effects as "effect.parameter" (of angles: in
     rad); at most 3, or infinite: nothing is known; not listed: exact.

@@ -17,6 +17,7 @@ class ConventionalNetwork:
     """yhat_k = b_k + sum_j w_kj Phi_j + sum_i a_ki x_i with Phi_j = prod_i phi((x_i - m_ji) / d_ji)
     (2.4-2.5).
 
+    `wavelet`: the mother wavelet phi.
     Arrays: `b` (outputs,), `a` (outputs, inputs), `w` (outputs, wavelets), translations `m` and dilations `d`
     (wavelets, inputs); read-only. Raises ValueError if their shapes disagree or a dilation is zero.
     """

@@ -79,7 +79,7 @@ def train_structured(
     follow_state: bool = False,
     start: ArrayLike = (0.0, 0.0),
 ) -> OnlineTraining[StructuredNetwork]:
-    """Trains on voltage (n,) [V] and measured speed (n,) [rad/s], `cycles` times over; each cycle begins at
+    """Trains `network` on voltage (n,) [V] and measured speed (n,) [rad/s], `cycles` times over; each cycle begins at
     the state `start` with sensitivities zero.
 
     learn: names of the groups that learn, of v1..v5, w, m, d, c.
@@ -116,8 +116,8 @@ def train_recurrent(
     cycles: int = 1,
     frozen_every: int = 0,
 ) -> OnlineTraining[RecurrentNetwork]:
-    """Trains on inputs x (n, inputs) and wanted output y (n,), `cycles` times over; each cycle begins with
-    phi and V1-V3 zero. Options as in `train_structured`, groups b, a, w, m, d, c."""
+    """Trains `network` on inputs x (n, inputs) and wanted output y (n,), `cycles` times over; each cycle begins with
+    phi and V1-V3 zero. `learn` (of b, a, w, m, d, c), `rates` and `frozen_every` as in `train_structured`."""
     theta, history = _core.train_recurrent(
         network.core,
         network.as_inputs(x),

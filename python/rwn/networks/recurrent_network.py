@@ -18,7 +18,7 @@ class RecurrentNetwork:
     """yhat(n) = b + sum_j w_j Phi_j(n) + sum_i a_i x_i(n), Phi_j = prod_i phi(z_ji) (3.1-3.2),
     z_ji(n) = (x_i(n) + c_ji phi(z_ji(n-1)) - m_ji) / d_ji (3.3).
 
-    `b` a number, `a` (inputs,), `w` (wavelets,), `m`, `d`, `c` (wavelets, inputs); read-only.
+    `b` a number, `a` (inputs,), `w` (wavelets,), `m`, `d`, `c` (wavelets, inputs); read-only. `wavelet`: phi.
     Raises ValueError if shapes disagree or a dilation is 0.
     """
 

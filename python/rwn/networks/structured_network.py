@@ -15,8 +15,8 @@ from rwn.networks.wavelets import Wavelet
 
 @dataclass(frozen=True, kw_only=True)
 class MotorParameters:
-    """Resistance [ohm], inductance [H], torque constant = back-EMF constant [N m/A], inertia [kg m2], viscous
-    friction [N m s/rad]."""
+    """`resistance` [ohm], `inductance` [H], `torque_constant` = back-EMF constant [N m/A], `inertia` [kg m2],
+    `viscous_friction` [N m s/rad]."""
 
     resistance: float
     inductance: float
@@ -31,8 +31,9 @@ class StructuredNetwork:
     torque tau = sum_j w_j phi(z_j), z_j = (speed + c_j phi_j(n-1) - m_j) / d_j (4.10) fed with the measured
     speed.
 
-    `v` (5,) is [B, T/J, Kt, T/L, 1 - R T/L]; `w`, `m`, `d`, `c` (wavelets,) each; read-only. The parameters
-    used at sample n are those that hold at sample n. Raises ValueError if shapes disagree or a dilation is 0.
+    `v` (5,) is [B, T/J, Kt, T/L, 1 - R T/L]; `w`, `m`, `d`, `c` (wavelets,) each; read-only. `wavelet`: phi. The
+    parameters used at sample n are those that hold at sample n.
+    Raises ValueError if shapes disagree or a dilation is 0.
     """
 
     groups: ClassVar[tuple[str, ...]] = ("v1", "v2", "v3", "v4", "v5", "w", "m", "d", "c")

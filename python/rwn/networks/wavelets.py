@@ -19,7 +19,7 @@ class Wavelet:
 
     `gaussian-derivative` is -z exp(-z^2/2) (2.2), `mexican-hat` (1 - z^2) exp(-z^2/2), `morlet` exp(-z^2/2)
     cos(omega0 z) (2.3). `omega0` [rad] is used by Morlet only; its mean is nearly zero (9e-6) at 5 and 0.54
-    at 1.75.
+    at 1.75. `core`: the same in C++.
 
     Raises ValueError for an unknown name or omega0 <= 0.
     """

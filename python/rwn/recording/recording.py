@@ -50,7 +50,8 @@ class Recording(Values):
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
     stands there is a guess that nothing is compared with. `units`: that its source has time and signals in, where it
     says so; what is written beside it is written in these. `applied_input`: the input as it acted, where more is known
-    of it than its samples. Arrays are made float64, contiguous and read-only.
+    of it than its samples. `name` stands in messages and pictures; `source`: the file or table that it was read from;
+    `warnings`: what reading it found odd, a sentence each. Arrays are made float64, contiguous and read-only.
 
     Raises InputError when lengths differ, an array is not a real vector or a signal's name is unknown.
     """

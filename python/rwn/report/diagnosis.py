@@ -26,7 +26,28 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Diagnosis(DiagnosisData):
-    """The verdict, what it rests on, and the curves that show it.
+    """The verdict, what it rests on, and the curves that show it; SI units.
+
+    verdict: `missing-physics`, `adequate`, `unexplained`, `insufficient-excitation` or `recording-mistake`.
+    equation: that the missing physics belongs to: mechanical, electrical, actuator or sensor.
+    effects: those that are stated, each with its probability and its parameters with 95 % intervals.
+    set: names that these recordings cannot tell apart; the first is that of the first effect.
+    beneath: what is said of the drive once a mistake in its recordings is undone; None where there is none.
+    alternatives: other explanations with their probabilities, and the experiment that would tell.
+    sensor_filters: found in the noise, and fitted as part of how the signals were measured.
+    findings: what the check of the recordings found, and what was done about it.
+    location: the equation and the regions of speed, angle, .. where the mismatch lies.
+    nominal_fit: the refitted nominal model, without any effect.
+    heldout: free-run errors of the models on recordings that were not fitted.
+    curves: the pictures of the report, as data.
+    warnings: a sentence each.
+    next_experiment: the recording that would tell most; empty where none is needed.
+    adequate_probability: that nothing is missing; None in an older file.
+    account: every effect of the leading explanation, stated or not, with what it explains.
+    remainder: what the stated effects leave of the error.
+    sources: the files that were used. command, seed, version: what made this; elapsed [s]: how long it took.
+    stand_in: what stands in the corrected model for what has no name; empty where nothing does.
+    corrected: the corrected rwn.Model; None of a diagnosis whose folder has no corrected.toml.
 
     Equal diagnoses are those that are saved alike; how long they took and the command that made them do not count.
     """
@@ -91,7 +112,8 @@ class Diagnosis(DiagnosisData):
         return tuple(pictures(self.curves))
 
     def plot(self, name: str | None = None) -> plotly.graph_objects.Figure:
-        """A figure of the report; `plots` lists the names (a recording, or what is drawn). Default: the first.
+        """The figure of the report called `name`; `plots` lists the names (a recording, or what is drawn). Default: the
+        first.
 
         Raises InputError where there is no such figure, or plotly is not installed.
         """

@@ -14,7 +14,9 @@ from rwn.report.files import output_file
 
 
 def save(what: Model | Identification | Recording, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write a model, or the one that `identify` fitted, for `read_model`; a recording, as CSV, for `read_recording`.
+    """Write `what` to the file `path`.
+
+    A model, or the one that `identify` fitted, for `read_model`; a recording, as CSV, for `read_recording`.
 
     A recording is written in the units of its source, with 9 digits. A diagnosis has a `save` of its own.
 

@@ -34,7 +34,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Simulation(Values):
-    """`signals` name -> (n_t,), SI, at `time` (n_t,) [s] of the recording, as its sensors would show them."""
+    """`signals` name -> (n_t,), SI, at `time` (n_t,) [s] of the recording, as its sensors would show them.
+
+    `status`: `ok`, `diverged` or `formula-failed`, from where on each signal is held; `advice`: what to do about it.
+    `linear`: in m, m/s and N.
+    """
 
     time: Array
     signals: Mapping[str, Array]
