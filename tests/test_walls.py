@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 import rwn
+from rwn.model.drives import KINDS
+from rwn.model.drives.drive import MECHANICS
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -58,6 +60,20 @@ def test_the_rooms_of_c_plus_plus_include_what_they_may() -> None:
     assert taken == ROOMS
     for room, others in ROOMS.items():
         assert not any(room in ROOMS[other] for other in others)
+
+
+def test_no_stage_knows_a_parameter_of_one_kind_of_drive_by_name() -> None:
+    """It is the drive that does; what every drive with mechanics has, all may ask for."""
+    mechanics = {p.name for p in MECHANICS}
+    own = "|".join(sorted({p.name for drive in KINDS.values() for p in drive.parameters} - mechanics))
+    assert "torque_constant" in own
+    asked = re.compile(rf"""[\[(]["'](?:{own})["']""")
+    package = Path(rwn.__file__).parent
+    left_out = {"studies", "reference", "networks"}  # the thesis's networks are of one kind of drive
+    looked_at = [path for path in package.rglob("*.py") if path.relative_to(package).parts[0] not in left_out]
+    found = [str(p) for p in looked_at if asked.search(p.read_text(encoding="utf-8")) and p.parent.name != "drives"]
+    assert len(looked_at) > 150
+    assert not found
 
 
 LONGEST_FILE, LONGEST_FUNCTION = 300, 60  # lines: what a reader can hold at once

@@ -23,8 +23,6 @@ from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import effective_samples
 
-CONSTANTS = frozenset({"torque_constant", "back_emf_constant"})  # one number of a motor, where both were declared
-
 
 def contradicted(ranking: Ranking) -> list[frozenset[str]]:
     """What the best explanation had to move beyond belief, that first without which it fits best.
@@ -64,8 +62,10 @@ def confirmed(free: Ranking, bound: Ranking, model: Model, names: Collection[str
 
 
 def _group(problem: Problem, name: str) -> frozenset[str]:
-    both = name in CONSTANTS and set(problem.prior.uncertainty) >= CONSTANTS
-    return CONSTANTS if both else frozenset({name})
+    """A parameter, and the one that is the same number of the motor where both were declared."""
+    pairs = (frozenset({pair.name, pair.like}) for pair in problem.prior.one_numbers)
+    declared = set(problem.prior.uncertainty)
+    return next((pair for pair in pairs if name in pair and declared >= pair), frozenset({name}))
 
 
 def _released(problem: Problem, this: Fit, names: Collection[str]) -> Fit:

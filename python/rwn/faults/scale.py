@@ -102,7 +102,7 @@ def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
     moving = tuple(s for s in MOTION if s in seen)
     ratio = _mean([seen[s] for s in moving]).ratio if moving else 1.0
     if abs(np.log(ratio)) > np.log(GEAR_LIKE):
-        yield from _gears(moving, ratio, _speed_spread(model))
+        yield from _gears(moving, ratio, model.drive.speed_spread(model.uncertainty))
 
 
 def _misfits_without(
@@ -157,13 +157,13 @@ def _scales(group: tuple[str, ...], seen: Similarity, model: Model, *, whole: bo
     if not whole:
         yield from _in_units(group, units)
         return
-    geared = abs(np.log(seen.ratio)) > max(np.log(GEARED), SURELY * _speed_spread(model))
+    geared = abs(np.log(seen.ratio)) > max(np.log(GEARED), SURELY * model.drive.speed_spread(model.uncertainty))
     for unit in _in_units(group, units):  # numbers too large by a unit are common, a sensor on a faster shaft is not
         as_well = geared and abs(unit.factor) < 1.0
         text = f"{unit.meaning}, or of a shaft that turns {seen.ratio:.3g} times as fast as the motor"
         yield replace(unit, also=(GEAR,), meaning=text) if as_well else unit
     if geared and not units:
-        yield from _gears(group, seen.ratio, _speed_spread(model))
+        yield from _gears(group, seen.ratio, model.drive.speed_spread(model.uncertainty))
 
 
 def _gears(group: tuple[str, ...], ratio: float, spread: float) -> Iterator[Fault]:
@@ -196,7 +196,7 @@ def gear(group: tuple[str, ...], factor: float, spread: float) -> Fault:
 
 def as_gear(unit: Fault, model: Model) -> Fault:
     """The ratio of a gear in place of a suspected unit."""
-    return gear(unit.signals, unit.factor, _speed_spread(model))
+    return gear(unit.signals, unit.factor, model.drive.speed_spread(model.uncertainty))
 
 
 def _units(group: tuple[str, ...], model: Model) -> dict[float, str]:
@@ -214,7 +214,7 @@ def _is_allowed(factor: float, group: tuple[str, ...], seen: Similarity, model: 
     if _beyond_physics(factor):
         return bool(abs(off) < np.log(BEYOND_PHYSICS) / 2.0)
     if group[0] in MOTION and factor > 1.0:
-        return -WIDEST < off < max(SURELY * _speed_spread(model), SAME)
+        return -WIDEST < off < max(SURELY * model.drive.speed_spread(model.uncertainty), SAME)
     return abs(off) < _tolerance(seen, model)
 
 
@@ -222,15 +222,10 @@ def _beyond_physics(factor: float) -> bool:
     return bool(abs(np.log(abs(factor))) > np.log(BEYOND_PHYSICS))
 
 
-def _speed_spread(model: Model) -> float:
-    """Relative standard deviation that the data sheet leaves the speed at a voltage."""
-    return float(model.uncertainty.get("back_emf_constant", 0.0))
-
-
 def _tolerance(seen: Similarity, model: Model) -> float:
     """Relative difference from a unit's factor that the data sheet and missing physics, by what it bends, may make."""
     missing = max(1.0 - seen.correlation**2, 0.0)
-    return float(np.clip(2.0 * np.sqrt(_speed_spread(model) ** 2 + missing), SAME, WIDEST))
+    return float(np.clip(2.0 * np.sqrt(model.drive.speed_spread(model.uncertainty) ** 2 + missing), SAME, WIDEST))
 
 
 # ---- an axis, whose force is recorded --------------------------------------------------------------------------------

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from rwn.fit.levenberg_marquardt import Unknown
 from rwn.fit.prior import Nuisance, Prior, RunUnknown
 from rwn.model.checks import bounds_beforehand
+from rwn.model.drives.drive import OneNumber
 from rwn.model.vocabulary import Effect, Parameter, motor_index, motor_parameters, parameter_vector, table
 
 Array = NDArray[np.float64]
 
 OF_RUNS = "of runs"  # beside the names of effects: starts of what is unknown of single runs
 LEAST_LEVEL = 1e-3  # of a friction, relative to the largest torque, that says how strong its elaborations may be
-TORQUE_TO_EMF = 0.02  # Kt = Ke in SI but for losses that the equations do not hold
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,6 +102,7 @@ def _motor_unknown(name: str, prior: Prior) -> Unknown:
     if name not in motor_parameters():  # a coefficient of a transfer function
         return replace(_free_unknown(name), prior=value, prior_std=prior.uncertainty[name])
     parameter = motor_parameters()[name]
+    tie = next((pair for pair in prior.one_numbers if pair.name == name and _may_be_one(pair, prior)), None)
     positive = name not in ("viscous_friction", "coulomb_friction", "pendulum_torque") and value > 0.0
     return Unknown(
         name=name,
@@ -112,18 +113,18 @@ def _motor_unknown(name: str, prior: Prior) -> Unknown:
         logarithmic=positive,
         prior=value,
         prior_std=prior.uncertainty[name],
-        tied_to="back_emf_constant" if name == "torque_constant" and _same_constant(prior) else "",
-        tie_std=TORQUE_TO_EMF,
+        tied_to=tie.like if tie else "",
+        tie_std=tie.spread if tie else np.inf,
     )
 
 
-def _same_constant(prior: Prior) -> bool:
-    """Whether the data sheet leaves room for Kt = Ke, which a brushed motor with a constant field has."""
-    pair = ("torque_constant", "back_emf_constant")
-    if not all(prior.uncertainty.get(name, 0.0) > 0.0 for name in pair):
+def _may_be_one(pair: OneNumber, prior: Prior) -> bool:
+    """Whether the data sheet leaves room for it."""
+    one, other = (prior.uncertainty.get(name, 0.0) for name in (pair.name, pair.like))
+    if min(one, other) <= 0.0:
         return False
-    ratio = abs(np.log(prior.motor[pair[0]] / prior.motor[pair[1]]))
-    return bool(ratio < 3.0 * np.hypot(prior.uncertainty[pair[0]], prior.uncertainty[pair[1]]))
+    ratio = abs(np.log(prior.motor[pair.name] / prior.motor[pair.like]))
+    return bool(ratio < 3.0 * np.hypot(one, other))
 
 
 def _free_unknown(name: str) -> Unknown:

@@ -63,7 +63,7 @@ def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recor
     if law in (AUTO, HELD) or not model.drive.winding or any("current" not in r.signals for r in recordings):
         return recordings
     problem, _ = nominal_of(recordings, model)
-    known_to = CERTAIN * problem.noise["current"].deviation * model.motor["resistance"]  # [V]
+    known_to = model.drive.resting_voltage(model.motor, CERTAIN * problem.noise["current"].deviation)  # [V]
     for k, run in enumerate(problem.runs):
         after = np.diff(clock_of(run.time).ticks, prepend=0) > 1 if law == "bridged" else np.full(run.time.size, True)
         off = after & (np.abs(np.diff(run.input, prepend=run.input[:1])) / np.sqrt(12.0) > known_to)

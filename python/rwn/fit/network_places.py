@@ -29,10 +29,6 @@ WORDS = {
     ("speed", "speed"): "gain of the speed sensor", ("current", ""): "error of the current sensor",
     ("current", "current"): "gain of the current sensor",
 }  # fmt: skip
-# The nominal parameter of the term that is linear in the state.
-NOMINAL = {
-    ("torque", "speed"): "viscous_friction", ("torque", "current"): "torque_constant", ("drop", "current"): "resistance"
-}  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,8 +114,14 @@ def _states(problem: Problem, model: Model) -> tuple[str, ...]:
 def _place(term: str, state: str, factor: str, model: Model) -> Place:
     """`state`: a key of VARIABLES, or TURN."""
     state, periods = ("position", 1) if state == TURN else (state, 0)
-    nominal = "" if factor else NOMINAL.get((term, state), "")
+    nominal = "" if factor else _linear_terms(model).get((term, state), "")
     return Place(term=term, state=state, factor=factor, periods=periods, nominal=nominal, linear=model.linear)
+
+
+def _linear_terms(model: Model) -> dict[tuple[str, str], str]:
+    """Term and state -> the nominal parameter between them; of two that are one number, the first alone may move."""
+    moved_by_another = {pair.like for pair in model.drive.one_numbers}
+    return {place: name for name, place in model.drive.terms.items() if name not in moved_by_another}
 
 
 def size_of(problem: Problem, place: Place) -> float:

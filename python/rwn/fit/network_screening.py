@@ -1,8 +1,8 @@
 """The places at which a wavelet network promises most: what each explains of a residual to first order.
 
-A torque drives the speed as the linear drive does, J dr/dt + (B + Kt Ke / R) r = T; a voltage lost in the winding is
-the torque -Kt / R times it. Each wavelet or harmonic goes through that filter as a regressor; one simulation serves all
-places.
+A torque drives the speed as the linear drive does, J dr/dt + (B + D) r = T, D what the drive itself brakes by; a
+voltage lost in the winding is a current at standstill, and the torque of that. Each wavelet or harmonic goes through
+that filter as a regressor; one simulation serves all places.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from rwn.fit.fit import Fit
 from rwn.fit.network_formula import basis_at
 from rwn.fit.network_places import FACTORS, Place
 from rwn.fit.problem import Problem
-from rwn.model.vocabulary import motor_index
+from rwn.model.drives.drive import Drive
+from rwn.model.vocabulary import motor_values
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.linear_response import speed_filter
 from rwn.simulate.run import Run
@@ -62,13 +63,13 @@ class _Answers:
     acceleration: Array
     step: float
     filter: tuple[float, float]  # of the speed's answer to a torque
+    drive: Drive
     motor: dict[str, float]
     uncertain: Container[str]  # parameters of the nominal model that a fit may move
 
     @classmethod
     def of(cls, problem: Problem, this: Fit, run: Run, signals: tuple[str, ...]) -> _Answers:
         seen = unknown_inputs(problem.drive, problem.simulator, run, this.vector)
-        winding = ("resistance", "torque_constant", "back_emf_constant") if problem.drive.winding else ()
         return cls(
             signals=signals, noise={s: problem.noise[s].deviation for s in signals},
             states={
@@ -77,7 +78,7 @@ class _Answers:
             },
             acceleration=seen.acceleration, step=run.sample_time,
             filter=speed_filter(problem.drive, this.vector, run.sample_time),
-            motor={name: float(this.vector[motor_index(name)]) for name in winding},
+            drive=problem.drive, motor={name: float(value) for name, value in motor_values(this.vector).items()},
             uncertain=problem.prior.uncertainty.keys(),
         )  # fmt: skip
 
@@ -87,18 +88,14 @@ class _Answers:
 
     def of_nominal(self) -> Array:
         """The answers to what the uncertain parameters of the nominal model scale, and to a start at another speed."""
-        speed, current = self.states["speed"], self.states["current"]
-        torques = {
-            "viscous_friction": speed, "coulomb_friction": np.sign(speed), "inertia": self.acceleration,
-            "torque_constant": current,
-        }  # fmt: skip
-        losses = {"resistance": current, "back_emf_constant": speed}
+        speed = self.states["speed"]
+        of = self.states | {"direction": np.sign(speed), "acceleration": self.acceleration}
+        places = [place for name, place in self.drive.terms.items() if name in self.uncertain]
         start = np.zeros(speed.size)
         start[0] = 1.0 / self.filter[1]
-        columns = [
-            self._to_torque(np.column_stack([start, *(x for name, x in torques.items() if name in self.uncertain)]))
-        ]
-        voltages = [x for name, x in losses.items() if name in self.uncertain]
+        torques = [of[state] for term, state in places if term == "torque"]
+        columns = [self._to_torque(np.column_stack([start, *torques]))]
+        voltages = [of[state] for term, state in places if term == "drop"]
         if voltages:
             columns.append(self._to_voltage(np.column_stack(voltages)))
         return np.column_stack(columns)
@@ -111,15 +108,17 @@ class _Answers:
             return self.weighted({s: factor if s == place.term else nothing for s in self.signals})
         if place.term in FACTORS:
             current, speed = self.states["current"][:, None], self.states["speed"][:, None]
-            torque = self._to_torque(self.motor["torque_constant"] * current * waves)
-            return torque + self._to_voltage(self.motor["back_emf_constant"] * speed * waves)
+            given = self.states["input"][:, None]
+            torque = self._to_torque(self.drive.driving_torque(self.motor, current, given) * waves)
+            return torque + self._to_voltage(self.drive.back_emf(self.motor, speed) * waves)
         if place.term == "drop":
             return self._to_voltage(factor)
         return self._to_torque(-np.sign(self.states["speed"])[:, None] * factor if place.term == "friction" else factor)
 
     def _to_voltage(self, lost: Array) -> Array:
-        current = -lost / self.motor["resistance"]
-        return self._to_torque(self.motor["torque_constant"] * current, current)
+        nothing = np.zeros(lost.shape)
+        current = self.drive.resting_current(self.motor, nothing, -lost)
+        return self._to_torque(self.drive.driving_torque(self.motor, current, nothing), current)
 
     def _to_torque(self, torque: Array, current: Array | float = 0.0) -> Array:
         """The answers to a torque (n, m), of which `current` flows before the motor turns."""
@@ -127,7 +126,8 @@ class _Answers:
 
         a, b = self.filter
         speed = lfilter([0.0, b], [1.0, -a], torque, axis=0)
-        back = self.motor["back_emf_constant"] / self.motor["resistance"] if self.motor else 0.0
         position = self.step * np.cumsum(speed, axis=0)
-        answers = {"speed": speed, "current": current - back * speed, "position": position, DRIVING_FORCE: torque}
+        answers = {"speed": speed, "position": position, DRIVING_FORCE: torque}
+        if self.drive.winding:
+            answers["current"] = current + self.drive.resting_current(self.motor, speed, np.zeros(speed.shape))
         return self.weighted(answers)

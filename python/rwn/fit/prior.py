@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from rwn.model.drives.drive import OneNumber
 from rwn.model.model import Model
 from rwn.model.vocabulary import Effect, table
 
@@ -43,6 +44,7 @@ class Prior:
     nuisance: tuple[Nuisance, ...] = ()
     starts: tuple[Mapping[str, float], ...] = ()  # other first guesses of what is free, worth a try
     table: Mapping[str, Effect] = field(default_factory=table)  # every effect that the model knows
+    one_numbers: tuple[OneNumber, ...] = ()  # pairs of parameters
 
     @classmethod
     def of(cls, model: Model) -> Prior:
@@ -51,4 +53,5 @@ class Prior:
         return cls(
             motor=model.motor, uncertainty={n: std for n, std in model.uncertainty.items() if n not in of_effects},
             effects=dict(model.effects), of_effects=of_effects, free={}, table=model.effect_table,
+            one_numbers=model.drive.one_numbers,
         )  # fmt: skip

@@ -27,7 +27,7 @@ def scales(
     speed = max(speed, 1e-12)
     duration = max(float(r.time[-1] - r.time[0]) for r in runs)
     squares = [np.mean(_best(r, o, "current") ** 2) for r, o in zip(runs, outputs, strict=True)]
-    loss = max(known["resistance"] * float(np.max(squares)), 1e-12)
+    loss = max(drive.heat(known, float(np.max(squares))), 1e-12)
     return {
         "torque": max(torque, 1e-12),
         "speed": speed,

@@ -66,7 +66,6 @@ LOADS = {
         NominalParameter(name="length", unit="m", meaning="from the axis to its centre of mass", positive=True),
     )
 }
-NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -189,8 +188,7 @@ class Model:
         """Values of the parameter vector that belong to the drive itself: nominal parameters and known loads."""
         known = vocabulary.motor_parameters()
         motor = {n: v for n, v in self.parameters.items() if n in known or self.drive.coefficients}
-        if motor.get("inductance") == 0.0:
-            motor["inductance"] = NO_TRANSIENT * motor["resistance"]
+        motor = self.drive.as_simulated(motor)
         for load in self.load.values():
             motor["pendulum_torque"] = load["mass"] * GRAVITY * load["length"]
         return MappingProxyType(motor)

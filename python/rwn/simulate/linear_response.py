@@ -1,4 +1,4 @@
-"""The drive's linear answer to a torque: J dr/dt + (B + Kt Ke / R) r = T for a speed r."""
+"""The drive's linear answer to a torque: J dr/dt + (B + D) r = T for a speed r, D what the drive itself brakes by."""
 
 from __future__ import annotations
 

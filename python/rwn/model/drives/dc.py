@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from rwn.model.drives.drive import MECHANICS, Drive, Numbers, nominal
+from rwn.model.drives.drive import MECHANICAL_TERMS, MECHANICS, Drive, Numbers, OneNumber, nominal
+
+NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,10 +22,31 @@ class Winding(Drive):
         """Without inductance, of numbers or (n,): as that of the core's drive (drives/dc.hpp) without effects."""
         return (given - motor["back_emf_constant"] * speed) / motor["resistance"]
 
+    def resting_voltage(self, motor: Mapping[str, float], current: Numbers) -> Numbers:
+        """R i."""
+        return motor["resistance"] * current
+
+    def back_emf(self, motor: Mapping[str, float], speed: Numbers) -> Numbers:
+        """Ke w."""
+        return motor["back_emf_constant"] * speed
+
+    def heat(self, motor: Mapping[str, float], square: float) -> float:
+        """R i^2."""
+        return motor["resistance"] * square
+
     def speed_damping(self, motor: Mapping[str, float]) -> float:
         """Kt Ke / R, where the current is at rest with the speed."""
         coupling = motor["torque_constant"] * motor["back_emf_constant"]
         return coupling / motor["resistance"]
+
+    def speed_spread(self, uncertainty: Mapping[str, float]) -> float:
+        """That of Ke: a motor runs as fast as its back-EMF is large."""
+        return float(uncertainty.get("back_emf_constant", 0.0))
+
+    def as_simulated(self, motor: Mapping[str, float]) -> dict[str, float]:
+        """An inductance of 0 as one that settles at once."""
+        none = motor.get("inductance") == 0.0
+        return {**motor, "inductance": NO_TRANSIENT * motor["resistance"]} if none else dict(motor)
 
 
 DC = Winding(
@@ -37,5 +60,12 @@ DC = Winding(
         nominal("back_emf_constant", positive=True),
         *MECHANICS,
     ),
+    terms={
+        **MECHANICAL_TERMS,
+        "torque_constant": ("torque", "current"),
+        "resistance": ("drop", "current"),
+        "back_emf_constant": ("drop", "speed"),
+    },
+    one_numbers=(OneNumber(name="torque_constant", like="back_emf_constant", spread=0.02),),  # with a constant field
     winding=True,
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 import numpy as np
@@ -35,6 +35,15 @@ class NominalParameter:
 
 
 @dataclass(frozen=True, kw_only=True)
+class OneNumber:
+    """Two nominal parameters that are one number of a machine, but for losses that the equations do not hold."""
+
+    name: str
+    like: str  # the other one
+    spread: float  # relative standard deviation of their ratio
+
+
+@dataclass(frozen=True, kw_only=True)
 class Drive:
     """A kind of drive. The stages ask it what it is, never what it is called."""
 
@@ -43,6 +52,9 @@ class Drive:
     outputs: tuple[str, ...]
     parameters: tuple[NominalParameter, ...]
     sites: frozenset[str] = SITES  # where effects can attach
+    # parameter -> the term of the equations that it stands in, and what it is multiplied with there
+    terms: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    one_numbers: tuple[OneNumber, ...] = ()
     winding: bool = False  # a voltage drives the current of a winding
     force: bool = False  # what drives the mechanics is recorded itself
     coefficients: bool = False  # a transfer function, whose parameters are no physics
@@ -74,9 +86,35 @@ class Drive:
         """
         raise NotImplementedError(f"a {self.kind} has no winding")
 
+    def resting_voltage(self, motor: Mapping[str, float], current: Numbers) -> Numbers:
+        """The voltage [V] that a current [A] takes that does not change; numbers or (n,).
+
+        Raises NotImplementedError where there is no winding.
+        """
+        raise NotImplementedError(f"a {self.kind} has no winding")
+
+    def back_emf(self, motor: Mapping[str, float], speed: Numbers) -> Numbers:
+        """The voltage [V] that a speed [rad/s] induces; numbers or (n,).
+
+        Raises NotImplementedError where there is no winding.
+        """
+        raise NotImplementedError(f"a {self.kind} has no winding")
+
+    def heat(self, motor: Mapping[str, float], square: float) -> float:  # noqa: ARG002
+        """Power [W] lost to heat at a mean square of the current [A^2]."""
+        return 0.0
+
     def speed_damping(self, motor: Mapping[str, float]) -> float:  # noqa: ARG002
         """Torque [N m] per speed [rad/s] by which what drives it brakes, beside the friction."""
         return 0.0
+
+    def speed_spread(self, uncertainty: Mapping[str, float]) -> float:  # noqa: ARG002
+        """Relative standard deviation of the speed at an input that those of the parameters leave."""
+        return 0.0
+
+    def as_simulated(self, motor: Mapping[str, float]) -> dict[str, float]:
+        """The values of its parameters that the core can divide by."""
+        return dict(motor)
 
     def read(self, motor: Mapping[str, Any], *, where: str) -> tuple[dict[str, Any], int]:
         """What [motor] gives, as parameter -> value with or without a unit, and the order. Raises InputError."""
@@ -108,6 +146,13 @@ MECHANICS = (
     nominal("viscous_friction", linear_unit="N s/m"),
     nominal("coulomb_friction", linear_unit="N", required=False),
 )
+
+
+MECHANICAL_TERMS = {  # of a torque
+    "viscous_friction": ("torque", "speed"),
+    "coulomb_friction": ("torque", "direction"),
+    "inertia": ("torque", "acceleration"),
+}
 
 
 def refused_linear(value: object, where: str, kinds: list[str]) -> InputError:

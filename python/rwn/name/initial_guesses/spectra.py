@@ -1,6 +1,6 @@
 """First guesses of spatial frequencies: spectra of what is left over the angle.
 
-A speed residual r answers an unknown torque T as the linear drive does, J dr/dt + (B + Kt Ke / R) r = T. Regressors are
+A speed residual r answers an unknown torque T as the linear drive does (`rwn.simulate.linear_response`). Regressors are
 passed through that filter, so the residual is never differentiated.
 """
 
