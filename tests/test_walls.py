@@ -11,6 +11,7 @@ import pytest
 import rwn
 from rwn.model.drives import KINDS
 from rwn.model.drives.drive import MECHANICS
+from rwn.model.vocabulary import table
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -74,6 +75,15 @@ def test_no_stage_knows_a_parameter_of_one_kind_of_drive_by_name() -> None:
     found = [str(p) for p in looked_at if asked.search(p.read_text(encoding="utf-8")) and p.parent.name != "drives"]
     assert len(looked_at) > 150
     assert not found
+
+
+def test_no_stage_knows_an_effect_by_name() -> None:
+    """It asks for a trait, which an effect that is added may have too; which experiment tells two apart is a table."""
+    named = re.compile("|".join(f'"{name}"' for name in table()))
+    package = Path(rwn.__file__).parent
+    looked_at = [p for p in package.rglob("*.py") if p.relative_to(package).parts[0] not in ("studies", "reference")]
+    found = [p.name for p in looked_at if named.search(p.read_text(encoding="utf-8"))]
+    assert found == ["next_experiment.py"]
 
 
 LONGEST_FILE, LONGEST_FUNCTION = 300, 60  # lines: what a reader can hold at once

@@ -18,6 +18,12 @@ py::tuple describe(const Scale& scale) {
   return py::make_tuple(scale.factor, powers);
 }
 
+/// None where there is none.
+py::object name_of_motor_parameter(int index) {
+  if (index < 0) return py::none();
+  return py::cast(std::string(motor_parameters[static_cast<std::size_t>(index)].name));
+}
+
 py::dict describe(const Parameter& p) {
   py::dict d;
   std::vector<double> scan(p.scan.begin(), p.scan.end());
@@ -37,8 +43,8 @@ py::dict describe(const Parameter& p) {
   d["order"] = p.order;
   d["idealised"] = p.idealised;
   d["natural"] = p.natural;
-  d["replaces"] = p.replaces < 0 ? py::object(py::none())
-                                 : py::cast(std::string(motor_parameters[static_cast<std::size_t>(p.replaces)].name));
+  d["replaces"] = name_of_motor_parameter(p.replaces);
+  d["beside"] = name_of_motor_parameter(p.beside);
   return d;
 }
 
@@ -61,6 +67,11 @@ py::dict describe_effect() {
   d["parameters"] = describe_all(E::parameters);
   d["turns"] = E::traits.turns;
   d["one_sided"] = E::traits.one_sided;
+  d["offset"] = E::traits.offset;
+  d["holds"] = E::traits.holds;
+  d["rectifies"] = E::traits.rectifies;
+  d["filters"] = std::string(E::traits.filters);
+  d["delays"] = has(E::traits.hooks, Hook::delay);
   d["second_mass"] = has(E::traits.hooks, Hook::joint);
   d["guess"] = std::string(to_string(E::traits.guess));
   d["special_case"] = std::string(E::traits.special_case);

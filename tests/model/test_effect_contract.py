@@ -67,10 +67,14 @@ def test_an_effect_compiles(tmp_path: Path) -> None:
         ({"TRAITS": ".hooks = Hook::rate"}, "hook `apply` is there and not listed in traits"),
         ({"RESULT": "int"}, "a hook of this effect has another signature"),
         ({"TRAITS": ".hooks = Hook::apply, .memories = 99"}, "an effect has at most max_memories"),
+        (
+            {"TRAITS": '.hooks = Hook::apply, .filters = "speed"', "PARAMETERS": ", ".join([PARAMETER] * 2)},
+            "a filter of a sensor and an offset have one parameter",
+        ),
         ({"PARAMETERS": ", ".join([PARAMETER] * 9)}, "an effect has one to max_effect_parameters parameters"),
         ({"PARAMETERS": PARAMETER.replace('"k"', '"q"')}, "a parameter of an effect has a `symbol`"),
     ],
-    ids=["misspelt", "not listed", "signature", "memories", "parameters", "symbol"],
+    ids=["misspelt", "not listed", "signature", "memories", "two of a filter", "parameters", "symbol"],
 )
 def test_one_that_would_do_nothing_does_not(changed: dict[str, str], sentence: str, tmp_path: Path) -> None:
     assert sentence in said(tmp_path, **changed)

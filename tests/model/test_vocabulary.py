@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from rwn.model.vocabulary import Effect, table
+from rwn.model.vocabulary import Effect, analog_filters, table
 
 
 @pytest.mark.parametrize("effect", table().values(), ids=lambda e: e.name)
@@ -30,6 +30,22 @@ def test_a_special_case_starts_from_the_general_law(effect: Effect) -> None:
     found = effect.as_special_case(values)
     assert list(found) == [p.name for p in special.parameters]
     assert all(math.isfinite(value) for value in found.values())
+
+
+def test_the_table_says_what_the_stages_treat_by_itself() -> None:
+    """By a trait: no stage knows an effect by name (tests/test_walls.py)."""
+    effects = table()
+    assert [n for n, e in effects.items() if e.offset] == ["constant-load"]
+    assert [n for n, e in effects.items() if e.holds] == ["coulomb-friction", "stribeck-friction", "actuator-deadzone"]
+    assert [n for n, e in effects.items() if e.rectifies] == ["sensor-rectification"]
+    assert [n for n, e in effects.items() if e.delays] == ["input-delay"]
+    assert [n for n, e in effects.items() if e.jumps] == ["sensor-quantization"]
+    assert {s: e.name for s, e in analog_filters(effects).items()} == {
+        "speed": "speed-sensor-lag", "current": "current-sensor-lag"
+    }  # fmt: skip
+    assert [(e.name, p.beside) for e in effects.values() for p in e.parameters if p.beside] == [
+        ("viscous-friction", "viscous_friction")
+    ]
 
 
 def test_a_drag_of_the_second_power_is_quadratic() -> None:

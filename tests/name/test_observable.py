@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -29,6 +31,16 @@ def test_an_unbalance_takes_a_sixth_of_a_turn(size: float, told: bool) -> None:
     problem = prepare([swinging(size)], MODEL)
     assert observable("unbalance", problem) == told
     assert observable("cogging-torque", problem), "however little it turns"
+
+
+@pytest.mark.parametrize("like", ["sensor-rectification", "viscous-friction"])
+def test_an_effect_of_the_same_traits_is_told_as_well_whatever_it_is_called(like: str) -> None:
+    """Neither shows here: the speed is of both signs, the nominal viscous friction is fitted."""
+    problem = prepare([swinging(2.0)], MODEL)
+    known = problem.prior.table
+    other = replace(problem, prior=replace(problem.prior, table={**known, "other": replace(known[like], name="other")}))
+    assert not observable(like, problem)
+    assert not observable("other", other)
 
 
 @pytest.mark.slow

@@ -22,6 +22,7 @@ from rwn.fit.prior_weight import worth
 from rwn.fit.problem import Problem
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
+from rwn.model.vocabulary import Effect
 from rwn.name.observable import observable
 from rwn.name.screening import screen
 from rwn.recording.inspection import Finding
@@ -30,8 +31,6 @@ from rwn.simulate.run import Run, run_of
 
 Array = NDArray[np.float64]
 
-DELAY = "input-delay"
-HOLDING = ("coulomb-friction", "stribeck-friction", "actuator-deadzone")  # under which a drive stands still too
 TRIED = 64  # instants of enabling that are compared at a time
 ITERATIONS = 8  # of a fit that begins near its end
 INSTANT_TOLERANCE = 0.01  # accuracy of the instant of enabling, in times between rows
@@ -172,14 +171,18 @@ def _best_held(problem: Problem, waits: Sequence[float]) -> Fit:
 
     `waits`: delays [s] to begin from.
     """
-    nominal = fit_nominal(problem)
-    held = min([nominal, *screen(problem, nominal, [n for n in HOLDING if observable(n, problem)])], key=_cost)
-    if DELAY in held.hypothesis.effects or not observable(DELAY, problem):
+    nominal, shown = fit_nominal(problem), [e for n, e in problem.prior.table.items() if observable(n, problem)]
+    held = min([nominal, *screen(problem, nominal, [e.name for e in shown if e.holds])], key=_cost)
+    if any(problem.prior.table[name].delays for name in held.hypothesis.effects):
         return held
-    names, known = (*held.added, DELAY), held.starts(held.added)
-    begun = [{**known, DELAY: {"delay": wait}} for wait in waits]
-    delayed = [fit(problem, hypothesis(problem.prior, names, problem.scales, start, held.motor)) for start in begun]
-    return min([held, *delayed], key=_cost)
+
+    def delayed(effect: Effect, wait: float) -> Fit:
+        (delay,) = effect.parameters
+        starts = {**held.starts(held.added), effect.name: {delay.name: wait}}
+        names = (*held.added, effect.name)
+        return fit(problem, hypothesis(problem.prior, names, problem.scales, starts, held.motor))
+
+    return min([held, *(delayed(e, wait) for e in shown if e.delays for wait in waits)], key=_cost)
 
 
 def _cost(this: Fit) -> float:

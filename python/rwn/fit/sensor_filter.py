@@ -23,13 +23,13 @@ from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.model.model import Model
+from rwn.model.vocabulary import analog_filters
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise, noise_from_differences
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
-LAGS = {"speed": "speed-sensor-lag", "current": "current-sensor-lag"}  # signal -> effect that is its analog filter
 WINDOW = 64  # samples
 CERTAIN = 5.0  # standard deviations of the autocorrelation of white noise
 LEAST, MOST = 0.1, 0.95  # of phi: a filter faster than half a sample changes nothing, a slower one is physics
@@ -102,11 +102,10 @@ def coloured_signals(problem: Problem, residuals: Sequence[Mapping[str, Array]])
     `residuals`: (n,) of each run, by signal.
     """
     found = []
-    for signal, lag in LAGS.items():
+    for signal, lag in analog_filters(problem.prior.table).items():
         parts = [(run, left[signal]) for run, left in zip(problem.runs, residuals, strict=True) if signal in left]
         parts = [(run, x) for run, x in parts if _is_sensor_noise(run, signal, x)]
-        known = signal in problem.filters or lag in problem.prior.effects or lag not in problem.prior.table
-        if not parts or known:
+        if not parts or signal in problem.filters or lag.name in problem.prior.effects:
             continue
         share = _estimated_share([run.masked(signal, x) for run, x in parts])
         if share > LEAST:
@@ -125,7 +124,9 @@ def filtered(problem: Problem, filters: Sequence[SensorFilter]) -> Problem:
 
 def _as_nuisance(problem: Problem, f: SensorFilter) -> Problem:
     """The problem with an analog filter among what every hypothesis fits, and with noise that went through it."""
-    own = Nuisance(effect=LAGS[f.signal], values={"time_constant": f.time_constant}, spread={"time_constant": 1.0})
+    lag = analog_filters(problem.prior.table)[f.signal]
+    (p,) = lag.parameters
+    own = Nuisance(effect=lag.name, values={p.name: f.time_constant}, spread={p.name: 1.0})
     prior = replace(problem.prior, nuisance=(*problem.prior.nuisance, own))
     return replace(
         problem, prior=prior, noise={**problem.noise, f.signal: replace(problem.noise[f.signal], reflection=(f.share,))}
@@ -161,7 +162,7 @@ def _share_kept(problem: Problem, signal: str, time_constant: float) -> float:
 
 def _with_lags(problem: Problem, this: Fit) -> Fit:
     """The fit with the lag of every sensor: a filter that is not fitted hides its own noise."""
-    lags = (lag for s, lag in LAGS.items() if s in problem.noise and lag in problem.prior.table)
+    lags = (lag.name for s, lag in analog_filters(problem.prior.table).items() if s in problem.noise)
     added = tuple(dict.fromkeys((*this.added, *(lag for lag in lags if lag not in problem.prior.effects))))
     starts = this.starts(this.added)
     begun = hypothesis(problem.prior, added, problem.scales, starts, this.motor)
@@ -175,7 +176,7 @@ def _without_lags(problem: Problem, this: Fit) -> Iterator[Fit]:
     never met beside the model that needs nothing else.
     """
     table = problem.prior.table
-    without_lags = tuple(name for name in this.added if name not in LAGS.values())
+    without_lags = tuple(name for name in this.added if not table[name].filters)
     without_ends = tuple(name for name in without_lags if not table[name].at_an_end)
     for kept in dict.fromkeys((without_lags, without_ends, ())):
         if kept == this.added:
@@ -286,7 +287,8 @@ def _second_difference_correlation(share: float) -> float:
 
 def refitted_beside(known: Sequence[Fit], problem: Problem) -> list[Fit]:
     """Explanations refitted beside the filters that `problem` fits or that are undone, which are no part of them."""
-    measured = {n.effect for n in problem.prior.nuisance} | {LAGS[s] for s in problem.filters if s in LAGS}
+    undone = {lag.name for s, lag in analog_filters(problem.prior.table).items() if s in problem.filters}
+    measured = {n.effect for n in problem.prior.nuisance} | undone
 
     def again(pair: tuple[Fit, float]) -> Fit:
         this, share = pair

@@ -57,6 +57,7 @@ class Parameter:
     idealised: bool
     natural: bool
     replaces: str | None
+    beside: str | None = None
     symbol: str = ""  # in the equation of its effect; formulas of own effects are written in the names
 
 
@@ -75,6 +76,11 @@ class Effect:
     first: int  # position of its first parameter in the parameter vector
     turns: bool = False  # whether it depends on the angle
     one_sided: bool = False  # whether it tells a direction from the other, or an angle from its opposite
+    offset: bool = False  # whether it is a torque that never changes, which a machine axis has more likely than not
+    holds: bool = False  # whether nothing moves under it while the input is small
+    rectifies: bool = False  # whether what it shows is never negative
+    filters: str = ""  # the signal of which it is the first-order filter
+    delays: bool = False  # whether the input acts later under it
     second_mass: bool = False  # whether it brings one; there is room for one
     guess: str = "scan"  # where first guesses come from, besides what its parameters scan (effect.hpp)
     special_case: str = ""  # the simpler effect that it is at one value of a parameter
@@ -126,6 +132,11 @@ def table() -> Mapping[str, Effect]:
         effects[row["name"]] = Effect(**{**row, "parameters": parameters}, index=index, first=first)
         first += len(parameters)
     return effects
+
+
+def analog_filters(known: Mapping[str, Effect]) -> dict[str, Effect]:
+    """Signal -> the effect that is its first-order filter, of those in a table."""
+    return {effect.filters: effect for effect in known.values() if effect.filters}
 
 
 def motor_index(name: str) -> int:

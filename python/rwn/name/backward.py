@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import cache
 
 import numpy as np
 
@@ -13,8 +14,6 @@ from rwn.fit.problem import Problem
 from rwn.fit.secant import down_secants
 from rwn.model.vocabulary import table
 from rwn.parallel import side_by_side
-
-PLAIN = "coulomb-friction"  # the law of dry friction that the other ones elaborate
 
 
 def with_simpler(problem: Problem, nominal: Fit, fits: list[Fit]) -> list[Fit]:
@@ -42,7 +41,7 @@ def _simpler(problem: Problem, best: Fit) -> list[Fit]:
     def less(pair: tuple[tuple[str, ...], float]) -> Fit:
         names, share = pair
         starts = best.starts(n for n in names if n in best.added)
-        starts |= {PLAIN: _plain_values(best)} if PLAIN in names and PLAIN not in starts else {}
+        starts |= {n: _plain_values(best, n) for n in _plain_laws().values() if n in names and n not in starts}
         for general in best.added:
             if _special(general) != general and _special(general) in names:
                 starts[_special(general)] = table()[general].as_special_case(best.values_of(general))
@@ -70,9 +69,15 @@ def replaced(this: Fit) -> set[str]:
     return set().union(*map(_replaces, this.added))
 
 
+@cache
+def _plain_laws() -> Mapping[frozenset[str], str]:
+    """Nominal parameters -> the effect that is nothing but one of them: what others that take it over elaborate."""
+    return {frozenset(_replaces(n)): n for n, e in table().items() if len(e.parameters) == 1 and _replaces(n)}
+
+
 def plainer(names: Sequence[str]) -> set[str]:
     """The same explanation with plain friction for its elaborations, and special cases for what generalises them."""
-    return {PLAIN if _replaces(n) and _replaces(n) == _replaces(PLAIN) else _special(n) for n in names}
+    return {_plain_laws().get(frozenset(_replaces(n))) or _special(n) for n in names}
 
 
 def elaborations() -> list[str]:
@@ -85,9 +90,9 @@ def family(name: str) -> set[str]:
     return {name} | {n for n in table() if plainer([n]) == plainer([name])}
 
 
-def _plain_values(this: Fit) -> dict[str, float]:
-    """Plain friction of the level that the elaborate law of an explanation has."""
-    (plain,) = (p for p in table()[PLAIN].parameters if p.replaces)
+def _plain_values(this: Fit, name: str) -> dict[str, float]:
+    """A plain law, as friction, of the level that the elaborate one of an explanation has."""
+    (plain,) = table()[name].parameters
     levels = [
         value
         for name in this.added

@@ -36,7 +36,6 @@ FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free
 LARGEST_NRMSE = 0.2  # rms error of a signal, as a share of its spread, up to which a free run follows the motion
 PATIENCE = 4  # factor on the iterations in short windows: the first steps of a fit are short where the misfit is large
 WHOLE = 0.99  # share of the recording's time from which a window counts as all of it
-OFFSET = "constant-load"
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 BRIEF = 10  # fewest samples that a load disturbance lasts
 
@@ -152,8 +151,8 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
     progress("trying every effect", 0.1)
     fits = screen(problem, nominal, wanted)
     if problem.drive.force:  # the rule on a machine axis: gravity, or an offset of the drive
-        offset = next(f for f in screen(problem, nominal, [OFFSET]))
-        fits = distinct([*fits, *screen(problem, offset, wanted)])
+        for offset in screen(problem, nominal, _offsets(problem)):
+            fits = distinct([*fits, *screen(problem, offset, wanted)])
     if affords_more(problem.work) and _far_off(problem, min([nominal, *fits], key=lambda f: f.cost)):
         fits = distinct([*fits, *_by_windows(problem, nominal, wanted)])
     return _under_own_noise(problem, nominal, fits)
@@ -167,7 +166,11 @@ def _filters(problem: Problem, best: Fit) -> tuple[SensorFilter, ...]:
 
 
 def _made_of(this: Fit, wanted: Sequence[str]) -> bool:
-    return all(name in wanted or name == OFFSET for name in this.added)
+    return all(name in wanted or this.hypothesis.table[name].offset for name in this.added)
+
+
+def _offsets(problem: Problem) -> list[str]:
+    return [name for name, effect in problem.prior.table.items() if effect.offset]
 
 
 def _under_own_noise(problem: Problem, nominal: Fit, fits: list[Fit]) -> SameNoise:
@@ -253,7 +256,7 @@ def _prior(problem: Problem) -> dict[str, float]:
     Plain friction is likelier than any one of the laws that elaborate it, and than a load that a bench motor carries.
     """
     offset = np.log(len(problem.prior.table)) + 1.0 if problem.drive.force else -np.log(ELABORATE)
-    return {OFFSET: offset} | dict.fromkeys(elaborations(), -np.log(ELABORATE))
+    return dict.fromkeys(_offsets(problem), offset) | dict.fromkeys(elaborations(), -np.log(ELABORATE))
 
 
 def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Problem, Fit, list[Fit]]:

@@ -13,7 +13,6 @@ from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.recording.units import linear_unit
 
-QUANTISATION = "sensor-quantization"
 SURE = 0.99  # probability that is stated of a quantisation step, which is read off the values
 
 
@@ -64,11 +63,12 @@ def coarse_speed(ranking: Ranking) -> FoundEffect | None:
     steps = ranking.speed_steps
     if not steps:
         return None
-    effect, step = ranking.problem.prior.table[QUANTISATION], float(np.median(steps))
+    effect = next(e for e in ranking.problem.prior.table.values() if e.jumps)
+    step = float(np.median(steps))
     unit, interval = effect.parameters[0].unit, (min(steps) * 0.9999, max(steps) * 1.0001)
     resolution = Estimate(value=step, unit=unit, interval=interval)
     return FoundEffect(
-        name=QUANTISATION, equation=effect.mismatch, probability=SURE, formula=effect.equation, meaning=effect.meaning,
+        name=effect.name, equation=effect.mismatch, probability=SURE, formula=effect.equation, meaning=effect.meaning,
         parameters={effect.parameters[0].name: resolution},
     )  # fmt: skip
 

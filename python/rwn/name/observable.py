@@ -15,7 +15,7 @@ def observable(name: str, problem: Problem) -> bool:
     effect = problem.prior.table[name]
     if effect.site not in problem.drive.sites:
         return False
-    if name == "sensor-rectification" and not _may_be_rectified(problem):
+    if effect.rectifies and not _may_be_rectified(problem):
         return False
     if effect.guess == "values":
         return False  # read off the values, not fitted
@@ -24,8 +24,9 @@ def observable(name: str, problem: Problem) -> bool:
         if turns and any(p.replaces for p in effect.parameters):
             return True  # of a shaft that rubs, a part of a turn shows where it rubs more
         return _revolutions(problem) > (A_SIXTH if turns else HALF_A_METRE)
-    if name == "viscous-friction":
-        return problem.prior.uncertainty.get("viscous_friction", 0.0) == 0.0
+    beside = [p.beside for p in effect.parameters if p.beside]
+    if beside:
+        return all(problem.prior.uncertainty.get(nominal, 0.0) == 0.0 for nominal in beside)
     signals = {s for r in problem.runs for s in r.recorded}
     return not (effect.site == "sensor" and "speed" not in signals)
 

@@ -10,7 +10,7 @@ import numpy as np
 from rwn.fit.fit import Fit
 from rwn.fit.intervals import Estimate, deviations
 from rwn.fit.residuals import Statistics
-from rwn.fit.sensor_filter import LAGS
+from rwn.model.vocabulary import analog_filters
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,8 +30,8 @@ def fitted_filters(this: Fit, left: Statistics, digital: Mapping[str, float]) ->
     fitted = {u.name: k for k, u in enumerate(unknowns) if u.nuisance}
     spread = deviations(this, left)
     rows = [FittedFilter(signal=s, time_constant=Estimate(value=tau, unit="s")) for s, tau in digital.items()]
-    for signal, lag in LAGS.items():
-        k = fitted.get(f"{lag}.time_constant")
+    for signal, lag in analog_filters(this.hypothesis.table).items():
+        k = fitted.get(f"{lag.name}.{lag.parameters[0].name}")
         if k is None:
             continue
         value = float(this.minimum.values[k])

@@ -83,6 +83,10 @@ struct EffectTraits {
   bool turns = false;            // depends on the angle
   bool loaded = false;           // depends on the torque that the drive transmits
   bool one_sided = false;        // tells a direction from the other, or an angle from its opposite
+  bool offset = false;           // a torque that never changes: usual on a machine axis, rare on a bench
+  bool holds = false;            // nothing moves under it while the input is small
+  bool rectifies = false;        // what it shows is never negative
+  std::string_view filters{};    // the signal of which it is the first-order filter, of one time constant
   int memories = 0;              // numbers that it remembers from step to step
   Guess guess = Guess::scan;
   std::string_view special_case{};  // the simpler effect that it is at one value of a parameter, tried in its place
@@ -129,6 +133,9 @@ consteval bool is_effect() {
   static_assert(E::parameters.size() >= 1 && E::parameters.size() <= max_effect_parameters,
                 "an effect has one to max_effect_parameters parameters");
   static_assert(is_written_in_symbols<E>(), "a parameter of an effect has a `symbol`, as its equation writes it");
+  static_assert((E::traits.filters.empty() && !E::traits.offset) || E::parameters.size() == 1,
+                "a filter of a sensor and an offset have one parameter");
+  static_assert(!has(hooks, Hook::delay) || E::parameters.size() == 1, "a delay has one parameter");
   static_assert(E::traits.memories >= 0 && E::traits.memories <= max_memories, "an effect has at most max_memories");
   static_assert(static_cast<unsigned>(hooks) != 0, "an effect does something: it lists at least one hook");
 #define RWN_HOOK(name, Type)                                                                                     \

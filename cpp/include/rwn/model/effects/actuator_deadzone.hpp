@@ -18,7 +18,7 @@ struct ActuatorDeadzone {
                                                    .scale = scale::voltage,
                                                    .scan = {0.02, 0.1},
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::actuate, .varies = false};
+  static constexpr EffectTraits traits{.hooks = Hook::actuate, .varies = false, .holds = true};
 
   template <class S>
   static S actuate(const S* p, const S& command) {

@@ -17,7 +17,7 @@ struct CoulombFriction {
                                                    .scale = scale::torque,
                                                    .strength = true,
                                                    .replaces = coulomb_friction}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply, .varies = false, .dry = true};
+  static constexpr EffectTraits traits{.hooks = Hook::apply, .varies = false, .dry = true, .holds = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>&, Terms<S>& t) {

@@ -18,7 +18,8 @@ struct CurrentSensorLag {
                                                    .scan = {0.5, 2.0, 8.0},
                                                    .strength = true}};
   /// Memories: filtered current [A].
-  static constexpr EffectTraits traits{.hooks = Hook::begin | Hook::finish | Hook::sense, .memories = 1};
+  static constexpr EffectTraits traits{
+      .hooks = Hook::begin | Hook::finish | Hook::sense, .filters = "current", .memories = 1};
 
   static constexpr double slow = 1e-4;  // a step in time constants that is as good as none
 

@@ -18,7 +18,8 @@ struct SpeedSensorLag {
                                                    .scan = {1.0, 5.0, 25.0},
                                                    .strength = true}};
   /// Memories: filtered speed [rad/s].
-  static constexpr EffectTraits traits{.hooks = Hook::begin | Hook::finish | Hook::sense, .memories = 1};
+  static constexpr EffectTraits traits{
+      .hooks = Hook::begin | Hook::finish | Hook::sense, .filters = "speed", .memories = 1};
 
   template <class S>
   static void begin(const S*, const Reading<S>& first, S* memory) {

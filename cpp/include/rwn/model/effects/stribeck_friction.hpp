@@ -36,7 +36,7 @@ struct StribeckFriction {
                                                    .start = 0.03,
                                                    .scale = scale::speed,
                                                    .scan = {0.015, 0.05, 0.15}}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .dry = true};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .dry = true, .holds = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

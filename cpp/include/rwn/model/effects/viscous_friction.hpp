@@ -16,7 +16,8 @@ struct ViscousFriction {
                                                    .upper = 1e3,
                                                    .start = 0.1,
                                                    .scale = scale::damping,
-                                                   .strength = true}};
+                                                   .strength = true,
+                                                   .beside = viscous_friction}};
   static constexpr EffectTraits traits{.hooks = Hook::apply};
 
   template <class S>
