@@ -62,6 +62,11 @@ def test_the_readme_is_short() -> None:
     assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= 120
 
 
+def test_the_method_is_two_pages() -> None:
+    words = [w for w in (ROOT / "docs/method.md").read_text(encoding="utf-8").split() if re.search("[A-Za-z]{2}", w)]
+    assert 500 < len(words) <= 1100
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8")):

@@ -2,7 +2,7 @@
 
 A mimic absorbs what has another cause: it removes little beside the other effects, or on the samples that it was fitted
 to alone, and a curve over the right state, in its place, leaves less than it does. The features are those that
-cross-validation of the calibration kept (docs/method.md).
+cross-validation of the calibration kept (docs/method-details.md).
 """
 
 from __future__ import annotations
