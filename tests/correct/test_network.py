@@ -25,6 +25,8 @@ from rwn.simulate.run import judging_run
 
 pytestmark = pytest.mark.slow
 
+LITTLE = 0.1  # effort of a search that is to find no name: what follows it is looked at
+
 NOMINAL = Model(
     kind="dc",
     parameters={**MOTOR, "inertia": 3.2e-4, "resistance": 0.78},
@@ -59,7 +61,7 @@ def nothing_stated() -> Iterator[None]:
 @pytest.fixture(scope="module")
 def waved() -> rwn.Diagnosis:
     runs = [recorded(seed, wavy, samples=1200) for seed in range(3)]
-    return rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
+    return rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1, effort=LITTLE)
 
 
 def test_a_torque_without_a_name_is_corrected_by_a_network(waved: rwn.Diagnosis) -> None:
@@ -133,7 +135,7 @@ def test_a_network_that_does_not_help_elsewhere_is_not_kept() -> None:
 def test_a_name_that_is_proved_and_not_the_whole_stands_in(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rwn.correct.correction.proved_network", lambda *_, **__: None)
     runs = [recorded(seed, rubbing_and_caught, samples=1200) for seed in range(3)]
-    found = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1)
+    found = rwn.diagnose(runs[:2], NOMINAL, heldout=runs[2:], jobs=1, effort=LITTLE)
     assert found.verdict == "unexplained"
     assert found.effects == (), "it is not named"
     assert found.stand_in.startswith("coulomb-friction, which helps")

@@ -93,7 +93,7 @@ def test_a_burst_of_a_recording_is_drawn_and_a_spike_is_said() -> None:
     speed[place : place + 3] += 500.0
     speed[1001] -= 500.0
     spiked = rwn.Recording(name="spiked", time=run.time, signals={**run.signals, "speed": speed})
-    found = rwn.diagnose([spiked], rwn.Model(kind="dc", parameters=MOTOR))
+    found = rwn.diagnose([spiked], rwn.Model(kind="dc", parameters=MOTOR), effort=0.1)  # what it is called is no matter
     drawn = next(p for p in found.curves if p.slot == "response").traces[0]
     assert np.max(drawn.y) == pytest.approx(np.max(speed))
     assert [(f.kind, f.count) for f in found.findings] == [("spikes", 1)]

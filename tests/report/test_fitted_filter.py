@@ -65,6 +65,6 @@ def test_a_filter_that_is_undone_is_reported_too() -> None:
 
 @pytest.mark.slow
 def test_no_warning_says_that_what_is_left_lasts_where_a_filter_explains_it() -> None:
-    found = rwn.diagnose([recorded()], MODEL)
+    found = rwn.diagnose([recorded()], MODEL, effort=0.1)
     assert [f.signal for f in found.sensor_filters] == ["speed"]
     assert not any("lasts" in warning for warning in found.warnings)
