@@ -113,3 +113,15 @@ def test_the_tests_mirror_the_rooms() -> None:
     """The reference implementations are what other tests compare with."""
     rooms = {path.parent.name for path in Path(rwn.__file__).parent.glob("*/__init__.py")} - {"reference"}
     assert {path.parent.name for path in (ROOT / "tests").glob("*/test_*.py")} == rooms
+
+
+def test_a_test_that_is_named_for_a_module_stands_in_its_room() -> None:
+    """The others are named for what a room, or the whole, does."""
+    package, rooms = Path(rwn.__file__).parent, dict[str, set[str]]()
+    for path in package.rglob("*"):
+        room = "tests" if path.parent == package and path.is_file() else path.relative_to(package).parts[0]
+        if room != "reference" and (path.is_dir() or path.suffix == ".py"):
+            rooms.setdefault(path.stem, set()).add(room)
+    named = [path for path in (ROOT / "tests").rglob("test_*.py") if path.stem.removeprefix("test_") in rooms]
+    assert len(named) > 80
+    assert not [str(path) for path in named if path.parent.name not in rooms[path.stem.removeprefix("test_")]]
