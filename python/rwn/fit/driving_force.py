@@ -74,7 +74,7 @@ def balanced(run: Run) -> BalancedRun:
         name=run.name, time=every(run.time), input=every(smooth(run.input, length)), position=position, angle=position,
         velocity=every(smooth(run.position, length, derivative=1, step=step)),
         acceleration=every(smooth(run.position, length, derivative=2, step=step)), missing={DRIVING_FORCE: near[rows]},
-        own=run.own, start=run.start, start_spread=run.start_spread, in_motion=run.in_motion,
+        own=run.own, levels=run.levels, start=run.start, start_spread=run.start_spread, in_motion=run.in_motion,
     )  # fmt: skip
 
 

@@ -128,7 +128,13 @@ class Fit:
         measured = {u.name.partition(".")[0] for u in self.hypothesis.unknowns if u.nuisance}
         known = (*names, *(name for name in self.hypothesis.effects if name in measured))
         angles = self.initial_angles if any(self.hypothesis.table[name].turns for name in known) else {}
-        return {name: self.values_of(name) for name in known} | {OF_RUNS: angles}
+        return {name: self.values_of(name) for name in known} | {OF_RUNS: {**angles, **self.levels}}
+
+    @property
+    def levels(self) -> dict[str, float]:
+        """The fitted levels of single recordings, logarithms of factors, by the name of the unknown."""
+        pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
+        return {u.name: float(v) for u, v in pairs if u.level}
 
     @property
     def initial_angles(self) -> dict[str, float]:

@@ -143,7 +143,7 @@ def _of_measurement(effect: Effect, p: Parameter, nuisance: Nuisance) -> Unknown
 def _unknown_of_a_run(own: RunUnknown) -> Unknown:
     return Unknown(
         name=own.name, unit=own.unit, index=own.place, lower=-np.inf, upper=np.inf, prior=0.0, prior_std=own.spread,
-        nuisance=True,
+        nuisance=True, level=own.level,
     )  # fmt: skip
 
 

@@ -27,13 +27,19 @@ class Estimate:
 
 
 def deviations(this: Fit, left: Statistics) -> Array:
-    """Standard deviations (p,) of the unknowns: white-noise covariance widened by the residual's size and colour."""
+    """Standard deviations (p,) of the unknowns; see `covariance`."""
+    result: Array = np.sqrt(np.maximum(np.diag(covariance(this, left)), 0.0))
+    return result
+
+
+def covariance(this: Fit, left: Statistics) -> Array:
+    """Covariance (p, p) of the unknowns: that of white noise, widened by the residual's size and colour."""
     minimum = this.minimum
     information = minimum.data_information / (max(left.variance, 1.0) * left.correlation_time)
     information = information + (minimum.information - minimum.data_information)
     scale = np.sqrt(np.maximum(np.diag(information), 1e-300))
-    covariance = np.linalg.pinv(information / np.outer(scale, scale), rcond=1e-13, hermitian=True)
-    result: Array = np.sqrt(np.maximum(np.diag(covariance), 0.0)) / scale
+    scaled = np.linalg.pinv(information / np.outer(scale, scale), rcond=1e-13, hermitian=True)
+    result: Array = scaled / np.outer(scale, scale)
     return result
 
 

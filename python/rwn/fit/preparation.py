@@ -76,8 +76,8 @@ def _unknown_starts(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[RunUnkn
             unit = motor_parameters()[name].unit
             unknowns.append(
                 RunUnknown(
-                    name=f"{name} of {run.name}", unit=unit, place=place, parameter=motor_index(name), spread=spread,
-                    turns=name == INITIAL_POSITION and run.angle_unknown,
+                    name=f"{name} of {run.name}", unit=unit, place=place, parameters=(motor_index(name),),
+                    spread=spread, turns=name == INITIAL_POSITION and run.angle_unknown,
                 )
             )
             own.append((place, motor_index(name)))

@@ -12,14 +12,18 @@ from rwn.model.vocabulary import Effect, table
 
 @dataclass(frozen=True, kw_only=True)
 class RunUnknown:
-    """What is unknown of one run alone: a deviation from 0 that adds to one parameter of the vector there."""
+    """What is unknown of one run alone, 0 where nothing is: it adds to one parameter there, or is a level.
+
+    A level is the logarithm of a factor on several parameters.
+    """
 
     name: str
     unit: str
     place: int  # in the vector of a fit, behind all parameters
-    parameter: int  # index of what it adds to
+    parameters: tuple[int, ...]  # what it adds to, or scales
     spread: float  # standard deviation of its prior
     turns: bool = False  # only effects of the angle depend on it
+    level: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

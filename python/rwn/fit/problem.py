@@ -14,7 +14,7 @@ from rwn.fit.levenberg_marquardt import Normal
 from rwn.fit.prior import Prior
 from rwn.model.drives.drive import Drive
 from rwn.model.initial_state import INITIAL_POSITION
-from rwn.model.vocabulary import motor_index
+from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
@@ -117,21 +117,31 @@ class Problem:
 
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations (p, p), (p,) of one run, of what is unknown of it alone at its place in `by`."""
-        core = _core.parameter_count()
-        adds_to = dict(run.own)
-        here = [adds_to.get(k, k) for k in by]  # what is unknown of other runs changes nothing here
-        wanted = sorted({k for k in here if k < core})
-        found = self.normal_at(run, self.started(run, vector, active), active, wanted)
-        if wanted == list(by) or not (found.finite and np.isfinite(found.curvature).all()):
+        core, begun = _core.parameter_count(), self.started(run, vector, active)
+        adds_to, scales = dict(run.own), self._scaled(run, active)
+        here = [scales.get(k, (adds_to.get(k, k),)) for k in by]  # what is unknown of other runs changes nothing here
+        wanted = sorted({p for parameters in here for p in parameters if p < core})
+        found = self.normal_at(run, begun, active, wanted)
+        if (wanted == list(by) and not scales) or not (found.finite and np.isfinite(found.curvature).all()):
             return found
         column = {k: j for j, k in enumerate(wanted)}
+        factor = {p: np.exp(vector[place]) for place, parameters in scales.items() for p in parameters}
         chosen = np.zeros((len(wanted), len(by)))
-        for j, k in enumerate(here):
-            if k in column:
-                chosen[column[k], j] = 1.0
+        for j, (k, parameters) in enumerate(zip(by, here, strict=True)):
+            for p in parameters:
+                if p in column:
+                    chosen[column[p], j] = begun[p] if k in scales else factor.get(p, 1.0)
         return replace(
             found, gradient=chosen.T @ found.gradient, curvature=chosen.T @ found.curvature @ chosen
         )
+
+    def _scaled(self, run: Run, active: Sequence[int]) -> dict[int, tuple[int, ...]]:
+        """The levels of a run: place of each, with the parameters among those it scales that act."""
+        if not run.levels:
+            return {}
+        switched = (e for e in self.prior.table.values() if e.index in active)
+        acting = {e.first + k for e in switched for k in range(len(e.parameters))} | set(range(len(motor_parameters())))
+        return {place: tuple(p for p in parameters if p in acting) for place, parameters in run.levels}
 
     def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations (p, p), (p,) of one run whose start is part of `vector` (all,)."""

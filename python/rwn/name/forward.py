@@ -13,6 +13,8 @@ from rwn.fit.budget import affords_more, one_stage
 from rwn.fit.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
 from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
+from rwn.fit.levels import beside_levels, can_differ, with_levels
+from rwn.fit.likelihood import DECISIVE
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.part import screening_part
@@ -25,7 +27,7 @@ from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Pairs, Ranking, SameNoise
 from rwn.name.screening import screen
-from rwn.name.weights import weigh
+from rwn.name.weights import log_odds, weigh
 from rwn.simulate.run import windowed
 
 Progress = Callable[[str, float], None]
@@ -70,9 +72,8 @@ def rank(
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
         problem, nominal, fits = _under_own_noise(problem, nominal, fits)
-    filters = _filters(problem, min([nominal, *fits], key=lambda f: f.cost))
-    if filters:  # they are part of how it was measured, beside whatever is missing
-        measured = filtered(as_prepared, filters)
+    measured = _measured(as_prepared, problem, min([nominal, *fits], key=lambda f: f.cost), at_once)
+    if measured:  # otherwise than thought, beside whatever is missing
         alone_again = rank(measured, progress=progress, at_once=1)
         if names is None and at_once == 1:
             return alone_again
@@ -130,6 +131,17 @@ def _grown(
         bases = sorted(more, key=lambda f: f.cost)[:2]
         complete = left.at_the_floor or _at_its_floor(problem, best)
     return _Grown(fits, pairs, paired, complete, cut_short)
+
+
+def _measured(as_prepared: Problem, problem: Problem, best: Fit, at_once: int) -> Problem | None:
+    """The recordings with what the best explanation shows of how they were made; None: nothing that is not known."""
+    filters = _filters(problem, best)
+    if filters:
+        return filtered(as_prepared, filters)
+    if at_once < MOST_EFFECTS or not can_differ(problem):
+        return None
+    on, that = beside_levels(problem, best)
+    return with_levels(as_prepared) if log_odds(that, best, statistics(on, that)) > DECISIVE else None
 
 
 def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:

@@ -35,6 +35,13 @@ def effective_samples(left: Statistics) -> float:
     return min(left.effective, MOST_SAMPLES if left.at_the_floor else MISSPECIFIED)
 
 
+def log_odds(this: Fit, other: Fit, left: Statistics) -> float:
+    """Log evidence for a fit against one by the same effects; `left`: by the first."""
+    ranked = weigh([this, other], left, rivals=1)
+    score = {id(r.fit): r.score for r in ranked}
+    return score[id(this)] - score[id(other)]
+
+
 def weigh(
     fits: Sequence[Fit], left: Statistics, *, rivals: int, prior: Mapping[str, float] | None = None,
     finals: Sequence[Fit] | None = None,

@@ -32,7 +32,7 @@ class Run:
     """One recording as the core takes it; signals that were not recorded are empty.
 
     Arrays are (n,), C-contiguous float64, SI. `start` holds the initial current, speed and position where they are
-    known; what is unknown of one run alone has a place behind all parameters in the vector of a fit (`own`).
+    known; what is unknown of one run alone has a place behind all parameters in the vector of a fit (`own`, `levels`).
     """
 
     name: str
@@ -47,6 +47,7 @@ class Run:
     start_spread: Mapping[str, float] = field(default_factory=dict)  # deviation of what is not known of it exactly
     in_motion: bool = False  # it does not start at rest
     own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
+    levels: tuple[tuple[int, tuple[int, ...]], ...] = ()  # the same: logarithm of a factor, parameters that it scales
     input_before: float = 0.0
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
     interpolated: InterpolatedRows | None = None  # its rows, where the signals are samples that these lay between
@@ -130,8 +131,8 @@ class Run:
         if self.angle_from_speed and self.angle.size:  # it is counted from the first sample
             cut["angle"] = cut["angle"] - position
         return replace(
-            self, **cut, time=self.time[begin:] - first, start=(0.0, speed, position), start_spread={}, own=(),
-            in_motion=True, input_before=float(self.input[begin - 1]),
+            self, **cut, time=self.time[begin:] - first, start=(0.0, speed, position), start_spread={},
+            own=(), levels=(), in_motion=True, input_before=float(self.input[begin - 1]),
             applied_input=self.applied_input and self.applied_input.since(first), interpolated=None,
             missing={s: lost[begin:] for s, lost in self.missing.items()},
         )  # fmt: skip

@@ -67,6 +67,11 @@ class Drive:
         return self.parameters
 
     @property
+    def friction(self) -> tuple[str, ...]:
+        """Its parameters that are friction, which changes with grease, warmth and load from one run to the next."""
+        return tuple(p.name for p in self.parameters if p.name in FRICTION)
+
+    @property
     def input_unit(self) -> str:
         """The SI unit of the input."""
         signal = SIGNALS[self.input]
@@ -141,6 +146,7 @@ def nominal(
     )  # fmt: skip
 
 
+FRICTION = ("viscous_friction", "coulomb_friction")
 MECHANICS = (
     nominal("inertia", linear_unit="kg", positive=True),
     nominal("viscous_friction", linear_unit="N s/m"),

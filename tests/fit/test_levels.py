@@ -1,0 +1,106 @@
+"""Friction that differs from recording to recording."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn import _core
+from rwn.fit.fit import fit_nominal
+from rwn.fit.hypothesis import hypothesis
+from rwn.fit.levels import SPREAD, can_differ, with_levels
+from rwn.fit.nominal import weighted_by_nominal
+from rwn.fit.preparation import prepare
+from rwn.model.model import Model
+
+MOTOR = {
+    "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+    "viscous_friction": 4e-5, "coulomb_friction": 4e-3,
+}  # fmt: skip
+FRICTION = ("viscous_friction", "coulomb_friction")
+MODEL = Model(
+    kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "resistance": 0.1, **dict.fromkeys(FRICTION, 0.3)}
+)
+FACTORS = (0.92, 1.02, 1.09)
+
+
+def _recordings(factors: tuple[float, ...], samples: int = 1500) -> list[rwn.Recording]:
+    """One recording of each factor on all friction."""
+    made, rng, time = [], np.random.default_rng(3), 1e-3 * np.arange(samples)
+    for k, factor in enumerate(factors):
+        motor = {**MOTOR, **{name: factor * MOTOR[name] for name in FRICTION}}
+        voltage = np.repeat(rng.uniform(-3.0, 3.0, samples // 50), 50)
+        run = rwn.Recording(name=f"run_{k}", time=time, signals={"voltage": voltage})
+        shown = rwn.simulate(replace(MODEL, parameters=motor), run).signals
+        signals = {
+            "voltage": voltage,
+            "current": shown["current"] + 0.01 * rng.standard_normal(samples),
+            "speed": shown["speed"] + 0.3 * rng.standard_normal(samples),
+        }
+        made.append(replace(run, signals=signals))
+    return made
+
+
+def _uneven(found: rwn.Diagnosis) -> dict[str, float]:
+    """By how many per cent the friction of a recording is said to be off, by its name."""
+    said = {f.recording: f.words for f in found.findings if f.kind == "uneven-friction"}
+    return {name: float(words.removeprefix("its friction is ").split(" %")[0]) for name, words in said.items()}
+
+
+def test_files_of_different_friction_are_said_and_nothing_is_missing() -> None:
+    found = rwn.diagnose(_recordings(FACTORS), MODEL, jobs=1)
+    assert found.verdict == "adequate"
+    said = _uneven(found)
+    assert set(said) >= {"run_0", "run_2"}
+    mean = float(np.exp(np.mean(np.log(FACTORS))))
+    assert said["run_0"] == pytest.approx(100.0 * (FACTORS[0] / mean - 1.0), abs=1.0)
+    assert said["run_2"] == pytest.approx(100.0 * (FACTORS[2] / mean - 1.0), abs=1.0)
+
+
+def test_files_of_one_friction_are_not_told_apart() -> None:
+    assert not _uneven(rwn.diagnose(_recordings((1.0, 1.0, 1.0)), MODEL, jobs=1))
+
+
+def test_levels_are_found_to_their_deviation() -> None:
+    problem, nominal = weighted_by_nominal(prepare(_recordings(FACTORS), MODEL))
+    on = with_levels(problem)
+    levels = np.array(list(fit_nominal(on).levels.values()))
+    expected = np.log(FACTORS)
+    assert levels - levels.mean() == pytest.approx(expected - expected.mean(), abs=0.01)
+    assert not nominal.levels
+    assert not can_differ(on)
+
+
+def test_derivatives_by_a_level_are_those_of_the_simulation() -> None:
+    problem = with_levels(prepare(_recordings(FACTORS), MODEL))
+    this = hypothesis(problem.prior, (), problem.scales)
+    values = this.start.copy()
+    places = [k for k, u in enumerate(this.unknowns) if u.level]
+    values[places] = [0.2, -0.1, 0.3]
+
+    def squares(values: np.ndarray) -> float:
+        return problem.error(this.with_values(values), this.active)
+
+    gradient = problem.normal(this.with_values(values), this.active, this.by).gradient
+    for k, unknown in enumerate(this.unknowns):
+        step = 1e-4 * max(abs(values[k]), 1e-9)
+        ahead, behind = values.copy(), values.copy()
+        ahead[k] += step
+        behind[k] -= step
+        slope = (squares(ahead) - squares(behind)) / (2.0 * step)
+        assert abs(2.0 * gradient[k]) == pytest.approx(abs(slope), rel=2e-3), unknown.name
+
+
+def test_a_level_is_behind_all_parameters_and_unknown_of_one_recording_alone() -> None:
+    problem = with_levels(prepare(_recordings(FACTORS[:2]), MODEL))
+    places = [place for run in problem.runs for place, _ in run.levels]
+    assert places == [_core.parameter_count(), _core.parameter_count() + 1]
+    assert all(own.spread == SPREAD for own in problem.prior.of_runs if own.level)
+    assert problem.on([problem.whole[0]]).runs[0].levels == problem.whole[0].levels
+
+
+def test_a_lone_recording_has_no_level() -> None:
+    assert not can_differ(prepare(_recordings((1.0,)), MODEL))
