@@ -97,6 +97,12 @@ def test_a_correction_that_keeps_a_signal_from_running_away_helps() -> None:
     assert not hurts([tamed])
 
 
+@pytest.mark.parametrize(("corrected", "worth"), [(0.97, False), (0.94, True)])
+def test_what_stands_in_for_a_law_has_to_help_materially(corrected: float, worth: bool) -> None:
+    sure = replace(BETTER, refitted=1.0, corrected=corrected, gain=1.0 - corrected, gain_interval=(0.02, 0.08))
+    assert helps([sure]) is worth
+
+
 @pytest.mark.parametrize(("samples", "judged"), [(900, False), (1100, True)])
 def test_the_driving_force_is_judged_where_the_filters_leave_samples(samples: int, judged: bool) -> None:
     """Inverse dynamics filter the position at either end; a short recording has its free run alone."""

@@ -25,13 +25,12 @@ from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
-from rwn.prove.heldout import HeldoutRow, helps
+from rwn.prove.heldout import WORTH, HeldoutRow, helps
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
 
 FEW, MANY = 7, 15  # wavelets while the states are compared, and of the network that is kept
 FREE = 1.02  # cost of a network without its nominal part against one with it, up to which it goes without
-WORTH = 0.9  # cost of a fit with the network against the one without, above which it is not worth a file
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,6 +22,7 @@ from rwn.simulate.simulator import RAN_AWAY
 Array = NDArray[np.float64]
 FEWEST = 20  # samples that a row judges
 DRAWS = 400  # of the bootstrap
+WORTH = 0.9  # squared error with what stands in for an unknown law, above which it is not worth a file
 NOISE_FLOOR = (
     "standard deviation of the signal's measurement noise, in unit: what second differences of the corrected (else the "
     "refitted) model's error over the whole recording leave, at most that error's rms, and so equal to it where "
@@ -192,8 +193,11 @@ def log_change(rows: Sequence[HeldoutRow]) -> float:
 
 
 def helps(rows: Sequence[HeldoutRow]) -> bool:
-    """Whether some signal is certainly better on what was not fitted, and none certainly worse."""
-    return _any_certainly_better(rows) and not _any_certainly_worse(rows) and heldout_error(rows) < 1.0
+    """Whether some signal is certainly better on what was not fitted, none certainly worse, and all of them materially.
+
+    What is certain of one recording is little of the next: a gain of a per cent is as often a loss there.
+    """
+    return _any_certainly_better(rows) and not _any_certainly_worse(rows) and heldout_error(rows) < WORTH
 
 
 def hurts(rows: Sequence[HeldoutRow]) -> bool:
