@@ -11,10 +11,13 @@ import rwn
 from rwn import _core
 from rwn.fit.fit import fit_nominal
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.levels import SPREAD, can_differ, with_levels
+from rwn.fit.levels import SPREAD, beside_levels, can_differ, friction, with_levels
+from rwn.fit.likelihood import DECISIVE
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
+from rwn.fit.residuals import statistics
 from rwn.model.model import Model
+from rwn.name.weights import log_odds
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
@@ -27,11 +30,13 @@ MODEL = Model(
 FACTORS = (0.92, 1.02, 1.09)
 
 
-def _recordings(factors: tuple[float, ...], samples: int = 1500) -> list[rwn.Recording]:
-    """One recording of each factor on all friction."""
+def _recordings(
+    factors: tuple[float, ...], names: tuple[str, ...] = FRICTION, samples: int = 600
+) -> list[rwn.Recording]:
+    """One recording of each factor on some parameters, all friction if none are named."""
     made, rng, time = [], np.random.default_rng(3), 1e-3 * np.arange(samples)
     for k, factor in enumerate(factors):
-        motor = {**MOTOR, **{name: factor * MOTOR[name] for name in FRICTION}}
+        motor = {**MOTOR, **{name: factor * MOTOR[name] for name in names}}
         voltage = np.repeat(rng.uniform(-3.0, 3.0, samples // 50), 50)
         run = rwn.Recording(name=f"run_{k}", time=time, signals={"voltage": voltage})
         shown = rwn.simulate(replace(MODEL, parameters=motor), run).signals
@@ -61,21 +66,24 @@ def test_files_of_different_friction_are_said_and_nothing_is_missing() -> None:
 
 
 def test_files_of_one_friction_are_not_told_apart() -> None:
-    assert not _uneven(rwn.diagnose(_recordings((1.0, 1.0, 1.0)), MODEL, jobs=1))
+    problem, nominal = weighted_by_nominal(prepare(_recordings((1.0, 1.0, 1.0)), MODEL))
+    on, this = beside_levels(problem, nominal, friction(problem))
+    assert log_odds(this, nominal, statistics(on, this)) < DECISIVE
 
 
 def test_levels_are_found_to_their_deviation() -> None:
     problem, nominal = weighted_by_nominal(prepare(_recordings(FACTORS), MODEL))
-    on = with_levels(problem)
+    on = with_levels(problem, friction(problem))
     levels = np.array(list(fit_nominal(on).levels.values()))
     expected = np.log(FACTORS)
     assert levels - levels.mean() == pytest.approx(expected - expected.mean(), abs=0.01)
     assert not nominal.levels
-    assert not can_differ(on)
+    assert not can_differ(on, friction(on))
 
 
 def test_derivatives_by_a_level_are_those_of_the_simulation() -> None:
-    problem = with_levels(prepare(_recordings(FACTORS), MODEL))
+    problem = prepare(_recordings(FACTORS), MODEL)
+    problem = with_levels(problem, friction(problem))
     this = hypothesis(problem.prior, (), problem.scales)
     values = this.start.copy()
     places = [k for k, u in enumerate(this.unknowns) if u.level]
@@ -95,7 +103,8 @@ def test_derivatives_by_a_level_are_those_of_the_simulation() -> None:
 
 
 def test_a_level_is_behind_all_parameters_and_unknown_of_one_recording_alone() -> None:
-    problem = with_levels(prepare(_recordings(FACTORS[:2]), MODEL))
+    problem = prepare(_recordings(FACTORS[:2]), MODEL)
+    problem = with_levels(problem, friction(problem))
     places = [place for run in problem.runs for place, _ in run.levels]
     assert places == [_core.parameter_count(), _core.parameter_count() + 1]
     assert all(own.spread == SPREAD for own in problem.prior.of_runs if own.level)
@@ -103,4 +112,5 @@ def test_a_level_is_behind_all_parameters_and_unknown_of_one_recording_alone() -
 
 
 def test_a_lone_recording_has_no_level() -> None:
-    assert not can_differ(prepare(_recordings((1.0,)), MODEL))
+    problem = prepare(_recordings((1.0,)), MODEL)
+    assert not can_differ(problem, friction(problem))

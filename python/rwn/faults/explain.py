@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.fault import Fault
+from rwn.faults.files import uneven_files
 from rwn.faults.late_enable import LateEnable, late_enables, needed, powered, retimed
 from rwn.faults.resolve import resolved
 from rwn.fit.fit import Fit
 from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
-from rwn.fit.levels import stated_levels
 from rwn.fit.sensor_filter import stating_filters
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
@@ -56,15 +56,7 @@ class Explained:
                     done="simulated so",
                 )
             )
-        found += [
-            Finding(
-                kind="uneven-friction", recording=name, signals=(), count=0,
-                words=f"its friction is {100.0 * (factor - 1.0):+.2g} % off the mean of the recordings "
-                f"(deviation {100.0 * deviation:.1g} %)",
-                done="a level of its own is fitted with it; corrected.toml holds that of all",
-            )
-            for name, (factor, deviation) in stated_levels(self.ranking.weighted, self.ranking.fits[0].final).items()
-        ]  # fmt: skip
+        found += uneven_files(self.ranking)
         return tuple(found)
 
 

@@ -1,13 +1,13 @@
-"""Friction that differs from recording to recording: a bearing or a gear is warm in one and cold in the next.
+"""What differs from recording to recording: friction, as a bearing or a gear is warm in one and cold in the next.
 
-Each recording then has a level of its own, a factor on all friction, as an unknown of the measurement beside every
-hypothesis. Whether they do differ is asked beside the best explanation, since what is missing of it may differ too.
+Each recording then has a level of its own, a factor on one quantity, as an unknown of the measurement. Whether they do
+differ is asked beside the best explanation, since what is missing of it may differ too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,62 +24,70 @@ from rwn.simulate.run import Run
 SPREAD = 0.3  # of a level's logarithm: friction halves as a gear warms up (Bittencourt, Gunnarsson 2012)
 ITERATIONS = 10  # of a fit that begins near its end
 SURE = 3.0  # deviations from the mean of all, from which it is said of a recording
-NAME = "friction of {}"
 
 
-def can_differ(problem: Problem) -> bool:
-    """Whether there are several recordings of a drive with friction, and no levels yet."""
-    known = any(own.level for own in problem.prior.of_runs)
-    return len(problem.whole) > 1 and not known and bool(_parameters(problem))
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """A quantity that may differ from recording to recording."""
+
+    quantity: str
+    parameters: tuple[int, ...]  # indices of what a factor on it scales
+
+    def of(self, recording: str) -> str:
+        """The name of its unknown of one recording."""
+        return f"{self.quantity} of {recording}"
 
 
-def with_levels(problem: Problem) -> Problem:
-    """The problem with a level of friction for each recording among what is unknown."""
+def friction(problem: Problem) -> Level:
+    """That of the nominal model, and of the effects that take its place."""
+    names = problem.drive.friction
+    instead = [e for e in problem.prior.table.values() if any(p.replaces in names for p in e.parameters)]
+    torques = tuple(e.at(p.name) for e in instead for p in e.parameters if p.unit == "N m") if names else ()
+    return Level(quantity="friction", parameters=(*(motor_index(name) for name in names), *torques))
+
+
+def can_differ(problem: Problem, level: Level) -> bool:
+    """Whether there are several recordings of a drive with such a quantity, and it is no unknown of each yet."""
+    known = any(own.name == level.of(run.name) for own in problem.prior.of_runs for run in problem.whole)
+    return len(problem.whole) > 1 and not known and bool(level.parameters)
+
+
+def with_levels(problem: Problem, level: Level) -> Problem:
+    """The problem with a level of a quantity for each recording among what is unknown."""
     first = _core.parameter_count() + len(problem.prior.of_runs)
     names = dict.fromkeys(run.name for run in problem.whole)
-    scaled = _parameters(problem)
     own = [
-        RunUnknown(name=NAME.format(name), unit="1", place=first + k, parameters=scaled, spread=SPREAD, level=True)
+        RunUnknown(
+            name=level.of(name), unit="1", place=first + k, parameters=level.parameters, spread=SPREAD, level=True
+        )
         for k, name in enumerate(names)
     ]
-    places = {name: ((u.place, scaled),) for name, u in zip(names, own, strict=True)}
+    places = {name: (u.place, level.parameters) for name, u in zip(names, own, strict=True)}
 
     def placed(runs: Sequence[Run]) -> tuple[Run, ...]:
-        return tuple(replace(run, levels=places[run.name]) for run in runs)
+        return tuple(replace(run, levels=(*run.levels, places[run.name])) for run in runs)
 
     prior = replace(problem.prior, of_runs=(*problem.prior.of_runs, *own))
     return replace(problem, runs=placed(problem.runs), whole=placed(problem.whole), prior=prior)
 
 
-def beside_levels(problem: Problem, this: Fit) -> tuple[Problem, Fit]:
+def beside_levels(problem: Problem, this: Fit, level: Level) -> tuple[Problem, Fit]:
     """The problem with levels, and an explanation refitted beside them."""
-    on = with_levels(problem)
+    on = with_levels(problem, level)
     begun = hypothesis(on.prior, this.added, on.scales, this.starts(this.added), this.motor)
     return on, fit(on, begun, max_iterations=ITERATIONS)
 
 
-def stated_levels(problem: Problem, this: Fit) -> dict[str, tuple[float, float]]:
-    """Friction of each recording over the geometric mean of all, with its deviation, of those that certainly differ."""
-    unknowns = this.hypothesis.unknowns
-    places = [k for k, u in enumerate(unknowns) if u.level]
+def uneven(problem: Problem, this: Fit, level: Level) -> dict[str, tuple[float, float]]:
+    """The quantity of each recording over its geometric mean, with a deviation, of those that certainly differ."""
+    unknowns = [u.name for u in this.hypothesis.unknowns]
+    names = [run.name for run in problem.whole if level.of(run.name) in unknowns]
+    places = [unknowns.index(level.of(name)) for name in names]
     if not places:
         return {}
     contrasts = np.eye(len(places)) - 1.0 / len(places)
     logarithms = contrasts @ this.minimum.values[places]
     spread = contrasts @ covariance(this, statistics(problem, this))[np.ix_(places, places)] @ contrasts
-    found = {}
-    for k, value, variance in zip(places, logarithms, np.diag(spread), strict=True):
-        deviation = float(np.sqrt(max(variance, 0.0)))
-        if abs(value) > SURE * deviation:
-            factor = float(np.exp(value))
-            found[unknowns[k].name.removeprefix(NAME.format(""))] = (factor, factor * deviation)
-    return found
-
-
-def _parameters(problem: Problem) -> tuple[int, ...]:
-    """What a level of friction scales: the friction of the nominal model, and of the effects that take its place."""
-    friction = problem.drive.friction
-    nominal = tuple(motor_index(name) for name in friction)
-    instead = [e for e in problem.prior.table.values() if any(p.replaces in friction for p in e.parameters)]
-    torques = tuple(e.at(p.name) for e in instead for p in e.parameters if p.unit == "N m")
-    return (*nominal, *torques) if friction else ()
+    factors, deviations = np.exp(logarithms), np.sqrt(np.maximum(np.diag(spread), 0.0))
+    rows = zip(names, factors, deviations, strict=True)
+    return {name: (float(f), float(f * d)) for name, f, d in rows if abs(np.log(f)) > SURE * d}

@@ -13,7 +13,7 @@ from rwn.fit.budget import affords_more, one_stage
 from rwn.fit.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
 from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
-from rwn.fit.levels import beside_levels, can_differ, with_levels
+from rwn.fit.levels import beside_levels, can_differ, friction, with_levels
 from rwn.fit.likelihood import DECISIVE
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
@@ -138,10 +138,11 @@ def _measured(as_prepared: Problem, problem: Problem, best: Fit, at_once: int) -
     filters = _filters(problem, best)
     if filters:
         return filtered(as_prepared, filters)
-    if at_once < MOST_EFFECTS or not can_differ(problem):
+    level = friction(problem)
+    if at_once < MOST_EFFECTS or not can_differ(problem, level):
         return None
-    on, that = beside_levels(problem, best)
-    return with_levels(as_prepared) if log_odds(that, best, statistics(on, that)) > DECISIVE else None
+    on, that = beside_levels(problem, best, level)
+    return with_levels(as_prepared, level) if log_odds(that, best, statistics(on, that)) > DECISIVE else None
 
 
 def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:
