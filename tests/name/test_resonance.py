@@ -14,7 +14,8 @@ from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
-from rwn.name.initial_guesses.resonance import Resonance, resonances
+from rwn.model.vocabulary import table
+from rwn.name.initial_guesses.resonance import Resonance, read, resonances
 from rwn.name.screening import screen
 from rwn.simulate.run import windowed
 
@@ -51,6 +52,14 @@ def test_a_shaft_shows_where_it_rings(rate: float, behind: float, without: tuple
     first = _found(_seen(Resonance(rate, 0.05, behind), without=without))[0]
     assert first.rate == pytest.approx(rate, rel=0.1)
     assert first.behind == pytest.approx(behind, abs=0.2)  # a refitted motor has taken a part of it
+
+
+def test_the_parameters_of_another_effect_are_told_by_their_units() -> None:
+    problem, known = _seen(Resonance(200.0, 0.05, 0.4)), table()["shaft-compliance"]
+    other = replace(known, parameters=tuple(replace(p, name=f"its_{p.name}") for p in reversed(known.parameters)))
+    as_known, as_other = (read(problem, fit_nominal(problem), effect, 1) for effect in (known, other))
+    assert as_known
+    assert as_other == [{f"its_{name}": value for name, value in guess.items()} for guess in as_known]
 
 
 def test_a_shaft_of_such_numbers_rings_so() -> None:

@@ -114,7 +114,8 @@ def test_a_drive_that_takes_backward_differences_lacks_nothing(counts: int) -> N
 @pytest.mark.slow
 def test_friction_is_right_beneath_backward_differences() -> None:
     runs = [_recorded(seed, BACKWARD, counts=8000, friction=0.01) for seed in (1, 2)]
-    found = rwn.diagnose([replace(r, signals={s: r.signals[s] for s in ("voltage", "speed")}) for r in runs], _model())
+    runs = [replace(r, signals={s: r.signals[s] for s in ("voltage", "speed")}) for r in runs]
+    found = rwn.diagnose(runs, _model(), effort=0.3)
     assert [e.name for e in found.effects] == ["coulomb-friction"]
     assert found.effects[0].parameters["coulomb_torque"].value == pytest.approx(0.01, rel=0.01)
 
@@ -125,7 +126,7 @@ def _model() -> rwn.Model:
 
 
 def _recorded(seed: int, way: SpeedMeasurement, *, counts: int, friction: float) -> rwn.Recording:
-    rng, t = np.random.default_rng(seed), 1e-3 * np.arange(3000)
+    rng, t = np.random.default_rng(seed), 1e-3 * np.arange(2000)
     voltage = shaking(rng, t)
     rows = plant(voltage, lambda w, _: -friction * np.tanh(w / 0.05), parts=8)
     signals = {

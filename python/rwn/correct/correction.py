@@ -15,8 +15,8 @@ from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
 from rwn.name.weights import RankedFit
-from rwn.prove.heldout import HeldoutRow, heldout_error, helps, hurts, log_change
-from rwn.prove.proof import compared, proved
+from rwn.prove.heldout import heldout_error, helps, hurts, log_change
+from rwn.prove.proof import Proof, compared, proved
 from rwn.simulate.run import Run
 
 NO_NETWORK = (
@@ -85,30 +85,26 @@ def _seen(decision: Decision) -> tuple[str, ...]:
     return (f"{other.words} explains most of what is left: it has no name here",) if other else ()
 
 
-def _proved_part(
-    decision: Decision, heldout: Sequence[Run], *, seed: int
-) -> tuple[RankedFit, tuple[HeldoutRow, ...]]:
-    """What is stated, or the part of it that is best on recordings that were not fitted; and the proof of that.
+def _proved_part(decision: Decision, heldout: Sequence[Run], *, seed: int) -> Proof:
+    """What is stated, or the part of it that is best on recordings that were not fitted.
 
     That an effect acts does not make its fitted parameters good enough to predict with, and a load that acted in one
     recording is none in another.
     """
     chosen, ranking = decision.chosen, decision.ranking
 
-    def proof(this: RankedFit) -> tuple[HeldoutRow, ...]:
-        return decision.rows if this is decision.chosen else proved(ranking, this, heldout, seed=seed)
+    def proof(this: RankedFit) -> Proof:
+        return Proof(this, decision.rows if this is decision.chosen else proved(ranking, this, heldout, seed=seed))
 
     while less := _better_part(decision, chosen, heldout, seed=seed):
         chosen = less
-    rows = proof(chosen)
-    if not chosen.added or log_change(rows) < 0.0:
-        return chosen, rows
+    whole = proof(chosen)
+    if not chosen.added or log_change(whole.rows) < 0.0:
+        return whole
     parts = [r for r in ranking.fits if r.added and set(r.added) < set(chosen.added)]
-    others = [(r, proof(r)) for r in (*parts, *(r for r in ranking.fits if _in_place(decision, chosen, r)))]
-    best, rows = min(others, key=lambda pair: log_change(pair[1]), default=(chosen, rows))
-    if log_change(rows) < 0.0:
-        return best, rows
-    return ranking.nothing_missing, proof(ranking.nothing_missing)
+    others = [proof(r) for r in (*parts, *(r for r in ranking.fits if _in_place(decision, chosen, r)))]
+    best = min(others, key=lambda other: log_change(other.rows), default=whole)
+    return best if log_change(best.rows) < 0.0 else proof(ranking.nothing_missing)
 
 
 def _in_place(decision: Decision, chosen: RankedFit, other: RankedFit) -> bool:

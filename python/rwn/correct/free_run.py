@@ -9,7 +9,7 @@ starts, by secants first.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from rwn.fit.secant import down_secants
 from rwn.name.initial_guesses.guesses import initial_guesses
 from rwn.name.weights import RankedFit
 from rwn.prove.heldout import HeldoutRow, log_change
-from rwn.prove.proof import LEFT_OUT, compared
+from rwn.prove.proof import LEFT_OUT, Proof, compared
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.run import Run
 
@@ -31,19 +31,12 @@ TURNS = 2  # of secants
 PARTS = 4  # of a lone recording; its first and its last are predicted from the others
 
 
-@dataclass(frozen=True, kw_only=True)
-class ByFreeRun:
-    """An explanation fitted to the free run."""
-
-    explanation: RankedFit  # its `fit` is that of the driving force, its `final` that of the free run
-    rows: tuple[HeldoutRow, ...]  # on parts of the recordings, each predicted by a fit that did not see it
-
-
-def by_free_run(decision: Decision, chosen: RankedFit, *, seed: int) -> ByFreeRun | None:
+def by_free_run(decision: Decision, chosen: RankedFit, *, seed: int) -> Proof | None:
     """What was found by the driving force, or what that does not tell from it, fitted to the free run.
 
-    The one that predicts best what was not fitted; None where that is the driving force's own fit, or where the force
-    is explained no better by it than by the refitted nominal model.
+    Its `fit` is that of the driving force, its `final` that of the free run; the rows are on parts of the recordings,
+    each predicted by a fit that did not see it. The one that predicts best what was not fitted; None where that is the
+    driving force's own fit, or where the force is explained no better by it than by the refitted nominal model.
     """
     problem = decision.ranking.weighted
     if not (isinstance(problem, DrivingForceProblem) and chosen.added):
@@ -55,7 +48,7 @@ def by_free_run(decision: Decision, chosen: RankedFit, *, seed: int) -> ByFreeRu
     if _log_ratio(rows) >= _log_ratio(known) or (force and log_change(force) >= 0.0):
         return None
     final = fitted_to_motion(problem.in_free_run(), problem.whole, best.final, _leading_effect(decision, best))
-    return ByFreeRun(explanation=replace(best, final=final), rows=rows)
+    return Proof(replace(best, final=final), rows)
 
 
 def fitted_to_motion(problem: Problem, runs: Sequence[Run], this: Fit, name: str) -> Fit:

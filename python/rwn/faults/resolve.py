@@ -44,7 +44,7 @@ class Rank(Protocol):
     ) -> Ranking: ...  # fmt: skip
 
 
-class FaultDecision(NamedTuple):
+class _Resolved(NamedTuple):
     """What came of a suspicion, with what was found on the way of the recordings without the fault, or as they are."""
 
     fault: Fault | None
@@ -52,10 +52,10 @@ class FaultDecision(NamedTuple):
     physics: float = 0.0  # squared error above the noise that physics leaves with the fault in the recordings
 
 
-NO_FAULT = FaultDecision(None, None)
+NO_FAULT = _Resolved(None, None)
 
 
-class RefinedDelay(NamedTuple):
+class _Refined(NamedTuple):
     """A delay, what was found beneath it, and the squared error that is left (see `refined`)."""
 
     fault: Fault
@@ -118,7 +118,7 @@ def _geared(
 
 def _decided(
     suspect: SuspectedFault, right: Sequence[Recording], model: Model, ranking: Rank
-) -> FaultDecision:
+) -> _Resolved:
     """The suspected fault if it explains more, alone or beside one effect, than as many effects do by themselves.
 
     Or if all there is is explained beneath it, by however many. Where two effects explain all without it, only theirs
@@ -128,33 +128,33 @@ def _decided(
     alone = ranking(right, 1)
     physics = unexplained(suspect, alone)
     if physics <= suspect.little:
-        return FaultDecision(None, alone)
+        return _Resolved(None, alone)
     if suspect.after <= LITTLE:
         believed = accepted(suspect, left=suspect.after, physics=physics, little=suspect.little)
-        return FaultDecision(suspect.fault, None, physics) if believed else FaultDecision(None, alone)
+        return _Resolved(suspect.fault, None, physics) if believed else _Resolved(None, alone)
     pairs = ranking(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(suspect, pairs) <= LITTLE
     names = first_effects(alone, pairs) if enough else None
     fault, beneath, left, exact = _refined(suspect, right, model, ranking, names)
     if not accepted(suspect, left=left, physics=physics):
         if enough or not exact or left > BETTER * physics:
-            return FaultDecision(None, pairs)
+            return _Resolved(None, pairs)
         beneath = ranking(without(right, fault), after=beneath)
         believed = unexplained(suspect, beneath) <= LITTLE
-        return FaultDecision(fault, beneath, unexplained(suspect, pairs)) if believed else FaultDecision(None, pairs)
+        return _Resolved(fault, beneath, unexplained(suspect, pairs)) if believed else _Resolved(None, pairs)
     if left > CLEAR * suspect.before:
         if not enough:
             pairs = ranking(right, 2, names=rivals(alone, beneath), after=pairs)
         if not accepted(suspect, left=left, physics=unexplained(suspect, pairs)):
-            return FaultDecision(None, pairs)
+            return _Resolved(None, pairs)
     elif unexplained(suspect, pairs) < left + SLIGHT:
-        return FaultDecision(None, pairs)
-    return FaultDecision(fault, beneath if exact and not enough else None, unexplained(suspect, pairs))
+        return _Resolved(None, pairs)
+    return _Resolved(fault, beneath if exact and not enough else None, unexplained(suspect, pairs))
 
 
 def _refined(
     suspect: SuspectedFault, right: Sequence[Recording], model: Model, ranking: Rank, names: Sequence[str] | None
-) -> RefinedDelay:
+) -> _Refined:
     """The suspected delay, refined with what is found beneath it until it stays the same."""
     fault = suspect.fault
     for _ in range(MOST_REFINEMENTS):
@@ -163,7 +163,7 @@ def _refined(
         fault, left = refined(replace(suspect, fault=undone), right, model, beneath)
         if fault is undone or not affords_more(beneath.problem.work):
             break
-    return RefinedDelay(fault, beneath, left, fault is undone)
+    return _Refined(fault, beneath, left, fault is undone)
 
 
 def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Fault], list[Recording]]:

@@ -25,7 +25,7 @@ from rwn.fit.secant import all_down_secants
 from rwn.fit.sensor_filter import SensorFilter, filtered, refitted_beside, sensor_filters
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.observable import observable
-from rwn.name.ranking import NO_PAIRS, Pairs, Ranking, SameNoise
+from rwn.name.ranking import NO_PAIRS, Fits, Pairs, Ranking
 from rwn.name.screening import screen
 from rwn.name.weights import log_odds, weigh
 from rwn.simulate.run import windowed
@@ -105,7 +105,7 @@ def rank(
 
 
 def _grown(
-    alone: SameNoise, fits: list[Fit], wanted: Sequence[str], pairs: Pairs, *, at_once: int, progress: Progress
+    alone: Fits, fits: list[Fit], wanted: Sequence[str], pairs: Pairs, *, at_once: int, progress: Progress
 ) -> _Grown:
     """Single effects, then the best of them with more beside, as long as that helps; `pairs` are known already."""
     problem = alone.problem
@@ -158,7 +158,7 @@ def _weighted_beforehand(problem: Problem) -> tuple[Problem, Fit]:
     return (problem, nominal) if within is problem else (within, fit_nominal(within))
 
 
-def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> SameNoise:
+def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> Fits:
     """The nominal model and every single effect."""
     problem, nominal = _weighted_beforehand(problem)
     progress("trying every effect", 0.1)
@@ -186,12 +186,12 @@ def _offsets(problem: Problem) -> list[str]:
     return [name for name, effect in problem.prior.table.items() if effect.offset]
 
 
-def _under_own_noise(problem: Problem, nominal: Fit, fits: list[Fit]) -> SameNoise:
+def _under_own_noise(problem: Problem, nominal: Fit, fits: list[Fit]) -> Fits:
     """The fits under the noise, along the angle and to the speed that the best of them makes probable."""
     problem, nominal, fits = _reweighted(as_recorded(problem), nominal, fits)
     problem, nominal, fits = along_the_simulated_angle(problem, nominal, fits)
     fits = all_down_secants(problem, nominal, fits)
-    return SameNoise(*unrounded_fits(problem, nominal, fits))
+    return Fits(*unrounded_fits(problem, nominal, fits))
 
 
 def _at_its_floor(problem: Problem, best: Fit) -> bool:

@@ -11,8 +11,8 @@ from rwn.fit.residuals import Statistics
 from rwn.name.weights import RankedFit
 
 
-class SameNoise(NamedTuple):
-    """The nominal model and explanations fitted to one problem."""
+class Fits(NamedTuple):
+    """The nominal model and explanations, fitted to one problem: under the same noise."""
 
     problem: Problem
     nominal: Fit
@@ -40,7 +40,7 @@ class Ranking:
     before: Statistics  # residual of the refitted nominal
     weighted: Problem  # that of the final fits: `problem`, or the same under coloured noise
     counted: Statistics  # what is left there: `left`, or what is new in each error
-    alone: SameNoise  # every effect by itself
+    alone: Fits  # every effect by itself
     pairs: Pairs  # under the noise of `alone`
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     at_a_limit: tuple[Fit, ...] = ()  # what fits better, with a law that ran into a limit of its parameters

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from rwn.fit.fit import Fit, refit
 from rwn.fit.hypothesis import Hypothesis
@@ -19,6 +20,13 @@ Fold = tuple[Problem, Run, int]  # what is fitted, what is simulated, first samp
 
 LEFT_OUT = "(left out)"  # marks what a fold did not fit
 FITTED_PART = 0.7  # of a lone recording, when its rest has to serve as proof
+
+
+class Proof(NamedTuple):
+    """An explanation, and how it does on recordings that it was not fitted to."""
+
+    explanation: RankedFit
+    rows: tuple[HeldoutRow, ...]
 
 
 def proved(

@@ -53,10 +53,11 @@ class _Part(NamedTuple):
 
 
 def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess] | None:  # noqa: ARG001
-    """Stiffness, damping and inertia of a second mass; None where the residual has no resonance to read."""
+    """Stiffness, damping and inertia of a second mass, told by their units; None where the residual does not ring."""
     residuals = problem.residuals(base.vector, base.active)
     inertia = float(base.vector[motor_index("inertia")])
-    names = ("stiffness", "damping", "load_inertia")
+    of = {p.unit: p.name for p in effect.parameters}
+    names = of["N m/rad"], of["N m s/rad"], of["kg m^2"]
     found = [dict(zip(names, r.of(inertia), strict=True)) for r in resonances(problem, base.vector, residuals)]
     return list(found) or None
 
