@@ -45,7 +45,7 @@ FILES = {
     f"{RECORDING}columns.py": ("tests/recording/test_columns.py", "tests/recording/test_missing_units.py",
                                "tests/recording/test_profiles.py", "tests/recording/test_recording.py"),
     f"{RECORDING}units.py": ("tests/recording/test_units.py", "tests/recording/test_missing_units.py"),
-    f"{RECORDING}copies.py": ("tests/recording/test_copies.py",),
+    f"{RECORDING}copies.py": ("tests/recording/test_copies.py", "tests/recording/test_rows_in_common.py"),
     f"{RECORDING}selection.py": ("tests/recording/test_selection.py",),
     "python/rwn/model/toml_reader.py": ("tests/model/test_recording_table.py", "tests/model/test_bad_models.py"),
     "python/rwn/model/formula.py": ("tests/model/test_formula.py", "tests/model/test_own_effects.py"),
