@@ -35,6 +35,9 @@ class _CtrlC:
 
 def run(command: Callable[[], Any]) -> NoReturn:
     """Runs a typer command and ends the process with its exit code."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by who started it: `rwn effects >&-`
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
     ctrl_c = _CtrlC()
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, ctrl_c)
