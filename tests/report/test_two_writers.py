@@ -42,6 +42,7 @@ def test_a_folder_that_was_made_for_results_goes_with_them(tmp_path: Path) -> No
     assert (tmp_path / "mine").is_dir()
 
 
+@pytest.mark.slow
 def test_two_diagnoses_into_one_folder(tmp_path: Path) -> None:
     run = rwn.read_recording(DEMO / "train.csv").beginning(400)
     rwn.save(run, tmp_path / "a.csv")
