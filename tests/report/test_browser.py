@@ -25,7 +25,7 @@ SECONDS = 240  # a busy machine is slow; one page takes three seconds on an idle
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here: apt-get install chromium"),
+    pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here: make test-browser installs it"),
 ]
 DRAWN = """
 const drawn = async () => {
