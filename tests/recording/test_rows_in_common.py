@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.recording.copies import is_piece, rows_in_common
+from rwn.recording.copies import _changes, is_piece, rows_in_common
 from rwn.recording.inspection.overlap import overlaps
 from rwn.recording.recording import Recording, read_recording, write_csv
 
@@ -123,3 +123,14 @@ def test_it_is_said_of_a_recording_that_is_kept_back() -> None:
     assert said.words == "1000 of 2000 rows stand in train.csv too, which is fitted"
     found = rwn.diagnose(run, DEMO / "model.toml", heldout=late, effort=0.1, jobs=1)
     assert said in found.findings
+
+
+def test_the_changes_of_a_stretch_are_counted_in_it_alone() -> None:
+    """Of the sensor that changes most; an input does not count."""
+    run = {name: np.zeros(4000) for name in ("voltage", "current", "speed")}
+    run["voltage"][:] = np.arange(4000.0)
+    run["current"][1000:1040] = np.arange(1.0, 41.0)
+    run["speed"][1000:1020] = np.arange(1.0, 21.0)
+    made = _recording(run)
+    counts = [_changes(made, list(run), begin) for begin in (0, 899, 900, 901, 999, 1000, 1010, 1040, 3900)]
+    assert counts == [0, 0, 0, 1, 41, 40, 30, 0, 0]
