@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -60,6 +61,12 @@ def test_a_command_ends_with_its_code_and_one_line(
     error = capsys.readouterr().err
     assert error.startswith(said)
     assert error.count("\n") == bool(said)
+
+
+def test_what_numpy_warns_of_is_not_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        run(lambda: warnings.warn("overflow encountered in square", RuntimeWarning, stacklevel=1))
+    assert (end.value.code, capsys.readouterr().err) == (0, "")
 
 
 def test_a_defect_keeps_its_traceback() -> None:

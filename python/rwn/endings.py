@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import threading
+import warnings
 from collections.abc import Callable
 from types import FrameType
 from typing import Any, NoReturn
@@ -42,7 +43,10 @@ def run(command: Callable[[], Any]) -> NoReturn:
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, ctrl_c)
     try:
-        status = command()
+        with warnings.catch_warnings():
+            # of an overflow, say, in a simulation that runs away: what comes of it is said in our words
+            warnings.simplefilter("ignore", RuntimeWarning)
+            status = command()
     except (typer.Abort, KeyboardInterrupt):
         status = STOPPED
     except NoResultError as error:
