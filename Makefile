@@ -1,4 +1,4 @@
-# make demo | demo-real | test | check | test-sanitize | mutants | lint | bench | stubs | docs; everything else is set up by these.
+# make demo | demo-real | test | check | test-sanitize | test-browser | mutants | lint | bench | stubs | docs; everything else is set up by these.
 PY := .venv/bin/python
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 JOBS ?= $(shell nproc)
@@ -9,7 +9,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 export PYTHONDONTWRITEBYTECODE :=
 PIP := $(PY) -m pip install -q --disable-pip-version-check
 
-.PHONY: demo demo-real test check test-cpp test-sanitize test-sanitize-lint test-python mutants lint lint-only bench install \
+.PHONY: demo demo-real test check test-cpp test-sanitize test-sanitize-lint test-python test-browser mutants lint lint-only bench install \
   install-cmake install-tools install-test stubs docs develop clean
 
 # Installed once; again only where something that goes into it has changed.
@@ -77,6 +77,12 @@ test-sanitize: install-cmake
 
 test-python: install-test
 	$(PY) -m pytest -n $(JOBS) --dist worksteal
+
+# The report in headless Chromium: three widths, dark, on paper, links between its plots, axe-core. Not part of `make test`: a machine
+# without Chromium would download it each time.
+test-browser: install-test
+	@./tools/setup.sh browser
+	$(PY) -m pytest -n $(JOBS) --dist worksteal tests/report/test_browser.py
 
 # Alters the network kernels one line at a time and asks whether a C++ test notices; by hand. Run again, it tries the survivors.
 mutants: install-test

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -62,6 +63,12 @@ def test_a_command_ends_with_its_code_and_one_line(
     assert error.count("\n") == bool(said)
 
 
+def test_what_numpy_warns_of_is_not_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        run(lambda: warnings.warn("overflow encountered in square", RuntimeWarning, stacklevel=1))
+    assert (end.value.code, capsys.readouterr().err) == (0, "")
+
+
 def test_a_defect_keeps_its_traceback() -> None:
     with pytest.raises(ZeroDivisionError):
         run(_raises(ZeroDivisionError()))
@@ -84,19 +91,45 @@ run(deaf)
     assert (done.returncode, done.stderr) == (STOPPED, "rwn: stopped\n")
 
 
-@pytest.mark.parametrize("module", ["rwn", "numpy", "numpy.linalg", "rwn.diagnose", "rwn.cli"])
-def test_ctrl_c_while_rwn_is_imported_is_one_line(module: str) -> None:
+STARTS = {
+    "rwn": 'from rwn_command import main; sys.argv = ["rwn", "effects"]; main()',
+    "python -m rwn": 'sys.argv = ["-m", "effects"]; sys.orig_argv = ["python", "-m", "rwn", "effects"]\n'
+    'import runpy; runpy.run_module("rwn", run_name="__main__", alter_sys=True)',
+}
+
+
+@pytest.mark.parametrize("start", STARTS)
+@pytest.mark.parametrize("module", ["numpy", "numpy.linalg", "rwn.diagnose", "rwn.cli"])
+def test_ctrl_c_while_rwn_is_imported_is_one_line(module: str, start: str) -> None:
     """An extension whose import is cut short fails as an ImportError that names no Ctrl-C."""
     script = f"""
 import os, signal, sys
-from rwn_command import main
 class Presses:
     def find_spec(self, name, *_):
         if name == {module!r}:
             os.kill(os.getpid(), signal.SIGINT)
 sys.meta_path.insert(0, Presses())
-sys.argv = ["rwn", "effects"]
-main()
+{STARTS[start]}
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (STOPPED, "", "rwn: stopped\n")
+
+
+def test_whoever_stops_reading_gets_no_traceback() -> None:
+    """As with `| head -1`."""
+    command = [sys.executable, "-m", "rwn", "effects"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as started:
+        assert started.stdout is not None
+        assert started.stderr is not None
+        started.stdout.close()
+        assert started.stderr.read() == ""
+
+
+@pytest.mark.parametrize("closed", ["stdout", "stderr"])
+def test_what_was_closed_before_is_not_written_to(closed: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As with `>&-`: Python has None in its place."""
+    monkeypatch.setattr(sys, closed, None)
+    with pytest.raises(SystemExit) as end:
+        run(lambda: print("a", file=getattr(sys, closed)) or getattr(sys, closed).isatty())
+    assert end.value.code == 0
+    getattr(sys, closed).close()

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prepares a bare Debian machine and the virtual environment: ./tools/setup.sh [test]
+# Prepares a bare Debian machine and the virtual environment: ./tools/setup.sh [test|browser]
 # PYTHON names the interpreter of a new environment (3.11 or later; default python3).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,6 +13,9 @@ has_headers='import os, sys, sysconfig; sys.exit(not os.path.exists(os.path.join
 if [ "${1:-}" = test ]; then
   [ -e /usr/include/gtest/gtest.h ] || need+=(libgtest-dev)
   [ -e /usr/include/eigen3/Eigen/Core ] || need+=(libeigen3-dev)  # the sanitized tests build without pip, which would bring it
+fi
+if [ "${1:-}" = browser ]; then
+  command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null || need+=(chromium)
 fi
 if [ ${#need[@]} -gt 0 ]; then
   if [ "$(id -u)" = 0 ]; then sudo=; elif command -v sudo >/dev/null; then sudo=sudo; else

@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
+import sys as _sys
+
+if _sys.argv[:1] == ["-m"] and "rwn" in _sys.orig_argv:  # `python -m rwn`, before __main__ has its turn
+    import rwn_command as _rwn_command
+
+    _rwn_command.end_at_ctrl_c()
+
 from rwn._core import __version__ as __version__
 from rwn.diagnose import diagnose as diagnose
 from rwn.errors import InputError as InputError

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from rwn import completion
 from rwn.endings import NO_RESULT, run
 from rwn.errors import InputError, unknown
 
@@ -30,7 +31,8 @@ app = typer.Typer(
 Recordings = Annotated[list[Path], typer.Argument(metavar="RECORDING...", help="Files to fit to, of any format.")]
 ModelFile = Annotated[Path, typer.Option("--model", help="The nominal model (TOML).")]
 Profile = Annotated[
-    str | None, typer.Option("--profile", help="The tool that exported the recordings: odrive, moteus, twincat ..")
+    str | None,
+    typer.Option("--profile", help="What wrote them: odrive, moteus, twincat ..", autocompletion=completion.profiles),
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace results that exist.")]
 
@@ -161,16 +163,11 @@ def identify(
             write_model(fit.model, aside)
 
 
-def _effect_names(incomplete: str) -> list[str]:
-    from rwn.model import vocabulary
-
-    return [name for name in vocabulary.table() if name.startswith(incomplete)]
-
-
 @app.command()
 def effects(
     name: Annotated[
-        list[str] | None, typer.Argument(help="One effect, in detail, or a word of it.", autocompletion=_effect_names)
+        list[str] | None,
+        typer.Argument(help="One effect, in detail, or a word of it.", autocompletion=completion.effect_names),
     ] = None,
     model: Annotated[Path | None, typer.Option("--model", help="A model file: its own effects as well.")] = None,
 ) -> None:
@@ -234,7 +231,10 @@ def demo(
 
 @app.command()
 def evidence(
-    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME]...", help="Machines (default: all).")] = None,
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME]...", help="Machines (default: all).", autocompletion=completion.machines),
+    ] = None,
     data: Annotated[Path, typer.Option("--data", help="Folder of the recordings.")] = Path("../shared/data"),
     out: Annotated[Path, typer.Option("--out", help="Folder for the table and reports.")] = Path("evidence-out"),
     by_hand: Annotated[

@@ -25,6 +25,7 @@ from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doub
 from rwn.name.forward import Progress
 from rwn.parallel import thread_pool
 from rwn.recording.inspection import inspected
+from rwn.recording.inspection.overlap import overlaps
 from rwn.recording.recording import Recording
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
@@ -72,6 +73,7 @@ def diagnose(
     model = model_of(model)
     fitted, judged = recordings_to_fit(recordings, model), read_recordings(heldout, model)
     refuse_doubles([*fitted, *judged])
+    common = tuple(overlaps(fitted, judged))
     recordings, findings = inspected(fitted)
     heldout, unseen_findings = inspected(judged)
     if model.effects:
@@ -90,7 +92,7 @@ def diagnose(
         layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
         made = replace(made, corrected=replace(made.corrected, recording=layout))
         enabled = (one.as_finding(model.drive.input) for one in case.late)
-        return replace(made, findings=(*findings, *found.findings, *unseen_findings, *enabled))
+        return replace(made, findings=(*findings, *found.findings, *unseen_findings, *common, *enabled))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import threading
+import warnings
 from collections.abc import Callable
 from types import FrameType
 from typing import Any, NoReturn
@@ -35,11 +36,17 @@ class _CtrlC:
 
 def run(command: Callable[[], Any]) -> NoReturn:
     """Runs a typer command and ends the process with its exit code."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by who started it: `rwn effects >&-`
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
     ctrl_c = _CtrlC()
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, ctrl_c)
     try:
-        status = command()
+        with warnings.catch_warnings():
+            # of an overflow, say, in a simulation that runs away: what comes of it is said in our words
+            warnings.simplefilter("ignore", RuntimeWarning)
+            status = command()
     except (typer.Abort, KeyboardInterrupt):
         status = STOPPED
     except NoResultError as error:

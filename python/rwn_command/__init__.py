@@ -13,11 +13,16 @@ STOPPED = 130  # exit code of Ctrl-C, as in rwn.endings
 
 
 def main() -> None:
-    """The entry point; nothing is written before the import is done, so the process may end where it is."""
-    signal.signal(signal.SIGINT, _stop)
+    """The entry point."""
+    end_at_ctrl_c()
     from rwn.cli import main as command  # from here on rwn.endings handles Ctrl-C
 
     command()
+
+
+def end_at_ctrl_c() -> None:
+    """While rwn is imported nothing is written, so the process may end where it is."""
+    signal.signal(signal.SIGINT, _stop)
 
 
 def _stop(_number: int, _frame: FrameType | None) -> None:

@@ -35,6 +35,7 @@ def _run(volts: float = 6.0) -> rwn.Recording:
     [
         ("coulomb-friction", {"coulomb_torque": 1e4}),
         ("quadratic-drag", {"drag_coefficient": 1.0}),
+        ("viscous-friction", {"damping": 1e12}),  # a search before would overflow
         ("coulomb-friction", {"coulomb_torque": 101.0 * STALL}),
     ],
 )  # fmt: skip

@@ -53,6 +53,13 @@ def test_what_is_no_instant_among_them_is_refused_by_its_line(bad: str, tmp_path
         read_recording(_file(tmp_path / "a.csv", "time,speed [rad/s]", rows))
 
 
+def test_a_bad_cell_beside_an_instant_is_refused_by_its_column(tmp_path: Path) -> None:
+    rows = [f"{_stamp(k, 'T')},{w}" for k, w in enumerate(SPEED)]
+    rows[30] = f"{_stamp(30, 'T')},fast"
+    with pytest.raises(InputError, match=r"line 32: 'fast' in column 'speed' is not a number"):
+        read_recording(_file(tmp_path / "a.csv", "time,speed [rad/s]", rows))
+
+
 @pytest.mark.parametrize("head", ["time [s] speed [rad/s]", "  time [s]    speed (rad/s)", "# time [s] speed [rad/s]"])
 @pytest.mark.parametrize("gap", [" ", "    "])
 def test_blanks_separate_cells(head: str, gap: str, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import pytest
 from rwn.errors import InputError
 from rwn.recording.formats import table as table_module
 from rwn.recording.formats.channels import Channel, table_of_channels
+from rwn.recording.formats.frame import name_and_unit_of
 from rwn.recording.formats.nested import nested_table
 from rwn.recording.formats.table import Table, table_of, too_long, vector
 
@@ -206,3 +207,11 @@ def test_an_object_with_properties_is_read_by_them() -> None:
         properties = {"u": ROWS, "inner": np.column_stack([ROWS, ROWS])}  # noqa: RUF012  # as matio has them
 
     assert _names({"a": Timetable()}) == ["a.u", "a.inner", "a.inner(:,1)", "a.inner(:,2)", "n"]
+
+
+@pytest.mark.parametrize(
+    ("column", "told"),
+    [("speed [rpm]", ("speed", "rpm")), ("speed", ("speed", None)), ("speed [rpm", ("speed [rpm", None))],
+)
+def test_a_column_of_open_brackets_is_a_name_as_it_is(column: str, told: tuple[str, str | None]) -> None:
+    assert name_and_unit_of(column) == told

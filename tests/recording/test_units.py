@@ -173,3 +173,22 @@ def test_a_sample_is_a_value_of_its_unit() -> None:
 )
 def test_a_linear_axis_has_the_units_of_a_line(rotary: str, linear: str) -> None:
     assert units.linear_unit(rotary) == linear
+
+
+@pytest.mark.parametrize(
+    "unit",
+    [
+        *("s²²²²²²²", "2^2^2^2^2^2^2", "2^(2^(2^(2^(2^(2^2)))))", "((((((10^9)^9)^9)^9)^9)^9)^9", "s^99999999"),
+        *("(10)^9", "m" * 81),
+    ],
+)
+def test_a_tower_of_powers_is_no_unit_and_is_not_worked_out(unit: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Found by fuzzing: pint would not come to an end."""
+    monkeypatch.setattr(pint.UnitRegistry, "parse_units", lambda *_: pytest.fail("worked out"))
+    with pytest.raises(InputError, match="unknown unit"):
+        units._parse(unit, where="x")
+
+
+@pytest.mark.parametrize("unit", ["m/s^2", "m s**-2", "kg m^2 s^(-3) A^-2", "(m/s)^2", "V^0.5", "kg m²/s²"])
+def test_powers_as_people_write_them_are_believed(unit: str) -> None:
+    units._parse(unit, where="x")

@@ -25,7 +25,7 @@ SECONDS = 240  # a busy machine is slow; one page takes three seconds on an idle
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here: apt-get install chromium"),
+    pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here: make test-browser installs it"),
 ]
 DRAWN = """
 const drawn = async () => {
@@ -40,6 +40,9 @@ MEASURE = """drawn().then(() => axe.run(document)).then(judged => say({
   width: innerWidth, wide: document.documentElement.scrollWidth,
   plots: [...document.querySelectorAll('.plot')].map(p => p.querySelectorAll('svg.main-svg .trace').length),
   buttons: [...new Set([...document.querySelectorAll('.modebar-btn')].map(b => b.dataset.title || b.ariaLabel))],
+  buttonsOn: [...document.querySelectorAll('.modebar-group')].map(g => getComputedStyle(g).backgroundColor),
+  tied: [...document.querySelectorAll('td[data-label]')].filter(e => innerWidth <= 780
+    && getComputedStyle(e, '::before').whiteSpace === 'nowrap').map(e => e.dataset.label),
   cut: [...document.querySelectorAll('h1,h2,p,td,li,.fact b')].filter(e => e.scrollWidth > e.clientWidth + 1
     && getComputedStyle(e).display !== 'inline' && !e.classList.contains('unseen')).map(e => e.textContent),
 }));"""
@@ -104,6 +107,8 @@ def test_it_is_whole_and_without_barriers_at_three_widths(state: str, width: int
     assert said["plots"]
     assert all(lines > 0 for lines in said["plots"])
     assert set(said["buttons"]) == {"Zoom", "Pan", "Reset axes", "Download plot as a PNG"}
+    assert set(said["buttonsOn"]) == {"rgba(0, 0, 0, 0)"}
+    assert said["tied"] == [], "a label beside its value runs over it"
     assert said["barriers"] == []
 
 

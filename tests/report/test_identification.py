@@ -75,3 +75,22 @@ def test_a_friction_that_comes_out_as_nothing_is_a_fit() -> None:
     run = replace(given, signals={**given.signals, "current": made["current"], "speed": made["speed"]})
     fit = rwn.identify(run, model)
     assert not identification.failure(fit, identification.explained_signals(fit, [run]))
+
+
+def test_the_error_is_said_in_the_units_of_the_file(tmp_path: Path) -> None:
+    """By hand: the rms of what the fitted model leaves, in rpm and mA; a recording without units says it in SI."""
+    model = rwn.read_model(DEMO / "model.toml")
+    run = _as(lambda _: {})
+    rwn.save(replace(run, units={"speed": "rpm", "current": "mA"}), tmp_path / "run.csv")
+    fit = rwn.identify(run, model)
+    made = rwn.simulate(fit.model, run).signals
+    rms = {s: float(np.sqrt(np.mean((run.signals[s] - made[s]) ** 2))) for s in ("speed", "current")}
+    for given, units, scales in (
+        (rwn.read_recording(tmp_path / "run.csv"), ("rpm", "mA"), (30.0 / np.pi, 1e3)),
+        (replace(run, units={}), ("rad/s", "A"), (1.0, 1.0)),
+    ):
+        text = "\n".join(identification.lines(fit, identification.explained_signals(fit, [given]), model))
+        for (signal, error), unit, scale in zip(rms.items(), units, scales, strict=True):
+            said = re.search(rf"of the {signal} is explained, rms error (\S+) {unit}$", text, re.MULTILINE)
+            assert said, text
+            assert float(said[1]) == pytest.approx(scale * error, rel=6e-3)  # three digits

@@ -202,3 +202,17 @@ def test_parameters_have_the_symbol_of_their_law() -> None:
     assert words.parameter_name("stribeck-friction", "static_torque") == "static torque T_s"
     assert words.parameter_name("backlash", "gap") == "gap"
     assert words.parameter_name("my-own", "width") == "width"
+
+
+@pytest.mark.parametrize(
+    ("text", "begun"),
+    [
+        ("what is left", "What is left"),
+        ("the end.", "The end."),
+        ("train_1.csv, line 812: a gap", "train_1.csv, line 812: a gap"),
+        ("train_1.csv: a gap", "train_1.csv: a gap"),
+        ("", ""),
+    ],
+)
+def test_a_sentence_begins_large_and_a_file_keeps_its_name(text: str, begun: str) -> None:
+    assert words.capital(text) == begun

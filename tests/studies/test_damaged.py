@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import hashlib
 import json
+import math
 import os
 import zlib
 from pathlib import Path
@@ -15,7 +16,9 @@ from rwn.errors import InputError
 from rwn.studies.thesis import cli as thesis
 from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.grade import load_answers
+from rwn.studies.trials.said import said_in, timing_of
 from rwn.studies.trials.seal import ANSWERS, HASH
+from rwn.studies.trials.trial_files import read_speed
 
 
 @pytest.mark.parametrize("error", [KeyError("verdict"), TypeError("x"), ValueError("x"), EOFError("x"), zlib.error()])
@@ -72,3 +75,73 @@ def test_a_file_that_the_system_refuses_says_so_itself(tmp_path: Path) -> None:
         (tmp_path / "nowhere.json").read_text()
     with pytest.raises(InputError, match="this cannot be read"), reading(tmp_path):
         raise OSError("a damaged archive")
+
+
+SAID = {"verdict": "missing-physics", "effects": [{"name": "backlash", "equation": "mechanical"}]}
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [
+        ({"verdict": "foo"}, "verdict"),
+        ({"account": 5}, "account"),
+        ({"effects": [{"name": "backlash"}]}, r"effects\[0\]"),
+        ({"effects": [{"name": "backlash", "equation": "mechanical", "probability": 3}]}, r"effects\[0\].probability"),
+        ({"set": "backlash"}, "set"),
+        ({"adequate_probability": -0.1}, "adequate_probability"),
+        ({"effects": [{"name": "time-shift", "equation": "recording"}]}, "beneath"),
+    ],
+)
+def test_a_diagnosis_of_other_fields_is_refused_by_file_and_field(
+    changes: dict[str, object], field: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "diagnosis.json"
+    path.write_text(json.dumps(SAID))
+    assert said_in(path) == SAID
+    path.write_text(json.dumps(SAID | changes))
+    with pytest.raises(InputError, match=rf"diagnosis\.json: {field}: "):
+        said_in(path)
+
+
+def test_a_number_that_json_does_not_have_is_read_as_one(tmp_path: Path) -> None:
+    interval = {"value": 1.0, "unit": "s", "interval": [0.5, "inf"]}
+    said = SAID | {"effects": [{"name": "a", "equation": "mechanical", "parameters": {"lag": interval}}]}
+    (tmp_path / "diagnosis.json").write_text(json.dumps(said))
+    effects = said_in(tmp_path / "diagnosis.json")["effects"]
+    assert list(effects[0]["parameters"]["lag"]["interval"]) == [0.5, math.inf]
+
+
+@pytest.mark.parametrize(
+    ("content", "said"), [('{"seconds": "x"}', "seconds: "), ('"x"', "expected 'object'"), ('{"bias": -1}', "bias: ")]
+)
+def test_a_timing_of_other_fields_is_refused_by_file_and_field(content: str, said: str, tmp_path: Path) -> None:
+    assert timing_of(tmp_path).seconds is None
+    (tmp_path / "timing.json").write_text(content)
+    with pytest.raises(InputError, match=rf"timing\.json: {said}"):
+        timing_of(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("garbage", "there are no rows"),
+        ("", "there are no rows"),
+        ("time [s],speed [rad/s]\n", "there are no rows"),
+        ("time [s],a\n1,2\n3,4\n", "there is no column speed"),
+        ("time [s],speed [rad/s]\n1,2\n", "1 rows; its held-out recording has 2"),
+        ("time [s],speed [rad/s]\n1,2\n2,nan\n", "a speed is not a finite number"),
+        ("a,b\nc,d\n", "this cannot be read"),
+    ],
+)
+def test_a_simulated_recording_of_garbage_is_one_line(content: str, said: str, tmp_path: Path) -> None:
+    """Warnings are errors here: on the terminal they would be lines of their own."""
+    (tmp_path / "simulated.csv").write_text(content)
+    with pytest.raises(InputError, match=rf"simulated\.csv: {said}"):
+        read_speed(tmp_path / "simulated.csv", rows=2)
+
+
+def test_an_open_answer_that_is_no_table_is_named(tmp_path: Path) -> None:
+    (tmp_path / "trial").mkdir()
+    (tmp_path / "trial" / "answer.json").write_text("5")
+    with pytest.raises(InputError, match=r"answer\.json"):
+        load_answers(tmp_path)

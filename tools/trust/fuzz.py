@@ -100,7 +100,8 @@ _ASIDE = tempfile.TemporaryDirectory(prefix="rwn-fuzz-")  # gone when the proces
 _FOLDER = Path(_ASIDE.name)
 TARGETS: dict[str, Target] = {
     "csv": _reads(".csv"), "wpilog": _reads(".wpilog"), "sysid": _reads(".json"), "npz": _reads(".npz"),
-    "mat": _reads(".mat"), "model": model, "formula": formula, "diagnosis": diagnosis,
+    "mat": _reads(".mat"), "parquet": _reads(".parquet"), "excel": _reads(".xlsx"), "mcap": _reads(".mcap"),
+    "tdms": _reads(".tdms"), "mf4": _reads(".mf4"), "model": model, "formula": formula, "diagnosis": diagnosis,
     "simulation": simulation,
 }  # fmt: skip
 
@@ -151,7 +152,7 @@ def fuzz(target: str, seconds: int) -> None:
 
     corpus = CORPUS / target
     corpus.mkdir(parents=True, exist_ok=True)
-    arguments = [sys.argv[0], str(corpus), f"-max_total_time={seconds}", "-timeout=20", "-max_len=4096",
+    arguments = [sys.argv[0], str(corpus), f"-max_total_time={seconds}", "-timeout=20", "-max_len=8192",
                  "-rss_limit_mb=3000", "-print_final_stats=1"]  # fmt: skip
     atheris.Setup(arguments, TARGETS[target])
     atheris.Fuzz()

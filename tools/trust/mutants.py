@@ -30,7 +30,8 @@ SECONDS = 60  # of processor time: what takes longer was altered into a loop wit
 FORMATS, RECORDING = "python/rwn/recording/formats/", "python/rwn/recording/"
 # file -> the tests that are to notice
 FILES = {
-    f"{FORMATS}csv.py": ("tests/recording/test_csv_rows.py", "tests/recording/test_csv.py"),
+    f"{FORMATS}csv.py": ("tests/recording/test_csv_rows.py", "tests/recording/test_csv.py",
+                         "tests/recording/test_csv_instants.py"),
     f"{FORMATS}csv_dialect.py": ("tests/recording/test_csv_dialect.py", "tests/recording/test_csv.py"),
     f"{FORMATS}scope.py": ("tests/recording/test_scope.py", "tests/recording/test_profiles.py"),
     f"{FORMATS}wpilog.py": ("tests/recording/test_wpilog.py",),
@@ -41,11 +42,11 @@ FILES = {
     f"{FORMATS}table.py": ("tests/recording/test_table.py", "tests/recording/test_formats.py"),
     f"{FORMATS}nested.py": ("tests/recording/test_table.py", "tests/recording/test_formats.py"),
     f"{FORMATS}npz.py": ("tests/recording/test_formats.py", "tests/recording/test_converted.py"),
-    f"{FORMATS}frame.py": ("tests/recording/test_formats.py", "tests/recording/test_converted.py"),
+    f"{FORMATS}frame.py": ("tests/recording/test_tables.py", "tests/recording/test_formats.py"),
     f"{RECORDING}columns.py": ("tests/recording/test_columns.py", "tests/recording/test_missing_units.py",
                                "tests/recording/test_profiles.py", "tests/recording/test_recording.py"),
     f"{RECORDING}units.py": ("tests/recording/test_units.py", "tests/recording/test_missing_units.py"),
-    f"{RECORDING}copies.py": ("tests/recording/test_copies.py",),
+    f"{RECORDING}copies.py": ("tests/recording/test_copies.py", "tests/recording/test_rows_in_common.py"),
     f"{RECORDING}selection.py": ("tests/recording/test_selection.py",),
     "python/rwn/model/toml_reader.py": ("tests/model/test_recording_table.py", "tests/model/test_bad_models.py"),
     "python/rwn/model/formula.py": ("tests/model/test_formula.py", "tests/model/test_own_effects.py"),

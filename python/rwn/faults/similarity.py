@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 FAR = 1.4  # size of a signal against its simulation from which its scale is doubted
+STILL = 1e-30  # energy over that of the other, at which a signal does not move: no unit and no gear comes near
 ONE_SIDED = 0.02  # of a signal's largest value: as much of the other sign is noise
 
 
@@ -54,8 +55,8 @@ class Similarity:
 def _moments(recorded: Array, simulated: Array) -> tuple[float, float]:
     """Ratio of their sizes, and correlation."""
     yy, xx = float(recorded @ recorded), float(simulated @ simulated)
-    if min(xx, yy) <= 0.0:
-        return 1.0, 0.0
+    if min(xx, yy) <= STILL * max(xx, yy) or xx * yy == 0.0:
+        return 1.0, 0.0  # one of them does not move: there is no scale to judge
     return float(np.sqrt(yy / xx)), float(recorded @ simulated) / float(np.sqrt(xx * yy))
 
 

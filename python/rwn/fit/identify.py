@@ -89,9 +89,10 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     """
     model = model_of(model)
     runs, findings = inspected(recordings_to_fit(recordings, model))
+    if model.effects:
+        check_declared(prepare(runs, model), model)
     model = with_intersample(runs, model)
     problem = prepare(runs, model)
-    check_declared(problem, model)
     this = fit_nominal(problem)
     problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))
     this = fit_nominal(problem)

@@ -7,7 +7,7 @@ import re
 import threading
 from typing import Any
 
-from rwn.errors import InputError, closest
+from rwn.errors import InputError, closest, plain
 
 # What people write and pint reads otherwise ("Nm" is its number metre, "Hz" its radian per second).
 _SPELLINGS = (
@@ -23,6 +23,19 @@ _COMMON = (
     *("m", "mm", "m/s", "mm/s", "N", "kN", "N*m", "mN*m", "ohm", "H", "mH", "kg", "kg*m^2", "g*cm^2"),
     *("N*m/A", "V*s/rad", "N*m*s/rad", "N*s/m"),
 )
+
+
+_LONGEST = 80  # characters of a unit
+_POWER = re.compile(r"\^|\*\*")
+_SMALL_POWER = re.compile(r"(?<![\d. )])[ )]*(?:\^|\*\*) *\(? *[-+]? *\d(?:\.\d*)?(?![\d.])")
+
+
+def _believable(text: str) -> bool:
+    """Whether a text may be a unit: of no number and of no power is a power taken, and none beyond 9.
+
+    pint works them out in whole numbers, and a tower of them lasts for ever.
+    """
+    return len(text) <= _LONGEST and len(_POWER.findall(text)) == len(_SMALL_POWER.findall(text))
 
 
 def _registry() -> Any:
@@ -45,11 +58,13 @@ def _parse(text: str, *, where: object) -> Any:
     for pattern, replacement in _SPELLINGS:
         spelled = pattern.sub(replacement, spelled)
     try:
+        if not _believable(spelled):
+            raise ValueError(spelled)
         return _registry().parse_units(spelled)
     except Exception as error:  # pint raises its own, tokenize's and Python's errors for what is no unit
         meant = closest(text, _COMMON)
         raise InputError(
-            f"unknown unit '{text}'",
+            f"unknown unit '{plain(text, longest=_LONGEST)}'",
             where=where,
             expected="a unit such as V, mA, rad/s, rpm, deg, N m, kg m^2",
             fix=f"did you mean '{meant}'?" if meant else "write the unit in SI or with an SI prefix",

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from rwn.errors import InputError
@@ -23,8 +24,8 @@ def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path]
 
     It lies on the same disk, so that moving needs no room and old results stay until new ones are whole. Of a process
     that is killed while it moves them, diagnosis.json is missing until another begins here. Raises InputError before
-    the block when `path` cannot be written, or holds files and `overwrite` is false; or when a result would replace one
-    of the `inputs`.
+    the block when `path` cannot be written, is written by another process, or holds files and `overwrite` is false; or
+    when a result would replace one of the `inputs`.
     """
     path = _without_detours(path)
     check_folder(path)
@@ -32,22 +33,50 @@ def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path]
         _refuse_input(path / name, inputs)
         if (path / name).is_dir():
             raise _is_a_folder(path / name)
-    there = _existing(path)
-    if path.is_dir() and any(path.iterdir()) and not overwrite:
-        raise InputError(
-            "the output folder exists and is not empty",
-            where=path,
-            expected="a new or empty folder",
-            fix="choose another --out, or add --overwrite",
-        )
-    with _aside(there, path) as aside:
-        yield aside / HALF
-        path.mkdir(parents=True, exist_ok=True)
-        with nullcontext(aside) if there == path else _aside(path, path) as within:
-            if there != path:
-                (within / HALF).rmdir()
-                (aside / HALF).replace(within / HALF)
-            exchange(within, path)
+    with _alone_in(path):
+        if any(path.iterdir()) and not overwrite:
+            raise InputError(
+                "the output folder exists and is not empty",
+                where=path,
+                expected="a new or empty folder",
+                fix="choose another --out, or add --overwrite",
+            )
+        with _aside(path, path) as aside:
+            yield aside / HALF
+            exchange(aside, path)
+
+
+@contextmanager
+def _alone_in(path: Path) -> Iterator[None]:
+    """A folder that no other process writes its results to meanwhile; made, and gone again where nothing is in it.
+
+    Raises InputError where another one does.
+    """
+    made = [folder for folder in (path, *path.parents) if not folder.exists()]
+    path.mkdir(parents=True, exist_ok=True)
+    opened = os.open(path, os.O_RDONLY)
+    try:
+        with suppress(OSError):  # where the file system has no locks
+            try:
+                fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                made = []
+                raise _occupied(path) from None
+        yield
+    finally:
+        for folder in made:
+            with suppress(OSError):  # it holds the results
+                folder.rmdir()
+        os.close(opened)
+
+
+def _occupied(path: Path) -> InputError:
+    return InputError(
+        "another rwn is writing its results here",
+        where=path,
+        expected="one at a time",
+        fix="wait for it, or choose another --out",
+    )
 
 
 @contextmanager

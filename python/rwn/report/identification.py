@@ -12,9 +12,12 @@ from rwn.fit.identify import Identification
 from rwn.fit.intervals import Estimate
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.model.model import Model
+from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording
+from rwn.recording.signals import COLUMNS
+from rwn.recording.units import factor
 from rwn.report.nominal_fit import FittedParameter
-from rwn.report.text import estimate, listing, number, percent, unknown_name
+from rwn.report.text import estimate, listing, number, percent, symbol, unknown_name
 from rwn.simulate.simulation import simulate
 
 CUT = 1e-6  # relative; intervals are wider than AGREEMENT of a value on either side
@@ -23,11 +26,13 @@ DESCRIBES = 0.5  # share of a signal's variance that a model must explain, to be
 
 @dataclass(frozen=True, kw_only=True)
 class ExplainedSignal:
-    """How much of one recorded signal the fitted model explains in free run."""
+    """How much of one recorded signal the fitted model explains in free run, and the rms of what it does not."""
 
     recording: str
     signal: str
     explained: float  # share of the variance; negative where it is worse than the mean
+    error: float  # rms, in `unit`
+    unit: str  # that of the file, else SI
 
 
 def explained_signals(fit: Identification, recordings: Sequence[Recording]) -> tuple[ExplainedSignal, ...]:
@@ -41,8 +46,18 @@ def explained_signals(fit: Identification, recordings: Sequence[Recording]) -> t
             spread = float(np.nanvar(measured))
             error = float(np.nanmean((measured - made[signal]) ** 2))
             explained = 1.0 - error / spread if spread > 0.0 else float(error == 0.0)
-            rows.append(ExplainedSignal(recording=recording.name, signal=signal, explained=explained))
+            rms, unit = _as_recorded(error**0.5, signal, recording)
+            rows.append(
+                ExplainedSignal(recording=recording.name, signal=signal, explained=explained, error=rms, unit=unit)
+            )
     return tuple(rows)
+
+
+def _as_recorded(value: float, signal: str, recording: Recording) -> tuple[float, str]:
+    """A value in SI in the unit that the file has for the signal, and that unit."""
+    si = si_unit(COLUMNS[signal], recording.linear)
+    unit = recording.units.get(signal, si)
+    return value / factor(unit, si, where=recording.name), unit
 
 
 def failure(fit: Identification, signals: Sequence[ExplainedSignal]) -> str:
@@ -68,7 +83,8 @@ def lines(fit: Identification, signals: Sequence[ExplainedSignal], nominal: Mode
     for name, value in fit.parameters.items():
         yield f"{name:<22} {estimate(value)}"
     for row in signals:
-        yield f"{row.recording}: {_share(row.explained)} of the variance of the {row.signal} is explained"
+        how = f"{_share(row.explained)} of the variance of the {row.signal} is explained"
+        yield f"{row.recording}: {how}, rms error {number(row.error)} {symbol(row.unit)}".rstrip()
     yield f"what is left has {number(fit.residual_over_noise, 2)} times the rms of the noise (1: nothing but noise)"
     yield from (f"{finding.recording}: {finding.words} ({finding.done})" for finding in fit.findings)
     yield from (f"warning: {text}" for text in _doubts(fit, nominal))

@@ -61,6 +61,7 @@ def figure(plots: Sequence[Plot]) -> dict[str, Any]:
         "height": 330 if len(plots) == 1 else 470,
         "paper_bgcolor": "rgba(0,0,0,0)",
         "plot_bgcolor": "rgba(0,0,0,0)",
+        "modebar": {"bgcolor": "rgba(0,0,0,0)", "color": _LINE, "activecolor": _INK},  # else of a transparent black
         "hovermode": "closest",
         "legend": {"itemsizing": "constant", "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"},
         "xaxis": {**_axis(first.x_label, x_unit), "anchor": _name("y", len(plots) - 1), "automargin": False},

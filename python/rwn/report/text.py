@@ -134,8 +134,8 @@ def unknown_name(unknown: str) -> str:
 
 
 def capital(text: str) -> str:
-    """The text with its first letter large."""
-    return text[:1].upper() + text[1:]
+    """The text with its first letter large, but that of a file."""
+    return text if "." in text.partition(" ")[0].rstrip(".,:;") else text[:1].upper() + text[1:]
 
 
 def listing(names: Sequence[str], joint: str = "and") -> str:

@@ -15,13 +15,15 @@ from rwn.errors import InputError
 @contextmanager
 def quiet(logger: str) -> Iterator[None]:
     """Within it a library prints no log of its own: what it cannot read is said once, in our words."""
-    log = logging.getLogger(logger)
-    level = log.level
-    log.setLevel(logging.CRITICAL + 1)
+    names = [name for name in logging.root.manager.loggerDict if name.startswith(f"{logger}.")]
+    levels = {name: logging.getLogger(name).level for name in (logger, *names)}  # those below may have their own
+    for name in levels:
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     try:
         yield
     finally:
-        log.setLevel(level)
+        for name, level in levels.items():
+            logging.getLogger(name).setLevel(level)
 
 
 def library(module: str, extra: str, where: object) -> Any:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import re
 import warnings
+import zlib
 from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
 from rwn.errors import InputError
 from rwn.recording.formats.extra import library
+from rwn.recording.formats.mat_elements import check_elements
 from rwn.recording.formats.nested import nested_table
 from rwn.recording.formats.table import MAX_SAMPLES, Table, too_long
 
@@ -49,6 +51,10 @@ def _opened(path: Path) -> tuple[Shapes, Load]:
     """The shapes of the variables, and what loads some of them."""
     import scipy.io
 
+    try:
+        check_elements(path)
+    except (ValueError, zlib.error) as error:
+        raise _no_mat(path) from error
     try:
         shapes = {name: tuple(shape) for name, shape, kind in scipy.io.whosmat(str(path)) if kind != "opaque"}
         return shapes, lambda names: dict(scipy.io.loadmat(path, variable_names=names))

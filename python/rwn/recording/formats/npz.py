@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import zipfile
 from collections.abc import Collection
 from pathlib import Path
 
@@ -28,7 +27,9 @@ def read_npz(path: Path, wanted: Collection[str] = ()) -> Table:
             names = {key: name_and_unit_of(key) for key in loaded.files}
             roots = {re.split(r"[.({]", name)[0] for name in wanted} | set(wanted)
             content = {name: loaded[key] for key, (name, _) in names.items() if name in roots}
-    except (ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
+    except (InputError, OSError):
+        raise
+    except Exception as error:  # numpy and zipfile raise many kinds for what is none
         raise InputError(
             "the arrays cannot be read",
             where=path,

@@ -18,10 +18,12 @@ from rwn.errors import InputError
 from rwn.fit.intervals import Estimate
 from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.bench_trials.also_true import also_true
+from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.grade import load_answers, nearest_turn
-from rwn.studies.trials.origins import TIMING, codes, results_of, timing_of
+from rwn.studies.trials.origins import codes, results_of
 from rwn.studies.trials.run import out_of, trial_folders
+from rwn.studies.trials.said import TIMING, timing_of
 
 Array = NDArray[np.float64]
 
@@ -77,7 +79,9 @@ def _diagnosed(
         for trial in trial_folders(folder):
             found = out_of(trial, own) / "diagnosis.json"
             if trial.name in answers and found.exists():
-                yield answers[trial.name], Diagnosis.from_json(found.read_bytes()), found.parent
+                with reading(found):
+                    diagnosis = Diagnosis.from_json(found.read_bytes())
+                yield answers[trial.name], diagnosis, found.parent
 
 
 def _true(answer: Mapping[str, Any]) -> set[str]:
@@ -109,14 +113,14 @@ def bias_of(folders: Sequence[Path], *, results: Path | None = None, check: Coll
 def _bias_in(place: Path) -> float:
     """The bias that the intervals of a diagnosis count with. Raises InputError where timing.json does not say it."""
     timing = timing_of(place)
-    if "bias" not in timing:
+    if timing.bias is None:
         raise InputError(
             "nothing says which bias these intervals count with",
             where=place / TIMING,
             expected=f'a "bias" as `rwn trials run` writes it ({calibration().bias:.3g} with the calibration of today)',
             fix="diagnose the set anew, or leave it out of the bias by --check",
         )
-    return float(timing["bias"])
+    return timing.bias
 
 
 def _bias_needed(estimate: Estimate, true: float, left: Remainder, bias: float) -> float:

@@ -25,9 +25,14 @@ def reading(path: Path) -> Iterator[None]:
     except (ValueError, LookupError, TypeError, AttributeError, EOFError, OSError, zlib.error) as error:
         if isinstance(error, OSError) and error.filename is not None:
             raise
-        raise InputError(
-            f"this cannot be read ({type(error).__name__}: {error})",
-            where=path,
-            expected="what rwn trials wrote there",
-            fix="copy it again; or remove it, and rwn trials run or make writes it anew",
-        ) from error
+        raise refused(path, f"this cannot be read ({type(error).__name__}: {error})") from error
+
+
+def refused(path: Path, what: str) -> InputError:
+    """The error for what is wrong with a file of trials."""
+    return InputError(
+        what,
+        where=path,
+        expected="what rwn trials wrote there",
+        fix="copy it again; or remove it, and rwn trials run or make writes it anew",
+    )

@@ -17,8 +17,9 @@ from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.plant import simulate
 from rwn.studies.trials.run import out_of, trial_folders
+from rwn.studies.trials.said import said_in, timing_of
 from rwn.studies.trials.seal import ANSWERS, unseal
-from rwn.studies.trials.trial_files import read_columns
+from rwn.studies.trials.trial_files import read_columns, read_speed
 
 NO_RESULT = "no-result"  # the diagnosis failed or was never run
 PHASE = "phase"  # of an effect of the angle, known but for whole turns
@@ -106,10 +107,16 @@ def load_answers(folder: Path) -> tuple[dict[str, Any], dict[str, dict[str, Any]
     found = {}
     for path in sorted(folder.glob("*/answer.json")):
         with reading(path):
-            found[path.parent.name] = json.loads(path.read_text())
+            found[path.parent.name] = dict(json.loads(path.read_text()))
     if not found:
         raise ValueError(f"{folder} holds neither {ANSWERS} nor answer.json files")
     return {}, found
+
+
+def answers_of(trial: Path) -> Path:
+    """The file that holds the answer of a trial."""
+    sealed = trial.parent / ANSWERS
+    return sealed if sealed.exists() else trial / "answer.json"
 
 
 def grade_folder(folder: Path, *, results: Path | None = None) -> Graded:
@@ -119,7 +126,7 @@ def grade_folder(folder: Path, *, results: Path | None = None) -> Graded:
     for trial in trial_folders(folder):
         if trial.name in answers:
             out = out_of(trial, results)
-            with reading(out):
+            with reading(answers_of(trial)):
                 grades.append(grade(answers[trial.name], trial, out))
     return Graded((about["seed"],) if "seed" in about else (), about.get("split"), grades)
 
@@ -147,8 +154,7 @@ def grade_folders(folders: Sequence[Path], *, results: Path | None = None) -> Gr
 def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     said: dict[str, Any] = {"verdict": NO_RESULT}
     if (out / "diagnosis.json").exists():
-        with reading(out / "diagnosis.json"):
-            said = json.loads((out / "diagnosis.json").read_text())
+        said = said_in(out / "diagnosis.json")
     mistaken, said = without_mistake(said) if "mistake" in answer else ((), said)
     effects = said.get("effects", []) if said["verdict"] == "missing-physics" else []
     names = tuple(str(effect["name"]) for effect in effects)
@@ -157,7 +163,6 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     truth = tuple(str(effect["name"]) for effect in answer["effects"])
     equivalent = tuple(answer.get("equivalent", []))
     accepted = {*truth, *equivalent} if named else {name for kind in truth for name in known_as(kind)}
-    timing = out / "timing.json"
     return Grade(
         case=trial.name,
         mode=str(answer["mode"]),
@@ -176,7 +181,7 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
         ambiguous=len(candidates) > 1,
         parameters=tuple(parameter_estimates(answer, effects)) if named else (),
         removed=tuple(_removed(answer, trial, out)),
-        seconds=json.loads(timing.read_text())["seconds"] if timing.exists() else None,
+        seconds=timing_of(out).seconds,
         mistake=str(answer.get("mistake", {}).get("name", "")),
         mistaken=mistaken,
     )
@@ -189,7 +194,8 @@ def without_mistake(said: Mapping[str, Any]) -> tuple[tuple[str, ...], dict[str,
     if not mistakes:
         return (), dict(said)
     beneath = said["beneath"]
-    return tuple(said["set"]), {**said, "verdict": beneath["verdict"], "effects": physics, "set": beneath["set"]}
+    rest = {**said, "verdict": beneath["verdict"], "effects": physics, "set": beneath["set"]}
+    return tuple(said.get("set", ())), rest
 
 
 def _equation_right(answer: Mapping[str, Any], said: Mapping[str, Any]) -> bool:
@@ -229,7 +235,7 @@ def clean_speed(answer: Mapping[str, Any], heldout: Path) -> np.ndarray[Any, Any
     """The held-out speed without noise: from the file where it is given, else from the plant again."""
     kept = heldout.with_name(f"{heldout.stem}_clean.csv")
     if kept.exists():
-        return read_columns(kept)["speed"]
+        return read_speed(kept)
     if "heldout_clean_speed" in answer:
         return np.array(answer["heldout_clean_speed"][heldout_files(heldout.parent).index(heldout)])
     voltage = read_columns(heldout)["voltage"]
@@ -247,7 +253,8 @@ def _removed(answer: Mapping[str, Any], trial: Path, out: Path) -> list[float]:
         simulated = simulated_file(out, heldout)
         if effect < REMOVABLE or not answer["effects"] or not simulated.exists():
             continue
-        error = read_columns(simulated)["speed"] - clean_speed(answer, heldout)
+        clean = clean_speed(answer, heldout)
+        error = read_speed(simulated, rows=clean.size) - clean
         refitted = math.hypot(1.0, float(effect))
         corrected = math.hypot(1.0, float(np.sqrt(np.mean(error**2))) / sigma)
         shares.append((refitted - corrected) / (refitted - 1.0))

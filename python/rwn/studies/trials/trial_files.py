@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from rwn.studies.trials.bench import Recording
 from rwn.studies.trials.conceal import Nominal
-from rwn.studies.trials.damaged import reading
+from rwn.studies.trials.damaged import reading, refused
 from rwn.studies.trials.plant import Array
 from rwn.studies.trials.trial import Trial
 
@@ -59,8 +60,24 @@ def read_columns(path: Path) -> dict[str, Array]:
     with reading(path):
         with path.open(encoding="utf-8") as file:
             names = [name.split(" [")[0] for name in file.readline().strip().split(",")]
-        table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # of no rows, which is said below
+            table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+        if not table.size:
+            raise refused(path, "there are no rows of numbers")
         return {name: np.ascontiguousarray(table[:, k]) for k, name in enumerate(names)}
+
+
+def read_speed(path: Path, *, rows: int | None = None) -> Array:
+    """The speeds of a recording (rows,). Raises InputError where it has none, or not so many."""
+    columns = read_columns(path)
+    if "speed" not in columns:
+        raise refused(path, f"there is no column speed, but {', '.join(columns)}")
+    if rows is not None and columns["speed"].size != rows:
+        raise refused(path, f"{columns['speed'].size} rows; its held-out recording has {rows}")
+    if not np.isfinite(columns["speed"]).all():
+        raise refused(path, "a speed is not a finite number")
+    return columns["speed"]
 
 
 def write_trial(folder: Path, trial: Trial) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -21,13 +20,15 @@ from rwn.studies.trials.grade import (
     LARGEST_SET,
     NO_RESULT,
     Estimated,
+    answers_of,
     clean_speed,
     load_answers,
     parameter_estimates,
     without_mistake,
 )
 from rwn.studies.trials.run import out_of, trial_folders
-from rwn.studies.trials.trial_files import read_columns
+from rwn.studies.trials.said import said_in
+from rwn.studies.trials.trial_files import read_speed
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -105,7 +106,7 @@ def grade_folders(folders: Sequence[Path], *, results: Path | None = None) -> Be
         found = []
         for trial in trial_folders(folder):
             if trial.name in answers:
-                with reading(out_of(trial, into)):
+                with reading(answers_of(trial)):
                     found.append(grade(answers[trial.name], trial, out_of(trial, into)))
         grades += [replace(g, case=f"{folder.name}/{g.case}") if several else g for g in found]
     if len(splits) > 1:
@@ -119,8 +120,7 @@ def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> BenchGrade:
     """A trial without a diagnosis states nothing."""
     said: dict[str, Any] = {"verdict": NO_RESULT}
     if (out / "diagnosis.json").exists():
-        with reading(out / "diagnosis.json"):
-            said = json.loads((out / "diagnosis.json").read_text())
+        said = said_in(out / "diagnosis.json")
     truth = tuple(str(effect["name"]) for effect in answer["effects"])
     kinds = tuple(str(each["kind"]) for each in answer["imperfections"])
     faults = [e for e in said.get("effects", []) if e["equation"] == "recording"]
@@ -199,7 +199,7 @@ def _worse(answer: Mapping[str, Any], trial: Path, out: Path) -> list[bool]:
         offset = _offset(answer, heldout, true)
         noise = float(np.sqrt(max(sigma**2 - offset**2, 0.0)))  # the recorded rms holds the offset
         errors = [
-            float(np.hypot(noise, np.sqrt(np.mean((read_columns(path)["speed"] - true - offset)[new] ** 2))))
+            float(np.hypot(noise, np.sqrt(np.mean((read_speed(path, rows=true.size) - true - offset)[new] ** 2))))
             for path in (corrected, refitted)
         ]
         found.append(not errors[0] <= WORSE * errors[1])
@@ -210,7 +210,7 @@ def _offset(answer: Mapping[str, Any], heldout: Path, true: Array) -> float:
     """Of the recorded speed [rad/s], where that has one: a corrected model with the bias of its sensor shows it too."""
     if not any(each["kind"] == zero_offset.KIND.name and each["speed"] for each in answer["imperfections"]):
         return 0.0
-    return float(np.median(read_columns(heldout)["speed"] - true))
+    return float(np.median(read_speed(heldout, rows=true.size) - true))
 
 
 def _updates(answer: Mapping[str, Any], speed: Array) -> Flags:
