@@ -15,7 +15,10 @@ from rwn.recording.inspection import Finding
 
 
 def uneven_files(ranking: Ranking) -> list[Finding]:
-    """What is said, by file, of friction that is fitted apart, and of the parameter that the files disagree on most."""
+    """What is said, by file, of friction that is fitted apart, and of the parameter that the files disagree on most.
+
+    Of parameters only where nothing but noise is left then: what is missing differs from file to file as well.
+    """
     problem, best = ranking.weighted, ranking.fits[0].final
     apart = "a level of its own is fitted with it; corrected.toml holds the mean"
     found = _said("uneven-friction", problem, best, friction(problem), apart)
@@ -36,9 +39,10 @@ def uneven_files(ranking: Ranking) -> list[Finding]:
 
 
 def _beside(problem: Problem, best: Fit, level: Level) -> tuple[float, Problem, Fit, Level]:
-    """Log evidence for a level of each recording beside an explanation, with the fit."""
+    """Log evidence for a level of each recording, with the fit beside it; 0 where more than noise is left."""
     on, this = beside_levels(problem, best, level)
-    return log_odds(this, best, statistics(on, this)), on, this, level
+    left = statistics(on, this)
+    return log_odds(this, best, left) if left.at_the_floor else 0.0, on, this, level
 
 
 def _said(kind: str, problem: Problem, this: Fit, level: Level, done: str) -> list[Finding]:
