@@ -11,13 +11,11 @@ import rwn
 from rwn import _core
 from rwn.fit.fit import fit_nominal
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.levels import SPREAD, beside_levels, can_differ, friction, with_levels
-from rwn.fit.likelihood import DECISIVE
+from rwn.fit.levels import SPREAD, can_differ, friction, with_levels
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
-from rwn.fit.residuals import statistics
 from rwn.model.model import Model
-from rwn.name.weights import log_odds
+from rwn.name.uneven import uneven_beside
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
@@ -67,8 +65,7 @@ def test_files_of_different_friction_are_said_and_nothing_is_missing() -> None:
 
 def test_files_of_one_friction_are_not_told_apart() -> None:
     problem, nominal = weighted_by_nominal(prepare(_recordings((1.0, 1.0, 1.0)), MODEL))
-    on, this = beside_levels(problem, nominal, friction(problem))
-    assert log_odds(this, nominal, statistics(on, this)) < DECISIVE
+    assert not uneven_beside(problem, nominal, friction(problem)).is_decisive
 
 
 def test_levels_are_found_to_their_deviation() -> None:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from rwn.fit.fit import Fit
-from rwn.fit.levels import Level, beside_levels, can_differ, friction, uneven
-from rwn.fit.likelihood import DECISIVE
+from rwn.fit.levels import Level, can_differ, friction, uneven
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import statistics
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.name.ranking import Ranking
-from rwn.name.weights import log_odds
+from rwn.name.uneven import uneven_beside
 from rwn.parallel import side_by_side
 from rwn.recording.inspection import Finding
 
@@ -20,29 +18,21 @@ def uneven_files(ranking: Ranking) -> list[Finding]:
     Of parameters only where nothing but noise is left then: what is missing differs from file to file as well.
     """
     problem, best = ranking.weighted, ranking.fits[0].final
-    apart = "a level of its own is fitted with it; corrected.toml holds the mean"
-    found = _said("uneven-friction", problem, best, friction(problem), apart)
+    fitted = "a level of its own is fitted with it; corrected.toml holds the mean"
+    found = _said("uneven-friction", problem, best, friction(problem), fitted)
     levels = [
         Level(quantity=name.replace("_", " "), parameters=(motor_index(name),))
         for name in problem.prior.uncertainty
         if name in motor_parameters() and name not in problem.drive.friction
     ]
-    tried = side_by_side(
-        lambda level: _beside(problem, best, level), [level for level in levels if can_differ(problem, level)]
-    )
-    decisive = [row for row in tried if row[0] > DECISIVE]
+    asked = [level for level in levels if can_differ(problem, level)]
+    tried = side_by_side(lambda level: (level, uneven_beside(problem, best, level)), asked)
+    decisive = [row for row in tried if row[1].is_decisive and row[1].left.at_the_floor]
     if decisive:
-        _, on, this, level = max(decisive, key=lambda row: row[0])
+        level, apart = max(decisive, key=lambda row: row[1].log_odds)
         together = "one value is fitted to all; leave out what was recorded of another machine, load or temperature"
-        found += _said("files-disagree", on, this, level, together)
+        found += _said("files-disagree", apart.problem, apart.fit, level, together)
     return found
-
-
-def _beside(problem: Problem, best: Fit, level: Level) -> tuple[float, Problem, Fit, Level]:
-    """Log evidence for a level of each recording, with the fit beside it; 0 where more than noise is left."""
-    on, this = beside_levels(problem, best, level)
-    left = statistics(on, this)
-    return log_odds(this, best, left) if left.at_the_floor else 0.0, on, this, level
 
 
 def _said(kind: str, problem: Problem, this: Fit, level: Level, done: str) -> list[Finding]:

@@ -17,6 +17,7 @@ from rwn.model.vocabulary import Effect, Parameter, motor_index, motor_parameter
 Array = NDArray[np.float64]
 
 OF_RUNS = "of runs"  # beside the names of effects: starts of what is unknown of single runs
+BEYOND_BELIEF = 10.0  # deviations from which a level of one recording is no number to compute with
 LEAST_LEVEL = 1e-3  # of a friction, relative to the largest torque, that says how strong its elaborations may be
 
 
@@ -141,8 +142,9 @@ def _of_measurement(effect: Effect, p: Parameter, nuisance: Nuisance) -> Unknown
 
 
 def _unknown_of_a_run(own: RunUnknown) -> Unknown:
+    most = BEYOND_BELIEF * own.spread if own.level else np.inf
     return Unknown(
-        name=own.name, unit=own.unit, index=own.place, lower=-np.inf, upper=np.inf, prior=0.0, prior_std=own.spread,
+        name=own.name, unit=own.unit, index=own.place, lower=-most, upper=most, prior=0.0, prior_std=own.spread,
         nuisance=True, level=own.level,
     )  # fmt: skip
 

@@ -13,8 +13,7 @@ from rwn.fit.budget import affords_more, one_stage
 from rwn.fit.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
 from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
-from rwn.fit.levels import beside_levels, can_differ, friction, with_levels
-from rwn.fit.likelihood import DECISIVE
+from rwn.fit.levels import can_differ, friction, with_levels
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.part import screening_part
@@ -27,7 +26,8 @@ from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Fits, Pairs, Ranking
 from rwn.name.screening import screen
-from rwn.name.weights import log_odds, weigh
+from rwn.name.uneven import uneven_beside
+from rwn.name.weights import weigh
 from rwn.simulate.run import windowed
 
 Progress = Callable[[str, float], None]
@@ -141,8 +141,7 @@ def _measured(as_prepared: Problem, problem: Problem, best: Fit, at_once: int) -
     level = friction(problem)
     if at_once < MOST_EFFECTS or not can_differ(problem, level):
         return None
-    on, that = beside_levels(problem, best, level)
-    return with_levels(as_prepared, level) if log_odds(that, best, statistics(on, that)) > DECISIVE else None
+    return with_levels(as_prepared, level) if uneven_beside(problem, best, level).is_decisive else None
 
 
 def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:

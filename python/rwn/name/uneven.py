@@ -1,0 +1,38 @@
+"""Whether a quantity differs from recording to recording, asked beside an explanation."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from rwn.fit.fit import Fit, refit
+from rwn.fit.levels import ITERATIONS, Level, beside_levels
+from rwn.fit.likelihood import DECISIVE, log_posterior
+from rwn.fit.problem import Problem
+from rwn.fit.residuals import Statistics, statistics
+from rwn.name.weights import log_odds
+
+
+class Uneven(NamedTuple):
+    """An explanation with a level of a quantity for each recording."""
+
+    log_odds: float  # evidence for the levels
+    problem: Problem  # with the levels
+    fit: Fit
+    left: Statistics
+
+    @property
+    def is_decisive(self) -> bool:
+        """Whether they are there."""
+        return self.log_odds > DECISIVE
+
+
+def uneven_beside(problem: Problem, best: Fit, level: Level) -> Uneven:
+    """The levels beside an explanation, with the lesser evidence of two that err otherwise where more is missing.
+
+    That of effects counts samples of the error, as if what is missing were noise that lasts; the likelihood of
+    autoregressions counts what is new in it.
+    """
+    on, this = beside_levels(problem, best, level)
+    left, alike = statistics(on, this), refit(best, problem, iterations=ITERATIONS)
+    new = log_posterior(on, this) - log_posterior(problem, alike)
+    return Uneven(log_odds=min(log_odds(this, best, left), new), problem=on, fit=this, left=left)
