@@ -6,18 +6,21 @@ from collections.abc import Iterable
 
 
 def effect_names(incomplete: str) -> list[str]:
+    """The effects that begin so."""
     from rwn.model import vocabulary
 
     return _beginning(incomplete, vocabulary.table())
 
 
 def profiles(incomplete: str) -> list[str]:
+    """The tools that begin so."""
     from rwn.recording.profiles import PROFILES
 
     return _beginning(incomplete, PROFILES)
 
 
 def machines(incomplete: str) -> list[str]:
+    """The real machines that begin so."""
     from rwn.studies.machines.registry import MACHINES
 
     return _beginning(incomplete, MACHINES)
