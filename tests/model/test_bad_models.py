@@ -95,6 +95,11 @@ MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
         ("scale is 0",),
     ),
     "unknown start": (MODEL + '[recording]\ninitial = "moving"\n', ("moving", "[recording.initial]")),
+    "own parameter without a start": (
+        MODEL + '[own_effects.a]\nterm = "torque"\nequation = "g * speed"\n[own_effects.a.parameters.g]\n'
+        'unit = "N m s/rad"\nlower = 0.0\nupper = 1.0\n',
+        ("[own_effects.parameters]: 'start' is missing; expected start = ..; fix: add it",),
+    ),
     "sample time of zero": (MODEL + "[recording]\nsample_time = 0\n", ("sample_time is 0", "positive")),
 }
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import made_up
 import rwn
 
 DEMO = Path(rwn.__file__).parent / "demo"
@@ -47,3 +48,10 @@ def test_what_has_no_file_is_refused_and_nothing_is_written(tmp_path: Path) -> N
     with pytest.raises(rwn.InputError, match="a dict has no file of its own"):
         rwn.save({"time": [0.0]}, tmp_path / "a.csv")  # type: ignore[arg-type]
     assert not list(tmp_path.iterdir())
+
+
+def test_a_diagnosis_is_written_to_a_folder_of_either_kind(tmp_path: Path) -> None:
+    made_up.found().write(str(tmp_path))
+    assert rwn.Diagnosis.load(tmp_path) == made_up.found()
+    with pytest.raises(rwn.InputError, match="the path is 5"):
+        made_up.found().write(5)  # type: ignore[arg-type]

@@ -122,8 +122,11 @@ def _worded(message: str, where: str) -> InputError:
             expected=names.get(wrong[1], wrong[1]),
             fix="correct the value",
         )
+    missing = re.search(r"missing required field `(.+)`", what)
+    if missing:
+        return InputError(f"'{missing[1]}' is missing", where=place, expected=f"{missing[1]} = ..", fix="add it")
     return InputError(
-        what.replace("`", "'"), where=place, expected="see docs/models.md", fix="correct the value"
+        what.replace("`", "'"), where=place, expected="a value such as docs/models.md shows", fix="correct the value"
     )
 
 

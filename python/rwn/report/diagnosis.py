@@ -126,8 +126,12 @@ class Diagnosis(DiagnosisData):
             raise unknown("figure", str(wanted), known, where="plot")
         return drawn(panels(self.curves, known[wanted]), wanted)
 
-    def write(self, folder: Path) -> None:
-        """Write report.html, diagnosis.json, curves.json and corrected.toml into a folder that exists."""
+    def write(self, folder: str | Path) -> None:
+        """Write report.html, diagnosis.json, curves.json and corrected.toml into a folder that exists.
+
+        Raises InputError for what is no path.
+        """
+        folder = path_of(folder, "result")
         (folder / RESULT).write_bytes(self.to_json())
         (folder / CURVES).write_bytes(self.curves_json())
         if self.corrected is not None:
