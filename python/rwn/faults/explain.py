@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.fault import Fault
-from rwn.faults.files import uneven_files
 from rwn.faults.late_enable import LateEnable, late_enables, needed, powered, retimed
 from rwn.faults.resolve import resolved
+from rwn.faults.uneven_files import uneven_files
 from rwn.fit.fit import Fit
 from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
 from rwn.fit.sensor_filter import stating_filters

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.faults.files import uneven_files
+from rwn.faults.uneven_files import uneven_files
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import rank
