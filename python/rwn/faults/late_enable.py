@@ -218,7 +218,7 @@ def _powered_from(time: float, recording: Recording, model: Model) -> Recording:
 
 def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
     """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded."""
-    run = replace(run_of(recording, model).until(samples), own=beside.own)
+    run = replace(run_of(recording, model).until(samples), own=beside.own, levels=beside.levels)
     if run.in_motion and not _stands_about_zero(run, samples):
         return False
     out = problem.simulate(run, this.vector, this.active).signals
@@ -259,7 +259,7 @@ class _Beginning:
 
     def _with_power_from(self, time: float) -> Problem:
         run = run_of(_powered_from(time, self.recording, self.model), self.model).until(2 * self.samples)
-        return replace(self.problem, runs=(replace(run, own=self.beside.own),))
+        return replace(self.problem, runs=(replace(run, own=self.beside.own, levels=self.beside.levels),))
 
     def enabling_time(self) -> float:
         """When power came [s]: where the fit errs least."""
