@@ -59,3 +59,14 @@ def test_a_phase_is_not_bounded(value: float) -> None:
     cogging = {"amplitude": 0.01, "periods_per_rev": 7.0, "phase": value}
     model = replace(MOTOR, effects={"cogging-torque": cogging})
     check_declared(prepare([_run()], model), model)
+
+
+@pytest.mark.parametrize(("current", "refused"), [(1e-6, False), (0.1, False), (1e12, True), (1e-12, True)])
+def test_what_makes_a_law_sharp_is_a_number_of_that_drive(current: float, refused: bool) -> None:
+    model = replace(MOTOR, effects={"brush-voltage-drop": {"voltage_drop": 0.3, "transition_current": current}})
+    problem = prepare([_run()], model)
+    if refused:
+        with pytest.raises(InputError, match="transition_current is 1e"):
+            check_declared(problem, model)
+    else:
+        check_declared(problem, model)
