@@ -81,6 +81,7 @@ def test_the_demo_draws_its_proof_and_its_law(demo: Diagnosis) -> None:
     assert len(demo.to_json()) < 20_000
 
 
+@pytest.mark.slow
 def test_the_corrected_model_has_nothing_missing(demo: Diagnosis) -> None:
     model = replace(demo.corrected, uncertainty={})
     again = rwn.diagnose(read(DEMO, model, "train.csv"), model)

@@ -15,6 +15,7 @@ from rwn.fit.preparation import prepare
 from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 
+pytestmark = pytest.mark.slow
 DEMO = Path(rwn.__file__).parent / "demo"
 MODEL = rwn.read_model(DEMO / "model.toml")
 

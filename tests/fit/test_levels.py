@@ -53,6 +53,7 @@ def _uneven(found: rwn.Diagnosis) -> dict[str, float]:
     return {name: float(words.removeprefix("its friction is ").split(" %")[0]) for name, words in said.items()}
 
 
+@pytest.mark.slow
 def test_files_of_different_friction_are_said_and_nothing_is_missing() -> None:
     found = rwn.diagnose(_recordings(FACTORS), MODEL, jobs=1)
     assert found.verdict == "adequate"

@@ -26,6 +26,7 @@ LAWS: dict[str, Callable[[float, float], float]] = {
 
 
 @pytest.mark.parametrize("law", LAWS)
+@pytest.mark.slow
 def test_the_place_of_the_law_is_among_the_first(law: str) -> None:
     problem = prepare([recorded(3, LAWS[law])], SHEET)
     first = most_promising(problem, fit_nominal(problem), all_places(problem, SHEET), 7)

@@ -72,6 +72,7 @@ def test_a_fit_finds_what_is_not_known_at_all_from_far_off() -> None:
     assert found.interval[0] < MOTOR["resistance"] < found.interval[1]
 
 
+@pytest.mark.slow
 def test_a_diagnosis_keeps_what_is_not_known_at_all(tmp_path: Path) -> None:
     sheet = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"resistance": math.inf, "inertia": 0.1})
     found = rwn.diagnose(_recording(), sheet)

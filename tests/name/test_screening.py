@@ -162,6 +162,7 @@ def test_the_next_leg_starts_where_the_last_one_ended_and_tries_nothing_again_th
     assert start.after(bold).damping == start.damping  # no bolder than at first
 
 
+@pytest.mark.slow
 def test_a_model_that_is_exact_is_adequate() -> None:
     """What rwn simulates itself leaves nothing at all: an error of exactly zero."""
     voltage = np.repeat(np.random.default_rng(1).uniform(-10.0, 10.0, 10), 100)

@@ -24,6 +24,7 @@ def _run(seed: int) -> rwn.Recording:
     return rwn.Recording(name=f"run{seed}", time=time, signals={"voltage": voltage, "speed": noisy})
 
 
+@pytest.mark.slow
 def test_it_is_the_noise_of_the_signal_and_at_most_the_error() -> None:
     sheet = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1})
     kept = _run(2)

@@ -84,6 +84,7 @@ def test_the_longest_trainings_are_made_from_as_many_seeds_as_asked(tmp_path: Pa
     assert (difference.found, difference.changed) == ("missing (--seeds 1, the archive has 3)", True)
 
 
+@pytest.mark.slow
 def test_every_start_has_its_own_training_and_the_median_speaks(tmp_path: Path) -> None:
     experiment = next(e for e in EXPERIMENTS if e.name == "structured-friction")
     shares: list[float] = []
@@ -117,6 +118,7 @@ print(done.fingerprint, done.rows[0].ours)
 """
 
 
+@pytest.mark.slow
 def test_another_kernel_makes_the_results_again(tmp_path: Path) -> None:
     """A constant of the kernels' exponential is altered in a copy of the package: the experiment runs again, and
     says another number."""
