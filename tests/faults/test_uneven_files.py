@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-import numpy as np
 import pytest
 
-import rwn
+from made_up_files import files_of
 from rwn.faults.uneven_files import uneven_files
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
@@ -21,16 +18,9 @@ UNCERTAIN = ("inertia", "resistance", "viscous_friction")
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty=dict.fromkeys(UNCERTAIN, 0.1))
 
 
-def _said(quantity: str, factors: tuple[float, ...], samples: int = 600) -> dict[str, str]:
+def _said(quantity: str, factors: tuple[float, ...]) -> dict[str, str]:
     """What is said of recordings in which a parameter is so many times as large, by the name of the recording."""
-    made, rng, time = [], np.random.default_rng(5), 1e-3 * np.arange(samples)
-    for k, factor in enumerate(factors):
-        voltage = np.repeat(rng.uniform(-3.0, 3.0, samples // 50), 50)
-        run = rwn.Recording(name=f"run_{k}", time=time, signals={"voltage": voltage})
-        motor = {**MOTOR, quantity: factor * MOTOR[quantity]}
-        shown = rwn.simulate(replace(MODEL, parameters=motor), run).signals
-        noisy = {s: shown[s] + level * rng.standard_normal(samples) for s, level in (("current", 0.01), ("speed", 0.3))}
-        made.append(replace(run, signals={"voltage": voltage, **noisy}))
+    made = files_of(MODEL, [quantity], factors)
     ranking = rank(prepare(made, MODEL), progress=lambda *_: None, names=["coulomb-friction"], at_once=1)
     return {f.recording: f.words for f in uneven_files(ranking) if f.kind == "files-disagree"}
 

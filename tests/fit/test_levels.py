@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import rwn
+from made_up_files import files_of
 from rwn import _core
 from rwn.fit.fit import fit_nominal
 from rwn.fit.hypothesis import hypothesis
@@ -28,23 +27,8 @@ MODEL = Model(
 FACTORS = (0.92, 1.02, 1.09)
 
 
-def _recordings(
-    factors: tuple[float, ...], names: tuple[str, ...] = FRICTION, samples: int = 600
-) -> list[rwn.Recording]:
-    """One recording of each factor on some parameters, all friction if none are named."""
-    made, rng, time = [], np.random.default_rng(3), 1e-3 * np.arange(samples)
-    for k, factor in enumerate(factors):
-        motor = {**MOTOR, **{name: factor * MOTOR[name] for name in names}}
-        voltage = np.repeat(rng.uniform(-3.0, 3.0, samples // 50), 50)
-        run = rwn.Recording(name=f"run_{k}", time=time, signals={"voltage": voltage})
-        shown = rwn.simulate(replace(MODEL, parameters=motor), run).signals
-        signals = {
-            "voltage": voltage,
-            "current": shown["current"] + 0.01 * rng.standard_normal(samples),
-            "speed": shown["speed"] + 0.3 * rng.standard_normal(samples),
-        }
-        made.append(replace(run, signals=signals))
-    return made
+def _recordings(factors: tuple[float, ...]) -> list[rwn.Recording]:
+    return files_of(MODEL, FRICTION, factors)
 
 
 def _uneven(found: rwn.Diagnosis) -> dict[str, float]:

@@ -42,7 +42,7 @@ class Unknown:
     tied_to: str = ""  # another logarithmic unknown that has about the same value
     tie_std: float = np.inf  # relative standard deviation of their ratio
     nuisance: bool = False  # of the recording, not of the drive: fitted, not reported
-    level: bool = False  # logarithm of what one recording's friction is in units of that of all
+    level: bool = False  # logarithm of a factor on a quantity in one recording (fit/levels.py)
 
     def coordinate(self, value: float) -> float:
         """Search coordinate of a value."""

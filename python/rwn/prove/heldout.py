@@ -193,9 +193,9 @@ def log_change(rows: Sequence[HeldoutRow]) -> float:
 
 
 def helps(rows: Sequence[HeldoutRow]) -> bool:
-    """Whether some signal is certainly better on what was not fitted, none certainly worse, and all of them materially.
+    """Whether some signal is certainly better on what was not fitted, none certainly worse, and their mean by WORTH.
 
-    What is certain of one recording is little of the next: a gain of a per cent is as often a loss there.
+    What is certain of one recording need not be so of the next.
     """
     return _any_certainly_better(rows) and not _any_certainly_worse(rows) and heldout_error(rows) < WORTH
 
