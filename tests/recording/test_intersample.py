@@ -62,3 +62,18 @@ def test_without_gaps_or_jitter_a_clock_says_what_rows_say() -> None:
     voltage = np.sin(20.0 * TIME)
     for law in ("bridged", "ticks"):
         assert INTERSAMPLE[law].applied(TIME, voltage) is None
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_row_too_near_a_tick_to_say_which_it_shows_says_nothing_for_certain(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    ticks = np.arange(6000)
+    voltage = rng.uniform(-3.0, 3.0, ticks.size)
+    off = rng.uniform(-0.25, 0.25, ticks.size)
+    off[0] = 0.0
+    acted = INTERSAMPLE["ticks"].applied(1e-3 * (ticks + off), voltage[np.floor(ticks + off).astype(int)])
+    assert acted is not None
+    truth = voltage[np.rint(1e3 * acted.instants).astype(int)]
+    known = acted.spread == 0.0
+    assert known.sum() > 0.7 * ticks.size
+    assert np.array_equal(acted.values[known], truth[known])

@@ -37,6 +37,12 @@ class Clock:
         return float(np.std(self.off))
 
     @property
+    def accuracy(self) -> Array:
+        """Standard deviation (n,) to which the tick beside each row is known, in periods: that of a fitted line."""
+        distance = self.ticks - np.mean(self.ticks)
+        return np.asarray(self.jitter * np.sqrt(1.0 / self.ticks.size + distance**2 / np.sum(distance**2)))
+
+    @property
     def irregular(self) -> bool:
         """Whether the jitter is more than rounded timestamps."""
         return self.jitter > IRREGULAR

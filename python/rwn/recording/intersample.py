@@ -22,6 +22,7 @@ from rwn.values import Values
 Array = NDArray[np.float64]
 
 JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
+CLEAR = 3.0  # deviations of a tick beyond which a row is certainly before or after it
 FINE = 8  # parts of a sample that are as good as a line
 
 AUTO = "auto"  # as the recordings show
@@ -109,6 +110,9 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
         return None
     begin, first_time = (clock.start, time[0]) if begin is None else (begin, begin)
     last = np.floor(clock.ticks + clock.off).astype(np.int64)  # tick before each row
+    clear = np.abs(clock.off) > CLEAR * clock.accuracy  # of a row nearer to a tick nothing says which it shows
+    clear[[0, -1]] = True
+    last, values = last[clear], values[clear]
     first = np.concatenate([[True], np.diff(last) > 0])
     shown, seen = last[first], values[first]
     ticks = np.arange(last[0], last[-1] + 1)
