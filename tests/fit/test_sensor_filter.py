@@ -132,3 +132,30 @@ def test_explanations_by_several_effects_go_on_beside_a_filter() -> None:
         (again,) = refitted_beside([before], filtered(problem, sensor_filters(problem, plain)))
         assert again.added == ("coulomb-friction",)
         assert again.hypothesis.effects == (*measured, "coulomb-friction")
+
+
+def test_filters_of_two_signals_are_told_beside_a_late_input_and_a_start_from_rest() -> None:
+    """The delay takes up what one filter lacks while the other is not known; noise of a sample looks like a motion."""
+    rng, time = np.random.default_rng(5), STEP * np.arange(4000)
+    voltage = np.repeat(3.0 * rng.uniform(-1.0, 1.0, 80), 50)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    late = replace(MODEL, effects={"input-delay": {"delay": 3.1 * STEP}})
+    signals = rwn.simulate(late, run).signals
+    noise = rng.standard_normal((2, time.size))
+    noise[:, 0] = 2.0  # of the first sample, which a filter passes whole
+    shares = {"speed": 0.6, "current": 0.35}
+    shown = {
+        s: as_filtered(time, signals[s] + level * eps, -STEP / np.log(shares[s]))
+        for (s, level), eps in zip({"speed": 0.2, "current": 0.01}.items(), noise, strict=True)
+    }
+    problem = prepare([replace(run, signals={"voltage": voltage, **shown})], MODEL)
+    assert problem.runs[0].in_motion
+    problem, nominal = weighted_by_nominal(problem)
+    start = {"input-delay": {"delay": 4.0 * STEP}}
+    delayed = fit(problem, hypothesis(problem.prior, tuple(start), problem.scales, start, nominal.motor))
+    found = sensor_filters(problem, delayed)
+    assert {f.signal: f.share for f in found if f.digital} == pytest.approx(shares, abs=0.02)
+    undone = filtered(problem, found)
+    assert not undone.runs[0].in_motion
+    again = fit(undone, hypothesis(undone.prior, tuple(start), undone.scales, start, nominal.motor))
+    assert again.values_of("input-delay")["delay"] == pytest.approx(3.1 * STEP, rel=0.01)

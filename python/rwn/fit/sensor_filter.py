@@ -1,20 +1,18 @@
 """First-order filters of the sensors, seen in the noise that went through them.
 
-Noise that a filter y_k = phi y_{k-1} + (1 - phi) x_k has passed goes from sample to sample with phi = exp(-T / tau).
-Differences of the residual show it, since what else may be missing is smooth between its sharp instants, and few
-windows hold one. Whether the motion went through it too, sample by sample or as an analog signal, the likelihood
-decides.
+Whether the motion went through such a filter too, sample by sample or as an analog signal, the likelihood decides.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.budget import one_stage, shares_by_rank
+from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.likelihood import log_posterior
@@ -25,30 +23,16 @@ from rwn.fit.residuals import statistics
 from rwn.model.model import Model
 from rwn.model.vocabulary import analog_filters
 from rwn.parallel import side_by_side
-from rwn.recording.noise import Noise, noise_from_differences
-from rwn.simulate.run import Run
+from rwn.recording.noise import Noise
 
 Array = NDArray[np.float64]
 
-WINDOW = 64  # samples
-CERTAIN = 5.0  # standard deviations of the autocorrelation of white noise
-LEAST, MOST = 0.1, 0.95  # of phi: a filter faster than half a sample changes nothing, a slower one is physics
-NOISE_ALONE = 2.0  # variance of what is new in a residual against its rough noise, up to which it is noise alone
 ITERATIONS = 8  # of a fit that begins near its end
 SHARES = 24  # values of phi that are compared: at few rows a time constant the right one is told to a few per cent
 DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
 LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
+SIMPLEX = 0.2  # step of the logarithms of time constants, from which those of several filters are fitted together
 ROUNDS = 2  # in which the filters of several signals are estimated beside each other
-
-
-@dataclass(frozen=True, kw_only=True)
-class SensorFilter:
-    """A first-order filter of one signal."""
-
-    signal: str
-    share: float  # phi: of a sample's noise that was in the sample before
-    time_constant: float  # [s]
-    digital: bool = False  # it takes samples, as a drive's program does; else it is fitted as a law of the sensor
 
 
 def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
@@ -71,19 +55,72 @@ def _filters_beside(
 ) -> tuple[tuple[SensorFilter, ...], float]:
     """The filters beside an explanation, and how likely both are (log, BIC)."""
     found: dict[str, SensorFilter] = {}
-    for _ in range(ROUNDS if len(seen) > 1 else 1):  # what one signal shows depends on the others' filters
-        for one in seen:
+    known = list(seen)
+    for _ in range(ROUNDS):
+        for one in known:  # what one signal shows depends on the others' filters
             others = [f for f in found.values() if f.signal != one.signal]
             on = filtered(problem, others)
             best = _likeliest_kind(on, _refitted(base, on), found.get(one.signal, one))
-            if best is None and _is_noise_alone(problem, residuals, one):
+            if best is None and is_noise_alone(problem, residuals, one):
                 best = one
             found = {f.signal: f for f in (*others, best) if f is not None}
-    on = filtered(problem, tuple(found.values()))
+        known += _uncovered(problem, base, tuple(found.values()), known)
+        if len(known) == 1:
+            break
+    filters = _together(problem, base, tuple(found.values()))
+    return filters, _likelihood(problem, base, filters)
+
+
+def _uncovered(
+    problem: Problem, base: Fit, found: Sequence[SensorFilter], known: Sequence[SensorFilter]
+) -> list[SensorFilter]:
+    """The signals besides those that are `known`, whose noise shows a filter once those that were found are counted."""
+    if not found:
+        return []
+    on = filtered(problem, found)
     this = _refitted(base, on)
-    shown = sum(_samples(problem, f.signal) * float(np.log(1.0 - f.share)) for f in found.values() if f.digital)
+    seen = coloured_signals(on, on.residuals(this.vector, this.active))
+    return [one for one in seen if one.signal not in {k.signal for k in known} and one.share < MOST]
+
+
+def _together(problem: Problem, base: Fit, found: tuple[SensorFilter, ...]) -> tuple[SensorFilter, ...]:
+    """The digital filters at the time constants that are likeliest together.
+
+    One after the other they stop short of it beside a delay, which takes up for each what the other lacks.
+    """
+    from scipy.optimize import minimize  # late: the command line starts without it
+
+    digital = [f for f in found if f.digital]
+    if len(digital) < 2:
+        return found
+
+    def at(logarithms: Array) -> tuple[SensorFilter, ...]:
+        moved = {f.signal: _of_time(problem, f, float(np.exp(x))) for f, x in zip(digital, logarithms, strict=True)}
+        return tuple(moved.get(f.signal, f) for f in found)
+
+    def negative_likelihood(logarithms: Array) -> float:
+        filters = at(logarithms)
+        inside = all(LEAST <= f.share <= MOST for f in filters)
+        return -_likelihood(problem, base, filters) if inside else np.inf
+
+    start = np.log([f.time_constant for f in digital])
+    simplex = np.vstack([start, start + SIMPLEX * np.eye(start.size)])
+    best = minimize(negative_likelihood, start, method="Nelder-Mead",
+                    options={"initial_simplex": simplex, "xatol": LOG_TOLERANCE, "fatol": np.inf})  # fmt: skip
+    return at(best.x)
+
+
+def _of_time(problem: Problem, f: SensorFilter, time_constant: float) -> SensorFilter:
+    return replace(f, time_constant=time_constant, share=_share_kept(problem, f.signal, time_constant))
+
+
+def _likelihood(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) -> float:
+    """How likely an explanation and filters beside it are (log, BIC)."""
+    on = filtered(problem, filters)
+    this = _refitted(base, on)
+    shown = sum(_samples(problem, f.signal) * float(np.log(1.0 - f.share)) for f in filters if f.digital)
     unknowns = len(this.hypothesis.unknowns) + len(on.filters)
-    return tuple(found.values()), log_posterior(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
+    return log_posterior(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
 
 
 def _samples(problem: Problem, signal: str) -> int:
@@ -94,25 +131,6 @@ def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
     """The model with filters [s] by signal in its recordings' layout, beside those that are there."""
     known = {**model.recording.filters, **filters}
     return replace(model, recording=replace(model.recording, filters=known)) if filters else model
-
-
-def coloured_signals(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[SensorFilter]:
-    """The signals whose noise looks as if it had passed a filter, with the filter that would have done it.
-
-    `residuals`: (n,) of each run, by signal.
-    """
-    found = []
-    for signal, lag in analog_filters(problem.prior.table).items():
-        parts = [(run, left[signal]) for run, left in zip(problem.runs, residuals, strict=True) if signal in left]
-        parts = [(run, x) for run, x in parts if _is_sensor_noise(run, signal, x)]
-        if not parts or signal in problem.filters or lag.name in problem.prior.effects:
-            continue
-        share = _estimated_share([run.masked(signal, x) for run, x in parts])
-        if share > LEAST:
-            share = min(share, MOST)
-            step = float(np.median([run.sample_time for run, _ in parts]))
-            found.append(SensorFilter(signal=signal, share=share, time_constant=-step / float(np.log(share))))
-    return found
 
 
 def filtered(problem: Problem, filters: Sequence[SensorFilter]) -> Problem:
@@ -234,55 +252,7 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFil
     exact = {"xatol": LOG_TOLERANCE}
     refined = [minimize_scalar(negative_log_posterior, bounds=b, method="bounded", options=exact) for b in around]
     found = min(refined, key=lambda each: float(each.fun))
-    time_constant = float(np.exp(found.x))
-    share = _share_kept(problem, seen.signal, time_constant)
-    return replace(seen, digital=True, time_constant=time_constant, share=share), -float(found.fun)
-
-
-def _is_sensor_noise(run: Run, signal: str, residual: Array) -> bool:
-    """Whether its noise is a sensor's: not that of counts or their difference, and larger than its steps."""
-    if signal == "speed" and run.speed_measured.is_difference:
-        return False
-    return noise_from_differences(residual) > 2.0 * run.quantisation(signal)
-
-
-def _estimated_share(residuals: Sequence[Array]) -> float:
-    """phi of the noise of residuals (n,) each; 0 where it may be white."""
-    once, twice = (np.concatenate([_lag_one_correlations(np.diff(x, n)) for x in residuals]) for n in (1, 2))
-    if twice.size < 8:
-        return 0.0
-    shares = np.linspace(0.0, 0.99, 100)
-    expected = np.array([_second_difference_correlation(p) for p in shares])
-    seen = float(np.median(twice))
-    if seen < expected[0] + CERTAIN * 1.25 * float(np.std(twice)) / np.sqrt(twice.size):  # deviation of a median
-        return 0.0
-    return min(float(np.interp(seen, expected, shares)), 1.0 + 2.0 * float(np.median(once)))
-
-
-def _is_noise_alone(problem: Problem, residuals: Sequence[Mapping[str, Array]], seen: SensorFilter) -> bool:
-    """Whether errors are noise of this colour and nothing else."""
-    parts = [run.masked(seen.signal, r[seen.signal]) for run, r in zip(problem.runs, residuals, strict=True)
-             if seen.signal in r]  # fmt: skip
-    fresh = [x[1:] - seen.share * x[:-1] for x in parts]
-    loud = max(float(np.nanmean(x**2)) / max(noise_from_differences(x) ** 2, 1e-300) for x in fresh)
-    return loud < NOISE_ALONE
-
-
-def _lag_one_correlations(x: Array) -> Array:
-    """From one sample to the next, of each window of x (n,) that was measured throughout."""
-    count = x.size // WINDOW
-    windows = x[: count * WINDOW].reshape(count, WINDOW)
-    windows = windows[np.isfinite(windows).all(axis=1)]
-    energy = np.maximum(np.sum(windows**2, axis=1), 1e-300)
-    found: Array = np.sum(windows[:, 1:] * windows[:, :-1], axis=1) / energy * (WINDOW / (WINDOW - 1))
-    return found
-
-
-def _second_difference_correlation(share: float) -> float:
-    """Of second differences, from one sample to the next, of an autoregression of first order."""
-    c = share ** np.arange(5.0)
-    covariance = [6 * c[0] - 8 * c[1] + 2 * c[2], -4 * c[0] + 7 * c[1] - 4 * c[2] + c[3]]
-    return float(covariance[1] / covariance[0])
+    return _of_time(problem, replace(seen, digital=True), float(np.exp(found.x))), -float(found.fun)
 
 
 def refitted_beside(known: Sequence[Fit], problem: Problem) -> list[Fit]:

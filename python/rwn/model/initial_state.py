@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rwn.model.model import Model
 from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
+from rwn.recording.signals import MEASURED
 
 Array = NDArray[np.float64]
 INITIAL_POSITION = "initial_position"
@@ -31,6 +32,7 @@ class InitialState:
     """
 
     in_motion: bool = False
+    told_by: int = 0  # first samples that told so; 0: it was stated, or it starts at rest
     state: tuple[float, float, float] = (0.0, 0.0, 0.0)
     spread: Mapping[str, float] = field(default_factory=dict)
 
@@ -56,10 +58,8 @@ def initial_state_of(
         if known_to["position"] > 0.0:
             spread[INITIAL_POSITION] = known_to["position"]
     current, (speed, off) = _first_current(signals), _first_speed(time, signals, known_to, first)
-    moving = abs(speed) > CERTAIN * off
-    flowing = abs(current) > CERTAIN * known_to.get("current", 0.0)
     initial = model.recording.initial
-    if initial == "rest" or (initial == "auto" and not (moving or flowing)):
+    if initial == "rest" or (initial == "auto" and not is_moving(time, signals, first)):
         return InitialState(state=(0.0, 0.0, place), spread=spread)
     sooner = _first_speed(time, signals, known_to, first // 2)[0]  # a step response is no curve of a few degrees
     known_within = abs(speed) if "speed" in signals else float(np.hypot(off, speed - sooner))
@@ -70,7 +70,20 @@ def initial_state_of(
         if "current" not in signals:
             current = _steady_current(signals, speed, model)
         spread["initial_current"] = max(abs(current), known_to.get("current", 0.0), 1e-9)
-    return InitialState(in_motion=True, state=(current if model.drive.winding else 0.0, speed, place), spread=spread)
+    return InitialState(
+        in_motion=True,
+        told_by=first if initial == "auto" else 0,
+        state=(current if model.drive.winding else 0.0, speed, place),
+        spread=spread,
+    )
+
+
+def is_moving(time: Array, signals: Mapping[str, Array], first: int) -> bool:
+    """Whether the shaft turns, or current flows, at the first sample: more than the noise of the first ones makes."""
+    known_to = {n: resolution(signals[n], first) for n in MEASURED if n in signals}
+    speed, off = _first_speed(time, signals, known_to, first)
+    flowing = abs(_first_current(signals)) > CERTAIN * known_to.get("current", 0.0)
+    return abs(speed) > CERTAIN * off or flowing
 
 
 def _from_measured(signal: Array, missing: NDArray[np.bool_] | None, first: int) -> Array:

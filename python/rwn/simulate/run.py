@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.model.initial_state import INITIAL_POSITION, initial_state_of
+from rwn.model.initial_state import INITIAL_POSITION, initial_state_of, is_moving
 from rwn.model.model import Model
 from rwn.recording.delays import in_time
 from rwn.recording.filters import after_missing, before_filter, unfiltered
@@ -46,6 +47,7 @@ class Run:
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     start_spread: Mapping[str, float] = field(default_factory=dict)  # deviation of what is not known of it exactly
     in_motion: bool = False  # it does not start at rest
+    told_by: int = 0  # first samples that told so; 0: it was stated, or it starts at rest
     own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
     levels: tuple[tuple[int, tuple[int, ...]], ...] = ()  # the same: logarithm of a factor, parameters that it scales
     input_before: float = 0.0
@@ -132,7 +134,7 @@ class Run:
             cut["angle"] = cut["angle"] - position
         return replace(
             self, **cut, time=self.time[begin:] - first, start=(0.0, speed, position), start_spread={},
-            own=(), levels=(), in_motion=True, input_before=float(self.input[begin - 1]),
+            own=(), levels=(), in_motion=True, told_by=0, input_before=float(self.input[begin - 1]),
             applied_input=self.applied_input and self.applied_input.since(first), interpolated=None,
             missing={s: lost[begin:] for s, lost in self.missing.items()},
         )  # fmt: skip
@@ -169,15 +171,20 @@ class Run:
         return replace(self, time=time, current=current, speed=speed, position=position, angle=angle)
 
     def unfiltered(self, signal: str, time_constant: float) -> Run:
-        """The same with the speed or the current as it was before a first-order filter of its samples [s]."""
+        """The same with the speed or the current as it was before a first-order filter of its samples [s].
+
+        What was taken for a start in motion may lie within the noise that the filter took off.
+        """
         values = before_filter(self.time, self.signal(signal), time_constant)
         missing = dict(self.missing)
         if signal in missing:
             missing[signal] = after_missing(missing[signal])
         angle = integral(self.speed_measured, self.time, values) if self.angle_from_speed else self.angle
-        if signal == "speed":
-            return replace(self, missing=missing, speed=values, angle=angle)
-        return replace(self, missing=missing, current=values)
+        changed: dict[str, Any] = {signal: values}
+        before = replace(self, missing=missing, angle=angle, **changed)
+        if not self.told_by or is_moving(self.time, {s: before.measured(s) for s in before.recorded}, self.told_by):
+            return before
+        return replace(before, in_motion=False, told_by=0, start=(0.0, 0.0, self.start[2]), input_before=0.0)
 
     def quantisation(self, signal: str) -> float:
         """Standard deviation of the quantisation of a signal; 0 where its values are multiples of no step.
@@ -231,6 +238,7 @@ def run_of(recording: Recording, model: Model) -> Run:
         start=start.state,
         start_spread=start.spread,
         in_motion=start.in_motion,
+        told_by=start.told_by,
         input_before=float(given[0]) if start.in_motion else 0.0,
         angle=position if position.size else integral(way, time, speed),
         angle_from_speed=position.size == 0,
