@@ -259,6 +259,17 @@ def test_example_cases_can_be_scored(shared: Path, cases_told: Path) -> None:
     assert not any(g.false_alarm or g.confidently_wrong for g in grades if g.mode in ("null", "novel"))
 
 
+def test_a_case_without_recordings_kept_back_is_scored_by_what_it_names(shared: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "set"
+    for name in ("train_1.csv", "model.toml", "answer.json"):
+        (folder / "case_01").mkdir(parents=True, exist_ok=True)
+        shutil.copy(shared / "messy" / "outliers" / "case_01" / name, folder / "case_01" / name)
+    assert run(folder, results=tmp_path / "told", jobs=1, diagnose=tell_the_truth) == []
+    (grade,) = grade_folder(folder, results=tmp_path / "told").grades
+    assert grade.exact
+    assert grade.removed == ()
+
+
 def test_demonstration_recordings_can_be_made_again(tmp_path: Path) -> None:
     """Numbers may differ in the last digit between machines, nothing else."""
     demo.write_demo(tmp_path)

@@ -245,11 +245,13 @@ def clean_speed(answer: Mapping[str, Any], heldout: Path) -> np.ndarray[Any, Any
 def _removed(answer: Mapping[str, Any], trial: Path, out: Path) -> list[float]:
     """(refitted - corrected) / (refitted - floor) of each held-out recording where there is error to remove.
 
-    Each is the rms speed error against the recording: model error and noise together.
+    Each is the rms speed error against the recording: model error and noise together. None without such recordings.
     """
-    shares = []
-    sigma = float(answer["noise"]["speed_rms"])
-    for heldout, effect in zip(heldout_files(trial), answer["heldout_effect_in_noise"], strict=True):
+    shares: list[float] = []
+    sigma, kept_back = float(answer["noise"]["speed_rms"]), heldout_files(trial)
+    if not kept_back:
+        return shares
+    for heldout, effect in zip(kept_back, answer["heldout_effect_in_noise"], strict=True):
         simulated = simulated_file(out, heldout)
         if effect < REMOVABLE or not answer["effects"] or not simulated.exists():
             continue
