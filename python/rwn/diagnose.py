@@ -15,7 +15,7 @@ from rwn.decide.decision import Decision, decide
 from rwn.errors import InputError
 from rwn.faults.explain import Explained, explained
 from rwn.faults.fault import without
-from rwn.faults.late_enable import LateEnable, late_beside, powered
+from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
 from rwn.fit.declared import check_declared
 from rwn.fit.nominal import check_it_runs
 from rwn.fit.preparation import prepare
@@ -79,10 +79,11 @@ def diagnose(
     if model.effects:
         check_declared(prepare(recordings, model), model)
     with thread_pool(jobs or os.cpu_count() or 1):
-        case = _decided(recordings, heldout, model, seed=seed, effort=effort, say=say)
+        late = late_enables(recordings, model)
+        case = _decided(recordings, heldout, model, late, seed=seed, effort=effort, say=say)
         if case.decision.is_poor:
             say(f"what was found explains too little: searching {LONGER:g} times as long", 0.0)
-            longer = _decided(recordings, heldout, model, seed=seed, effort=LONGER * effort, say=say)
+            longer = _decided(recordings, heldout, model, late, seed=seed, effort=LONGER * effort, say=say)
             case = min(case, longer, key=lambda c: c.decision.remainder.error)
         say("correcting the model", 0.9)
         found, model = case.found, case.found.model
@@ -106,19 +107,19 @@ class _Case:
 
 
 def _decided(
-    recordings: Sequence[Recording], heldout: Sequence[Recording], model: Model, *, seed: int, effort: float,
-    say: Progress,
+    recordings: Sequence[Recording], heldout: Sequence[Recording], model: Model, late: Sequence[LateEnable], *,
+    seed: int, effort: float, say: Progress,
 ) -> _Case:  # fmt: skip
-    found = explained(recordings, model, say=say, effort=effort)
+    found = explained(recordings, model, late=late, say=say, effort=effort)
     check_it_runs(found.ranking.problem, found.ranking.nominal)
     say("proving it on data that were not fitted", AFTER_SEARCH)
     for fault in found.faults:
         heldout = without(heldout, fault)
-    late = late_beside(heldout, found.model, found.ranking.problem, found.ranking.fits[0].fit)
-    heldout = powered(heldout, late, found.model)
+    late_ones = late_beside(heldout, found.model, found.ranking.problem, found.ranking.fits[0].fit)
+    heldout = powered(heldout, late_ones, found.model)
     unseen = measured_alike([judging_run(r, found.model) for r in heldout], found.ranking.problem.whole)
     decision = decide(found.ranking, unseen, found.model, seed=seed)
-    return _Case(found=found, late=late, unseen=unseen, decision=decision)
+    return _Case(found=found, late=late_ones, unseen=unseen, decision=decision)
 
 
 def _check_options(seed: int, jobs: int | None, effort: float) -> None:

@@ -91,5 +91,5 @@ def test_both_constants_of_a_motor_are_doubted_together() -> None:
 
 def test_a_sound_sheet_is_searched_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rwn.faults.explain.confirmed", lambda *_: pytest.fail("nothing was doubted"))
-    found = explained(_runs(105, {}), _sheet(), say=lambda *_: None, effort=0.1)
+    found = explained(_runs(105, {}), _sheet(), late=(), say=lambda *_: None, effort=0.1)
     assert not found.ranking.fits[0].added

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.fault import Fault
-from rwn.faults.late_enable import LateEnable, late_enables, needed, powered, retimed
+from rwn.faults.late_enable import LateEnable, needed, powered, retimed
 from rwn.faults.resolve import resolved
 from rwn.faults.uneven_files import uneven_files
 from rwn.fit.fit import Fit
@@ -61,15 +61,15 @@ class Explained:
 
 
 def explained(
-    recordings: Sequence[Recording], model: Model, *, say: Progress, effort: float = 1.0
+    recordings: Sequence[Recording], model: Model, *, late: Sequence[LateEnable], say: Progress, effort: float = 1.0
 ) -> Explained:
     """The explanation; found once more where under the best one the input acted otherwise.
 
-    `effort`: what the search may cost, as a multiple of the usual.
+    `late`: power stages that were enabled late, as far as the nominal model shows them. `effort`: what the search may
+    cost, as a multiple of the usual.
 
     Raises InputError where a recording does not fit the model.
     """
-    late = late_enables(recordings, model)
     on = powered(recordings, late, model)
     stated = with_intersample(on, model)
     faults, ranking = resolved(_as_acted(on, stated), stated, say=say, effort=effort)
@@ -79,7 +79,7 @@ def explained(
     again = stated
     if stated is not model and stated.recording.intersample != HELD:  # what is missing may look like another law
         again = stating(stated, likeliest(ranking.problem, best))
-    if (still, again) != (late, stated):
+    if (still, again) != (tuple(late), stated):
         as_acted = _as_acted(powered(recordings, still, model), again, None if faults else best)
         faults, ranking = resolved(as_acted, again, say=say, effort=effort)
     for wrong in contradicted(ranking):

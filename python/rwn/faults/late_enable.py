@@ -210,10 +210,26 @@ def _powered_from(time: float, recording: Recording, model: Model) -> Recording:
     """The recording with no input before a time [s]; in the step in which it comes the input acts for a part."""
     if time == 0.0:
         return recording
-    steps = _since_start(recording)
-    acts = np.clip((steps[1:] - time) / np.diff(steps), 0.0, 1.0)
-    given = acts * np.asarray(recording.signals[model.drive.input])
+    given = _acting(_since_start(recording), time) * np.asarray(recording.signals[model.drive.input])
     return replace(recording, signals={**recording.signals, model.drive.input: given})
+
+
+def _run_powered_from(time: float, run: Run) -> Run:
+    """The same of a recording as it is simulated."""
+    if time == 0.0:
+        return run
+    steps, acted = np.append(run.time, 2.0 * run.time[-1] - run.time[-2]), run.applied_input
+    if acted is not None:
+        between = np.append(acted.instants, max(steps[-1], acted.instants[-1]))
+        acted = replace(acted, values=_acting(between, time) * acted.values)
+    return replace(run, input=_acting(steps, time) * run.input, applied_input=acted, input_before=0.0)
+
+
+def _acting(steps: Array, time: float) -> Array:
+    """The part (n,) of each step between `steps` (n + 1,) [s] in which there is power, from a time [s] on."""
+    lengths = np.diff(steps)
+    parts = np.divide(steps[1:] - time, lengths, out=np.where(steps[1:] > time, 1.0, 0.0), where=lengths > 0.0)
+    return np.asarray(np.clip(parts, 0.0, 1.0))
 
 
 def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
@@ -235,7 +251,8 @@ def _stands_about_zero(run: Run, samples: int) -> bool:
 
 
 def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> _Beginning:
-    return _Beginning(problem, this, recording, model, beside, _standing_samples(recording, model))
+    run = replace(run_of(recording, model), own=beside.own, levels=beside.levels)
+    return _Beginning(problem, this, recording, run, _standing_samples(recording, model))
 
 
 @dataclass(frozen=True)
@@ -245,8 +262,7 @@ class _Beginning:
     problem: Problem
     this: Fit
     recording: Recording
-    model: Model
-    beside: Run  # the same as it is simulated
+    run: Run  # the same as it is simulated, with power from the first sample on
     samples: int  # that stand still
 
     def error(self, time: float) -> float:
@@ -258,8 +274,7 @@ class _Beginning:
         return refit(self.this, self._with_power_from(time), iterations=ITERATIONS).cost
 
     def _with_power_from(self, time: float) -> Problem:
-        run = run_of(_powered_from(time, self.recording, self.model), self.model).until(2 * self.samples)
-        return replace(self.problem, runs=(replace(run, own=self.beside.own, levels=self.beside.levels),))
+        return replace(self.problem, runs=(_run_powered_from(time, self.run).until(2 * self.samples),))
 
     def enabling_time(self) -> float:
         """When power came [s]: where the fit errs least."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, i
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.likelihood import log_posterior
+from rwn.fit.part import screening_part
 from rwn.fit.prior import Nuisance
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
@@ -235,24 +237,27 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFil
     """The digital filter under which the errors are likeliest, and their log-likelihood."""
     from scipy.optimize import minimize_scalar  # late: the command line starts without it
 
-    samples = _samples(problem, seen.signal)
-
-    def negative_log_posterior(logarithm: float) -> float:
+    def negative_log_posterior(problem: Problem, logarithm: float) -> float:
         time_constant = float(np.exp(logarithm))
         on = _undone(problem, seen.signal, time_constant)
         shown = 1.0 - _share_kept(problem, seen.signal, time_constant)  # of what is new in a sample
-        return samples * float(np.log(shown)) - log_posterior(on, _refitted(this, on))
+        return _samples(problem, seen.signal) * float(np.log(shown)) - log_posterior(on, _refitted(this, on))
+
+    def refined(between: Array) -> tuple[float, float]:
+        best = minimize_scalar(
+            partial(negative_log_posterior, problem), bounds=between, method="bounded", options={"xatol": LOG_TOLERANCE}
+        )
+        return float(best.fun), float(best.x)
 
     one = float(np.log(seen.time_constant * -np.log(seen.share)))  # of the time of a sample
     tried = one - np.log(-np.log(np.linspace(LEAST, MOST, SHARES)))
-    scores = np.array([negative_log_posterior(float(t)) for t in tried])
+    part = screening_part(problem, this)
+    scores = np.array(side_by_side(lambda t: negative_log_posterior(part, float(t)), tried))
     beside = np.concatenate([[np.inf], scores, [np.inf]])
     dips = np.flatnonzero((scores <= beside[:-2]) & (scores <= beside[2:]))  # another motor may do with another filter
     around = [tried[[max(k - 1, 0), min(k + 1, SHARES - 1)]] for k in dips[np.argsort(scores[dips])][:DIPS]]
-    exact = {"xatol": LOG_TOLERANCE}
-    refined = [minimize_scalar(negative_log_posterior, bounds=b, method="bounded", options=exact) for b in around]
-    found = min(refined, key=lambda each: float(each.fun))
-    return _of_time(problem, replace(seen, digital=True), float(np.exp(found.x))), -float(found.fun)
+    score, logarithm = min(side_by_side(refined, around))
+    return _of_time(problem, replace(seen, digital=True), float(np.exp(logarithm))), -score
 
 
 def refitted_beside(known: Sequence[Fit], problem: Problem) -> list[Fit]:
