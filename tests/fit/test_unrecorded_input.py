@@ -65,3 +65,21 @@ def test_a_held_input_is_known_from_its_rows() -> None:
     signals = {"voltage": np.ones(100), "speed": np.ones(100)}
     run = rwn.Recording(name="run", time=1e-3 * np.arange(100.0), signals=signals)
     assert with_unrecorded_input([run], stating(MODEL, "held")) == [run]
+
+
+@pytest.mark.parametrize("rough", [0.0, 0.5])
+def test_as_many_unknown_values_as_samples_do_not_pass_for_less_noise(rough: float) -> None:
+    """Every second row of a swept voltage, which a controller makes rough, with the current that it drives."""
+    rng, time = np.random.default_rng(2), STEP * np.arange(6000)
+    voltage = 4.0 * np.sin(2.0 * np.pi * (1.0 + 4.0 * time) * time) + rough * rng.standard_normal(time.size)
+    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    moved = rwn.simulate(Model(kind="dc", parameters=MOTOR), bare).signals
+    level = {"current": 0.02, "speed": 0.5}
+    shown = {s: (moved[s] + deviation * rng.standard_normal(time.size))[::2] for s, deviation in level.items()}
+    kept = rwn.Recording(name="run", time=time[::2], signals={"voltage": voltage[::2], **shown})
+    model = stating(MODEL, "halves")
+    problem, _ = nominal_of(with_unrecorded_input([kept], model), model)
+    found = {s: problem.noise[s].deviation for s in level}
+    assert all(found[s] > 0.75 * level[s] for s in level)
+    if not rough:  # else most of what the current shows may be either
+        assert found == pytest.approx(level, rel=0.25)

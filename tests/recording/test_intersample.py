@@ -77,3 +77,21 @@ def test_a_row_too_near_a_tick_to_say_which_it_shows_says_nothing_for_certain(se
     known = acted.spread == 0.0
     assert known.sum() > 0.7 * ticks.size
     assert np.array_equal(acted.values[known], truth[known])
+
+
+def test_between_rows_of_a_smooth_voltage_it_is_smooth_and_known_well() -> None:
+    voltage = 5.0 * np.sin(300.0 * TIME)
+    acted = INTERSAMPLE["halves"].applied(TIME[::2], voltage[::2])
+    assert acted is not None
+    truth = 5.0 * np.sin(300.0 * acted.instants)
+    line = np.interp(acted.instants, TIME[::2], voltage[::2])
+    assert np.std(acted.values - truth) < 0.15 * np.std(line - truth)
+    assert np.max(acted.spread) < 0.7 * np.max(np.abs(np.diff(voltage[::2]))) / np.sqrt(12.0)
+
+
+def test_a_step_between_two_rows_is_anywhere_between_them_and_nothing_beside_it() -> None:
+    acted = INTERSAMPLE["halves"].applied(TIME[:8], np.repeat([1.0, 3.0], 4))
+    assert acted is not None
+    assert np.flatnonzero(acted.spread > 1e-12).tolist() == [7]
+    assert acted.values == pytest.approx([1.0] * 7 + [2.0] + [3.0] * 7)
+    assert acted.spread[7] == pytest.approx(2.0 / np.sqrt(12.0))

@@ -31,7 +31,7 @@ def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> d
     for signal in dict.fromkeys(s for left in residuals for s in left):
         steps = float(np.median([r.quantisation(signal) for r in runs if r.signal(signal).size]))
         pairs = [(r, left[signal]) for r, left in zip(runs, residuals, strict=True) if signal in left]
-        found = [_noise(r.masked(signal, values)) for r, values in pairs if values.size > 8]
+        found = [_noise(r.masked(signal, values)) / r.noise_left(signal) for r, values in pairs if values.size > 8]
         differenced = max(float(np.median(found)) if found else 1.0, 1e-12)
         # a simulation that runs away leaves more than was recorded at all: that is no noise
         moved = max((_rms(r.signal(signal)) for r in runs if r.signal(signal).size), default=0.0)
@@ -69,7 +69,8 @@ def _coloured(
                 for run, left in zip(problem.runs, residuals, strict=True)
                 if signal in left
             ]
-            level = float(np.median([_noise(x) for x in fresh]))
+            of = [run for run, left in zip(problem.runs, residuals, strict=True) if signal in left]
+            level = float(np.median([_noise(x) / run.noise_left(signal) for run, x in zip(of, fresh, strict=True)]))
             noise[signal] = replace(before, level=max(level, 1e-12))
     return noise
 

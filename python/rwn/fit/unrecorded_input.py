@@ -1,8 +1,9 @@
 """The input where no row shows it: between its neighbours, as the motion that followed tells.
 
 Each unknown value adds the response of the linear drive to a pulse. They are fitted together to the errors of the
-refitted nominal model, each with the deviation of what may lie anywhere between two neighbours, and kept between them.
-The errors and responses are those of a high-pass filter: what else is missing moves slowly.
+refitted nominal model, each with a deviation in proportion to that of what may lie anywhere between two neighbours, and
+kept between them. The errors and responses are those of a high-pass filter: what else is missing moves slowly. As many
+unknown values as samples take up much of the noise: how much is what they take up of noise that is drawn.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from rwn.fit.sensor_filter import refitted_beside
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE, PiecewiseInput
+from rwn.recording.noise import noise_from_differences
 from rwn.recording.recording import Recording
 from rwn.recording.speed_measurement import SpeedMeasurement
 from rwn.simulate.run import Run
@@ -34,6 +36,10 @@ SLOW = 0.9  # pole of the high-pass filter: it forgets within tens of rows
 LASTS = 60  # rows after which nothing is left of a response in the filter
 FINE = 8  # steps of a response per row
 ROUNDS = 2  # of fitting the model and the input
+TELLING = 400  # unknown values, one after the other, that tell how far they lie off: to a few per cent
+STEPS = 20  # of that
+LEAST_SHARE = 1e-6  # of a variance: less moves nothing
+LEAST_LEFT = 0.01  # of the noise of a signal: less is rounding
 
 
 def with_unrecorded_input(
@@ -67,8 +73,7 @@ def _inferred(
 ) -> PiecewiseInput:
     """`given` with its unknown values as the errors `left` of a simulation under those of `run` tell."""
     from scipy.signal import lfilter  # late: the command line starts without it
-    from scipy.sparse import diags_array, vstack
-    from scipy.sparse.linalg import spsolve
+    from scipy.sparse import diags_array
 
     unknown = given.spread > 0.0  # neighbours that no row shows are one unknown
     first = np.flatnonzero(unknown & ~np.concatenate([[False], unknown[:-1]]))
@@ -76,7 +81,7 @@ def _inferred(
     ends = np.append(given.instants[after], run.time[-1])[: first.size]
     assumed = given if run.applied_input is None else run.applied_input
     before = (assumed.values - given.values)[first]  # what the errors are corrected by already
-    responses, errors = [], []
+    responses, errors = {}, {}
     for signal, error in left.items():
         level = problem.noise[signal].deviation
         response = _pulses(problem, this, run, signal, given.instants[first], ends) / level
@@ -86,17 +91,65 @@ def _inferred(
             continue
         filled = np.interp(run.time, run.time[compared], masked[compared])
         weight = diags_array(compared.astype(np.float64))
-        responses.append(weight @ response)
-        errors.append(compared * lfilter([1.0, -1.0], [1.0, -SLOW], filled))
-    joined = vstack(responses).tocsr()
-    spread = given.spread[first]
-    target = np.concatenate(errors) + joined @ before
-    found = spsolve((joined.T @ joined + diags_array(1.0 / spread**2)).tocsc(), joined.T @ target)
-    limit = np.sqrt(3.0) * spread  # half the way from neighbour to neighbour
-    moved = np.clip(found, -limit, limit)
+        responses[signal] = (weight @ response).tocsr()
+        errors[signal] = compared * lfilter([1.0, -1.0], [1.0, -SLOW], filled) + responses[signal] @ before
+    share, levels = _magnitudes(responses, errors, given.spread[first])
+    spread = share * given.spread[first]
+    responses = {s: r / levels[s] for s, r in responses.items()}
+    errors = {s: e / levels[s] for s, e in errors.items()}
+    moved = _told(responses, errors, spread)
+    limit = np.sqrt(3.0) * given.spread[first]  # half the way from neighbour to neighbour
     values = given.values.copy()
-    values[unknown] += moved[np.searchsorted(first, np.flatnonzero(unknown), side="right") - 1]
-    return replace(given, values=values)
+    values[unknown] += np.clip(moved, -limit, limit)[np.searchsorted(first, np.flatnonzero(unknown), side="right") - 1]
+    return replace(given, values=values, noise_left=_noise_left(responses, spread))
+
+
+def _told(responses: Mapping[str, csr_array], errors: Mapping[str, Array], spread: Array) -> Array:
+    """The unknown values (m,) of deviations `spread` (m,) that errors (n,) of unit noise tell, by signal."""
+    from scipy.sparse import diags_array
+    from scipy.sparse.linalg import spsolve
+
+    normal = diags_array(1.0 / spread**2) + sum(r.T @ r for r in responses.values())
+    return np.asarray(spsolve(normal.tocsc(), sum(r.T @ errors[s] for s, r in responses.items())))
+
+
+def _magnitudes(
+    responses: Mapping[str, csr_array], errors: Mapping[str, Array], spread: Array
+) -> tuple[float, dict[str, float]]:
+    """The share of their deviations `spread` (m,) that unknown values have, at most 1, and the noise of each signal.
+
+    The likeliest, as those show that may lie farthest off: expectation and maximisation (Dempster, Laird, Rubin 1977).
+    """
+    few = min(spread.size, TELLING)
+    begin = int(np.argmax(np.convolve(spread, np.ones(few), mode="valid")))
+    these = slice(begin, begin + few)
+    parts = {s: np.asarray(r[:, these].todense()) * spread[these] for s, r in responses.items()}
+    kept = {s: np.flatnonzero(p.any(axis=1)) for s, p in parts.items()}  # rows that say anything
+    parts = {s: p[kept[s]] for s, p in parts.items()}
+    targets = {s: errors[s][kept[s]] for s in parts}
+    grams = {s: p.T @ p for s, p in parts.items()}
+    share, noise = 1.0, dict.fromkeys(parts, 1.0)
+    for _ in range(STEPS):
+        within = np.linalg.inv(sum(g / noise[s] for s, g in grams.items()) + np.eye(few) / share)
+        told = within @ sum(p.T @ targets[s] / noise[s] for s, p in parts.items())
+        share = float(np.clip((told @ told + np.trace(within)) / few, LEAST_SHARE, 1.0))
+        for s, p in parts.items():
+            left = np.sum((targets[s] - p @ told) ** 2) + np.sum(grams[s] * within)
+            noise[s] = max(float(left) / max(targets[s].size, 1), LEAST_SHARE)
+    return float(np.sqrt(share)), {s: float(np.sqrt(v)) for s, v in noise.items()}
+
+
+def _noise_left(responses: Mapping[str, csr_array], spread: Array) -> dict[str, float]:
+    """What is left of white noise where it tells unknown values of deviations `spread` (m,), by signal."""
+    rng = np.random.default_rng(0)
+    drawn = {s: rng.standard_normal(r.shape[0]) for s, r in responses.items()}
+    told = _told(responses, drawn, spread)
+
+    def kept(noise: Array, response: csr_array) -> float:
+        share = noise_from_differences(noise - response @ told) / noise_from_differences(noise)
+        return float(np.clip(share, LEAST_LEFT, 1.0))
+
+    return {s: kept(drawn[s], response) for s, response in responses.items()}
 
 
 def _pulses(problem: Problem, this: Fit, run: Run, signal: str, begin: Array, end: Array) -> csr_array:

@@ -7,8 +7,8 @@ Where rows lie between samples that were taken when the input changed, the law s
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -33,18 +33,21 @@ HELD = "held"
 class PiecewiseInput(Values):
     """An input as it acted: from `instants` (m,) [s] it had `values` (m,), each known but for `spread` (m,).
 
-    What no row shows lies anywhere between its neighbours: a standard deviation of their distance over sqrt(12).
+    What no row shows lies off the line between its neighbours, as far as the way through them bends: it may be anywhere
+    in that, of which 1/sqrt(12) is the standard deviation. `noise_left`: the share of the noise of a signal
+    that is left in its errors where the values were inferred from these.
     """
 
     instants: Array
     values: Array
     spread: Array
+    noise_left: Mapping[str, float] = field(default_factory=dict)
 
     def since(self, begin: float) -> PiecewiseInput:
         """The same of a recording that begins at `begin` [s], in its time."""
         first = max(int(np.searchsorted(self.instants, begin, side="right")) - 1, 0)
         instants = np.maximum(self.instants[first:], begin) - begin
-        return PiecewiseInput(instants=instants, values=self.values[first:], spread=self.spread[first:])
+        return replace(self, instants=instants, values=self.values[first:], spread=self.spread[first:])
 
 
 def _own_samples(time: Array) -> None:
@@ -76,16 +79,21 @@ def _held(time: Array, values: Array) -> None:
 
 
 def _bridged(time: Array, values: Array) -> PiecewiseInput | None:
-    """As held; where rows were lost it changed at their ticks, on the line between its neighbours."""
+    """As held; where rows were lost it changed at their ticks, on the curve through its neighbours."""
     clock = clock_of(time)
-    return _on_lines(time, values, np.diff(clock.ticks)) if 0 < clock.lost < time.size else None
+    return _divided(time, values, np.diff(clock.ticks), _on_curve) if 0 < clock.lost < time.size else None
 
 
 def _in_parts(time: Array, values: Array, *, parts: int) -> PiecewiseInput | None:
-    """It changed that often from row to row, on the line between its neighbours: a logger kept every so many rows."""
+    """It changed that often from row to row, on the curve through its values: a logger kept every so many rows."""
     clock = clock_of(time)
     ticks = np.diff(clock.ticks) if clock.lost < time.size else np.ones(time.size - 1, dtype=np.int64)
-    return _on_lines(time, values, parts * ticks)
+    return _divided(time, values, parts * ticks, _on_curve)
+
+
+def _linear(time: Array, values: Array) -> PiecewiseInput | None:
+    """It moved on the line from row to row."""
+    return _divided(time, values, np.full(time.size - 1, FINE), _on_line)
 
 
 def _clock_beside(time: Array) -> Clock | None:
@@ -117,28 +125,59 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
     shown, seen = last[first], values[first]
     ticks = np.arange(last[0], last[-1] + 1)
     after = np.searchsorted(shown, ticks)  # the first shown tick that is not before each
-    step = np.abs(np.diff(seen, prepend=seen[:1]))[after]
+    off = np.concatenate([[0.0], _off_the_line(shown, seen)])[after]
     instants = begin + clock.period * ticks
     instants[0] = first_time
     late = np.concatenate([[True], instants[1:] > first_time])
     return PiecewiseInput(
         instants=instants[late],
-        values=np.interp(ticks, shown, seen)[late],
-        spread=np.where(shown[after] == ticks, 0.0, step / np.sqrt(12.0))[late],
+        values=_on_curve(ticks.astype(np.float64), shown.astype(np.float64), seen)[late],
+        spread=np.where(shown[after] == ticks, 0.0, off)[late],
     )
 
 
-def _on_lines(time: Array, values: Array, parts: NDArray[np.int64]) -> PiecewiseInput:
-    """Each step from row to row in as many parts, on a line."""
+def _divided(
+    time: Array, values: Array, parts: NDArray[np.int64], between: Callable[[Array, Array, Array], Array]
+) -> PiecewiseInput:
+    """Each step from row to row in as many parts, of values `between` those of the rows."""
     row = np.repeat(np.arange(parts.size), parts)
     done = (np.arange(row.size) - np.repeat(np.cumsum(parts) - parts, parts)) / parts[row]
     instants = time[row] + done * np.diff(time)[row]
-    step = np.diff(values)[row]
     return PiecewiseInput(
         instants=np.append(instants, time[-1]),
-        values=np.append(values[row] + done * step, values[-1]),
-        spread=np.append(np.where(done > 0.0, np.abs(step) / np.sqrt(12.0), 0.0), 0.0),
+        values=np.append(np.where(done > 0.0, between(instants, time, values), values[row]), values[-1]),
+        spread=np.append(np.where(done > 0.0, _off_the_line(time, values)[row], 0.0), 0.0),
     )
+
+
+def _on_line(when: Array, time: Array, values: Array) -> Array:
+    """At `when` (m,), on the line from row to row."""
+    return np.interp(when, time, values)
+
+
+def _on_curve(when: Array, time: Array, values: Array) -> Array:
+    """At `when` (m,), on a cubic spline through the rows, but no farther off the line than the input may be."""
+    from scipy.interpolate import CubicSpline  # late: the command line starts without it
+
+    line = _on_line(when, time, values)
+    most = np.append(np.sqrt(3.0) * _off_the_line(time, values), 0.0)
+    most = most[np.clip(np.searchsorted(time, when, side="right") - 1, 0, time.size - 1)]
+    curve = CubicSpline(time, values)(when) if time.size > 2 else line
+    return np.asarray(np.clip(curve, line - most, line + most))
+
+
+def _off_the_line(time: Array, values: Array) -> Array:
+    """Deviation (n - 1,) of an input between rows at `time` (n,) from the line between its values (n,) there.
+
+    As far as the way through the rows bends at both of its ends, and no farther than the input moves about there.
+    """
+    lasting, step = np.diff(time), np.abs(np.diff(values))
+    if step.size < 2:
+        return np.asarray(step / np.sqrt(12.0))
+    bend = np.abs(np.diff(np.diff(values) / lasting))
+    bends = np.minimum(np.append(bend, bend[-1]), np.append(bend[0], bend)) * lasting
+    about = np.maximum(step, np.maximum(np.append(step[1:], 0.0), np.append(0.0, step[:-1])))
+    return np.asarray(np.minimum(bends, about) / np.sqrt(12.0))
 
 
 INTERSAMPLE: dict[str, IntersampleLaw] = {
@@ -152,7 +191,7 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
         applied=partial(_in_parts, parts=3),
         words="it changed three times from row to row, as where every third row was kept",
     ),
-    "line": IntersampleLaw(applied=partial(_in_parts, parts=FINE), words="it moved on a line from row to row"),
+    "line": IntersampleLaw(applied=_linear, words="it moved on a line from row to row"),
     "ticks": IntersampleLaw(
         applied=_at_ticks, words="it changed at the ticks of a clock beside which the rows were taken"
     ),

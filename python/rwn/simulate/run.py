@@ -97,6 +97,10 @@ class Run:
             without[n - self.speed_measured.after :] = True
         return without
 
+    def noise_left(self, signal: str) -> float:
+        """The share of the noise of a signal that is left in its errors."""
+        return self.applied_input.noise_left.get(signal, 1.0) if self.applied_input else 1.0
+
     @property
     def angle_unknown(self) -> bool:
         """Whether nothing tells the angle of the shaft at the first sample."""
