@@ -56,6 +56,19 @@ def test_the_first_and_the_last_sample_beside_it_may_be_all_that_there_is() -> N
     assert np.flatnonzero(SPIKES.flags(_recording(speed=speed), "speed")).tolist() == [1, TIME.size - 2]
 
 
+@pytest.mark.parametrize("at", [0, TIME.size - 1])
+def test_so_may_a_spike_itself_be_where_it_is_beyond_the_motion(at: int) -> None:
+    speed = 100.0 * np.sin(TIME) + 0.05 * np.random.default_rng(1).standard_normal(TIME.size)
+    speed[at] = -150.0
+    assert np.flatnonzero(SPIKES.flags(_recording(speed=speed), "speed")).tolist() == [at]
+
+
+def test_a_run_that_begins_at_rest_under_a_step_begins_with_no_spike() -> None:
+    noise = 0.01 * np.random.default_rng(1).standard_normal(TIME.size)
+    current = np.where(TIME > 0.0, 5.0 * np.exp(-TIME / 0.5), 0.0) + noise
+    assert not SPIKES.flags(_recording(current=current), "current").any()
+
+
 def _flagged(file: Path) -> tuple[Recording, dict[str, Array]]:
     model = read_model(file.parent / "model.toml")
     run = read_recording(file, layout=model.recording)

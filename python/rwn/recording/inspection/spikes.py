@@ -35,24 +35,28 @@ def _spikes(recording: Recording, signal: str) -> Flags:
     x, after_steps = np.asarray(recording.signals[signal]), _after_steps(recording)
     found = np.zeros(x.size, dtype=bool)
     bridged = x
+    must_be_beyond = np.pad(after_steps, 1, constant_values=True)
+    must_be_beyond[[1, -2]] = True  # a run from rest may begin with a step
     for together in TOGETHER:
-        found |= _alone(bridged, after_steps, together)
+        mirrored = np.pad(bridged, 1, mode="reflect")  # the first sample has none before it, the last none behind it
+        found |= _alone(mirrored, must_be_beyond, together)[1:-1]
         known = np.flatnonzero(~found)
         bridged = np.interp(np.arange(x.size), known, x[known])
     return found if found.mean() <= RARE else np.zeros(x.size, dtype=bool)
 
 
-def _alone(x: Array, after_steps: Flags, together: int) -> Flags:
+def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     """So many samples off both neighbours by more than noise, in a signal that rests beside them; dropouts to 0.
 
     It rests where the neighbours differ little from each other, and on one side at least from the next: a current that
     peaks, or a rectified speed that turns, moves on both. Both sides need not, since the next may be another spike.
-    Several together have to be beyond all others: a motor may well swing within a few samples.
+    Several together, and those that `must_be_beyond`, are spikes beyond all others alone: a motor may well swing within
+    a few samples.
     """
     from scipy.stats import norm
 
     noise = max(noise_from_differences(x), quantum(x))
-    if x.size < 8 or noise == 0.0:
+    if x.size < 10 or noise == 0.0:
         return np.zeros(x.size, dtype=bool)
     limit = float(norm.isf(0.5 * LEVEL / x.size)) * noise * np.sqrt(1.5)  # a sample against the mean of two
     before, after = x[: -together - 1], x[together + 1 :]
@@ -61,9 +65,11 @@ def _alone(x: Array, after_steps: Flags, together: int) -> Flags:
     off = np.all((here - before) * (here - after) > 0.0, axis=0) & (jump > limit)
     leads, follows = np.abs(np.diff(before, prepend=np.inf)), np.abs(np.diff(after, append=np.inf))
     smooth = np.maximum(np.abs(after - before), np.minimum(leads, follows)) < BESIDE * jump
-    beyond = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[~_in_all(off, together)]), initial=0.0))
+    others = ~_in_all(off, together)
+    others[[0, -1]] = False  # these are mirrored
+    beyond = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[others]), initial=0.0))
     dropped = np.all(here == 0.0, axis=0)
-    may = beyond | (~after_steps[1:-together] & (together == 1))
+    may = beyond | (~must_be_beyond[1:-together] & (together == 1))
     return _in_all(off & (dropped | (smooth & may)), together)
 
 
