@@ -145,3 +145,16 @@ def test_what_is_too_short_or_stands_still_has_none(rows: int) -> None:
         name="run", time=STEP * np.arange(rows), signals={"voltage": np.ones(rows), "speed": np.zeros(rows)}
     )
     assert without_hum(this) == (this, [])
+
+
+@pytest.mark.parametrize(("dwell", "seed"), [(7, 3), (10, 1), (20, 3), (35, 2), (50, 4)])
+def test_what_a_signal_answers_to_its_input_at_the_mains_is_no_hum(dwell: int, seed: int) -> None:
+    """A current of half an ampere goes with a pseudo-random voltage of 1.4 s; the wires pick up 1 mA."""
+    rng, step, count = np.random.default_rng(seed), 4e-4, 3500
+    time, u = step * np.arange(count), 9.0 * np.sign(rng.normal(size=count // dwell + 1)).repeat(dwell)[:count]
+    clean = np.roll(u, 1) / 18.0 + 0.002 * rng.normal(size=count)
+    hum = 0.001 * np.sqrt(2.0) * np.sin(2.0 * np.pi * 50.0 * time + seed)
+    noisy = Recording(name="run", time=time, signals={"voltage": u, "current": clean + hum})
+    found, (said,) = without_hum(noisy)
+    assert said.kind == "hum"
+    assert np.std(found.signals["current"] - clean) < 0.2 * np.std(hum)

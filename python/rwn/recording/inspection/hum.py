@@ -94,7 +94,7 @@ def _hum(time: Array, x: Array, inputs: Sequence[Array]) -> list[Line]:
         best = near[int(np.argmin(chances[near]))]
         line = f + float(frequencies[best] - alias) * (1.0 if _is_upright(f, step) else -1.0)
         if chances[best] * near.size / FINER * len(seen) < LEVEL and not _is_multiple(f, own, band):
-            found[which] = Line(frequency=line, amplitude=_amplitude(time, x, line, step))
+            found[which] = Line(frequency=line, amplitude=_amplitude(time, x, inputs, line, step))
     return max((_of(mains, found, step, band) for mains in MAINS), key=len)
 
 
@@ -145,12 +145,14 @@ def _test(x: Array, step: float, *, finer: int = 1, inputs: Sequence[Array] = ()
     return rfftfreq(size, step), _f_test(seen, tapers.sum(axis=1), answered)
 
 
-def _amplitude(time: Array, x: Array, frequency: float, step: float) -> complex:
-    """Of a line of a signal (n,)."""
+def _amplitude(time: Array, x: Array, inputs: Sequence[Array], frequency: float, step: float) -> complex:
+    """Of a line of a signal (n,), beside what that answers to the inputs."""
     tapers = _tapers(x.size - 1)
-    seen = (tapers * np.diff(x)) @ np.exp(-2j * np.pi * frequency * time[:-1])
-    weights = tapers.sum(axis=1)
-    return complex(2.0 * (weights @ seen) / (weights @ weights) / (np.exp(2j * np.pi * frequency * step) - 1.0))
+    turning = np.exp(-2j * np.pi * frequency * time[:-1])
+    seen, *answered = (((tapers * np.diff(one)) @ turning)[None, :] for one in (x, *inputs))
+    seen, line = _beside(seen, tapers.sum(axis=1), answered)
+    found = np.sum(np.conj(line) * seen) / np.sum(np.abs(line) ** 2)
+    return complex(2.0 * found / (np.exp(2j * np.pi * frequency * step) - 1.0))
 
 
 def _f_test(seen: Complex, weights: Array, answered: Sequence[Complex]) -> Array:
@@ -158,15 +160,21 @@ def _f_test(seen: Complex, weights: Array, answered: Sequence[Complex]) -> Array
 
     `weights`: what each taper shows of a line.
     """
-    line = np.broadcast_to(weights.astype(complex), seen.shape)
-    for u in answered:
-        seen, line = _without(seen, u), _without(line, u)
+    seen, line = _beside(seen, weights, answered)
     energy = np.sum(np.abs(line) ** 2, axis=1)
     explained = np.abs(np.sum(np.conj(line) * seen, axis=1)) ** 2 / np.maximum(energy, 1e-12 * float(weights @ weights))
     left = np.maximum(np.sum(np.abs(seen) ** 2, axis=1) - explained, 1e-300)
     free = TAPERS - 1 - len(answered)
     chances: Array = (1.0 + explained / left) ** -float(free)  # of F with 2 and 2 free degrees of freedom
     return chances
+
+
+def _beside(seen: Complex, weights: Array, answered: Sequence[Complex]) -> tuple[Complex, Complex]:
+    """Tapered spectra (m, TAPERS), and those of a line of 1, without what they have in common with others."""
+    line: Complex = np.broadcast_to(weights.astype(complex), seen.shape)
+    for u in answered:
+        seen, line = _without(seen, u), _without(line, u)
+    return seen, line
 
 
 def _without(x: Complex, u: Complex) -> Complex:
