@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
+from rwn.recording.speed_measurement import CENTRAL
 
 Array = NDArray[np.float64]
 
@@ -73,3 +74,20 @@ def test_the_speed_of_a_position_is_known_to_the_bend_of_its_first_samples() -> 
     assert start.in_motion
     assert start.state[1] == pytest.approx(0.006, abs=4.0 * start.spread["initial_speed"])
     assert start.spread["initial_speed"] < 0.1 * 0.006
+
+
+@pytest.mark.parametrize("recorded", [True, False])
+def test_the_difference_of_a_position_that_starts_from_rest_is_no_motion(recorded: bool) -> None:
+    counts = np.round(512 / (2.0 * np.pi) * 40_000.0 * TIME**2) * (2.0 * np.pi / 512)
+    speed = np.gradient(counts, TIME)
+    signals = {"voltage": np.full(TIME.size, 5.0), "speed": speed} | ({"position": counts} if recorded else {})
+    assert initial_state_of(TIME, signals, MODEL).in_motion
+    assert not initial_state_of(TIME, signals, MODEL, way=CENTRAL).in_motion
+
+
+def test_the_difference_of_a_position_that_moves_is_a_motion() -> None:
+    counts = np.round(512 / (2.0 * np.pi) * 60.0 * TIME) * (2.0 * np.pi / 512)
+    signals = {"voltage": np.full(TIME.size, 5.0), "speed": np.gradient(counts, TIME)}
+    start = initial_state_of(TIME, signals, MODEL, way=CENTRAL)
+    assert start.in_motion
+    assert start.state[1] == pytest.approx(60.0, rel=0.15)

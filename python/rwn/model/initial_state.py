@@ -13,6 +13,7 @@ from rwn.model.model import Model
 from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
 from rwn.recording.signals import MEASURED
+from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral
 
 Array = NDArray[np.float64]
 INITIAL_POSITION = "initial_position"
@@ -38,13 +39,15 @@ class InitialState:
 
 
 def initial_state_of(
-    time: Array, signals: Mapping[str, Array], model: Model, *, missing: Mapping[str, NDArray[np.bool_]] = _NONE
-) -> InitialState:
+    time: Array, signals: Mapping[str, Array], model: Model, *, missing: Mapping[str, NDArray[np.bool_]] = _NONE,
+    way: SpeedMeasurement = INSTANTANEOUS,
+) -> InitialState:  # fmt: skip
     """The start of a recording (n,) each, SI, by what the model's [recording] table says of it or its first samples.
 
     A position that was recorded starts within its noise or its steps of the first sample; of one that was not, nothing
     is known once the shaft turned before. `missing`: samples (n,) that were not measured; of a signal that begins with
-    some, the first that was counts as the first, if it is among the samples that may tell the start.
+    some, the first that was counts as the first, if it is among the samples that may tell the start. `way`: in which
+    the speed was measured; a difference of positions is no speed at its first sample, but their slope there is.
     """
     first = model.recording.initial_samples
     signals = {n: x if n == "position" else _from_measured(x, missing.get(n), first) for n, x in signals.items()}
@@ -57,11 +60,11 @@ def initial_state_of(
         place = float(position[0])
         if known_to["position"] > 0.0:
             spread[INITIAL_POSITION] = known_to["position"]
-    current, (speed, off) = _first_current(signals), _first_speed(time, signals, known_to, first)
+    current, (speed, off) = _first_current(signals), _first_speed(time, signals, known_to, first, way)
     initial = model.recording.initial
-    if initial == "rest" or (initial == "auto" and not is_moving(time, signals, first)):
+    if initial == "rest" or (initial == "auto" and not is_moving(time, signals, first, way)):
         return InitialState(state=(0.0, 0.0, place), spread=spread)
-    sooner = _first_speed(time, signals, known_to, first // 2)[0]  # a step response is no curve of a few degrees
+    sooner = _first_speed(time, signals, known_to, first // 2, way)[0]  # a step response is no curve of a few degrees
     known_within = abs(speed) if "speed" in signals else float(np.hypot(off, speed - sooner))
     spread["initial_speed"] = max(known_within, known_to.get("speed", 0.0), 1e-9)
     if "position" not in signals and not (model.linear or model.drive.coefficients):
@@ -78,10 +81,10 @@ def initial_state_of(
     )
 
 
-def is_moving(time: Array, signals: Mapping[str, Array], first: int) -> bool:
+def is_moving(time: Array, signals: Mapping[str, Array], first: int, way: SpeedMeasurement) -> bool:
     """Whether the shaft turns, or current flows, at the first sample: more than the noise of the first ones makes."""
     known_to = {n: resolution(signals[n], first) for n in MEASURED if n in signals}
-    speed, off = _first_speed(time, signals, known_to, first)
+    speed, off = _first_speed(time, signals, known_to, first, way)
     flowing = abs(_first_current(signals)) > CERTAIN * known_to.get("current", 0.0)
     return abs(speed) > CERTAIN * off or flowing
 
@@ -104,15 +107,19 @@ def _first_current(signals: Mapping[str, Array]) -> float:
 
 
 def _first_speed(
-    time: Array, signals: Mapping[str, Array], known_to: Mapping[str, float], first: int
+    time: Array, signals: Mapping[str, Array], known_to: Mapping[str, float], first: int, way: SpeedMeasurement
 ) -> tuple[float, float]:
     """Speed at the first sample and its standard deviation; of a position alone, the slope of its first samples."""
-    if "speed" in signals:
-        return float(signals["speed"][0]), known_to["speed"]
     k = min(first, time.size - 1)
-    if "position" not in signals or k < 2:
+    if "speed" in signals and (not way.is_difference or k < 2):
+        return float(signals["speed"][0]), known_to["speed"]
+    if "position" in signals and k >= 2:
+        return _first_slope(time[:k] - time[0], signals["position"][:k], known_to["position"])
+    if "speed" not in signals:
         return 0.0, np.inf
-    return _first_slope(time[:k] - time[0], signals["position"][:k], known_to["position"])
+    step = float(np.median(np.diff(time[:k])))
+    turned = integral(way, time[:k], signals["speed"][:k])
+    return _first_slope(time[:k] - time[0], turned, known_to["speed"] * step * (way.before + way.after))
 
 
 def _first_slope(time: Array, position: Array, noise: float) -> tuple[float, float]:

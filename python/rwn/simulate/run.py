@@ -186,7 +186,8 @@ class Run:
         angle = integral(self.speed_measured, self.time, values) if self.angle_from_speed else self.angle
         changed: dict[str, Any] = {signal: values}
         before = replace(self, missing=missing, angle=angle, **changed)
-        if not self.told_by or is_moving(self.time, {s: before.measured(s) for s in before.recorded}, self.told_by):
+        signals = {s: before.measured(s) for s in before.recorded}
+        if not self.told_by or is_moving(self.time, signals, self.told_by, self.speed_measured):
             return before
         return replace(before, in_motion=False, told_by=0, start=(0.0, 0.0, self.start[2]), input_before=0.0)
 
@@ -225,11 +226,11 @@ def run_of(recording: Recording, model: Model) -> Run:
     given = signals[drive.input]
     time = recording.time - recording.time[0]
     speed, position = signals.get("speed", _NONE), signals.get("position", _NONE)
-    start = initial_state_of(time, signals, model, missing=recording.missing)
     way = INSTANTANEOUS
     if not drive.coefficients:
         new = {s: ~recording.missing.get(s, np.zeros(time.size, dtype=bool)) for s in ("speed", "position")}
         way = speed_measurement(time, speed, position, new=new["speed"], new_position=new["position"])
+    start = initial_state_of(time, signals, model, missing=recording.missing, way=way)
     run = Run(
         name=recording.name,
         time=np.ascontiguousarray(time),
