@@ -28,3 +28,9 @@ def test_a_first_step_of_a_signal_that_was_constant_is_no_motion() -> None:
         when = np.arange(1500.0) + rng.uniform(-0.3, 0.3, 1500)
         for signal in (steps, np.interp(when, np.arange(1500.0), steps)):
             assert 60 <= first_moved(signal) <= 130
+
+
+def test_a_signal_that_swings_from_its_first_sample_does_not_stand_still() -> None:
+    time = 1e-3 * np.arange(2000)
+    signal = 60.0 * np.sin(25.0 * time) + 0.5 * np.random.default_rng(0).standard_normal(time.size)
+    assert first_moved(signal) < 30

@@ -9,6 +9,7 @@ from rwn.model.initial_state import CERTAIN, resolution
 
 Array = NDArray[np.float64]
 
+COLOURED = 5.4  # deviation of noise behind a filter of phi = 0.95, over what its second differences show of it
 FEWEST = 3  # samples that stand still: fewer are what an inductance and an inertia take
 
 
@@ -16,8 +17,9 @@ def first_moved(signal: Array) -> int:
     """The first sample of a signal (n,) that is certainly elsewhere than those before, and stays so; else the last.
 
     Most of as many samples that follow are elsewhere too. Where the signal stood, and its noise, white or not, are
-    those of the first half of what came before each sample: a motion that sets in slowly is hardly in it. A few samples
-    tell little of either (Student's distribution).
+    those of the first half of what came before each sample: a motion that sets in slowly is hardly in it, and more than
+    a filter can make of the noise that differences show is a motion. A few samples tell little of either (Student's
+    distribution).
     """
     from scipy.special import ndtr, stdtrit  # late: the command line starts without it
 
@@ -25,8 +27,9 @@ def first_moved(signal: Array) -> int:
     off = signal - np.median(signal[:FEWEST])
     sums, squares = np.cumsum(off)[half - 1], np.cumsum(off**2)[half - 1]
     middle = sums / half
-    rms = np.sqrt(np.maximum(squares / half - middle**2, 0.0))
-    limit = np.maximum(stdtrit(half, ndtr(CERTAIN)) * rms, CERTAIN * _least_change(signal))
+    least = _least_change(signal)
+    rms = np.minimum(np.sqrt(np.maximum(squares / half - middle**2, 0.0)), COLOURED * least)
+    limit = np.maximum(stdtrit(half, ndtr(CERTAIN)) * rms, CERTAIN * least)
     moved = (int(k) for k in np.flatnonzero(np.abs(off - middle) > limit) if k >= FEWEST)
     lasting = (k for k in moved if np.median(np.abs(off[k : 2 * k + 1] - middle[k])) > limit[k])
     return next(lasting, signal.size - 1)
