@@ -50,6 +50,15 @@ def test_where_the_first_sample_is_missing_the_next_that_was_measured_tells(lost
     assert start.state[1] == pytest.approx(60.0 if in_motion else 0.0, abs=0.3)
 
 
+def test_values_held_between_updates_do_not_make_the_noise_small() -> None:
+    """As a bus brings them: a rest with noise is a rest, a motion is a motion."""
+    last = np.arange(TIME.size) // 4 * 4
+    missing = {"speed": np.arange(TIME.size) % 4 > 0}
+    for speed in (0.0, 60.0):
+        signals = {n: x[last] for n, x in _signals(np.full(TIME.size, speed)).items()}
+        assert initial_state_of(TIME, signals, MODEL, missing=missing).in_motion is (speed > 0.0)
+
+
 def test_the_model_file_may_say_it() -> None:
     resting = replace(MODEL, recording=replace(MODEL.recording, initial="rest"))
     assert not initial_state_of(TIME, _signals(np.full(TIME.size, 60.0)), resting).in_motion

@@ -53,7 +53,7 @@ def initial_state_of(
     signals = {n: x if n == "position" else _from_measured(x, missing.get(n), first) for n, x in signals.items()}
     signals = {n: x for n, x in signals.items() if x.size}
     position = signals.get("position", np.empty(0))
-    known_to = {n: resolution(signals[n], first) for n in signals if n != model.drive.input}
+    known_to = _known_to(signals, first, missing)
     spread = {}
     place = 0.0
     if position.size:
@@ -62,7 +62,7 @@ def initial_state_of(
             spread[INITIAL_POSITION] = known_to["position"]
     current, (speed, off) = _first_current(signals), _first_speed(time, signals, known_to, first, way)
     initial = model.recording.initial
-    if initial == "rest" or (initial == "auto" and not is_moving(time, signals, first, way)):
+    if initial == "rest" or (initial == "auto" and not is_moving(time, signals, first, way, missing)):
         return InitialState(state=(0.0, 0.0, place), spread=spread)
     sooner = _first_speed(time, signals, known_to, first // 2, way)[0]  # a step response is no curve of a few degrees
     known_within = abs(speed) if "speed" in signals else float(np.hypot(off, speed - sooner))
@@ -81,9 +81,12 @@ def initial_state_of(
     )
 
 
-def is_moving(time: Array, signals: Mapping[str, Array], first: int, way: SpeedMeasurement) -> bool:
-    """Whether the shaft turns, or current flows, at the first sample: more than the noise of the first ones makes."""
-    known_to = {n: resolution(signals[n], first) for n in MEASURED if n in signals}
+def is_moving(
+    time: Array, signals: Mapping[str, Array], first: int, way: SpeedMeasurement,
+    missing: Mapping[str, NDArray[np.bool_]] = _NONE,
+) -> bool:  # fmt: skip
+    """Whether the shaft turns, or current flows, at the first sample of signals (n,): more than their noise."""
+    known_to = _known_to(signals, first, missing)
     speed, off = _first_speed(time, signals, known_to, first, way)
     flowing = abs(_first_current(signals)) > CERTAIN * known_to.get("current", 0.0)
     return abs(speed) > CERTAIN * off or flowing
@@ -95,6 +98,12 @@ def _from_measured(signal: Array, missing: NDArray[np.bool_] | None, first: int)
         return signal
     begin = int(np.argmin(missing))
     return np.concatenate([np.full(begin, signal[begin]), signal[begin:]]) if 0 < begin < first else np.empty(0)
+
+
+def _known_to(signals: Mapping[str, Array], first: int, missing: Mapping[str, NDArray[np.bool_]]) -> dict[str, float]:
+    """Resolution of each measured signal; held or bridged values have no noise of their own."""
+    measured = {n: signals[n][~missing[n]] if n in missing else signals[n] for n in MEASURED if n in signals}
+    return {n: resolution(x, first) for n, x in measured.items()}
 
 
 def resolution(signal: Array, first: int) -> float:
