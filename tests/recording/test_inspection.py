@@ -46,6 +46,12 @@ def test_spikes_are_found_left_out_and_said(speed: Array) -> None:
     assert np.abs(np.asarray(found.recordings[0].signals["speed"])[[50, 1500, 3000]]).max() < 101.0
 
 
+def test_a_lone_spike_is_said_as_one(speed: Array) -> None:
+    speed[50] = 250.0
+    (found,) = inspected([_recording({"speed": speed})]).findings
+    assert found.words == "1 single sample of the speed is far off those beside it"
+
+
 def test_a_signal_that_jumps_often_has_no_spikes(speed: Array) -> None:
     speed[::23] += 30.0
     assert inspected([_recording({"speed": speed})]).findings == ()

@@ -81,10 +81,17 @@ def _in_all(first: Flags, together: int) -> Flags:
     return flags
 
 
+def _words(signal: str, flags: Flags) -> str:
+    count = int(flags.sum())
+    if count == 1:
+        return f"1 single sample of the {signal} is far off those beside it"
+    return f"{count} single samples of the {signal} are far off those beside them"
+
+
 # The input is what was commanded, and may jump as it likes.
 SPIKES = Check(
     kind="spikes",
     flags=_spikes,
-    words=lambda signal, flags: f"{int(flags.sum())} single samples of the {signal} are far off those beside them",
+    words=_words,
     done="left out",
 )
