@@ -14,7 +14,7 @@ import numpy as np
 from rwn import _core
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.intervals import covariance
+from rwn.fit.intervals import AGREEMENT, covariance
 from rwn.fit.prior import RunUnknown
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
@@ -88,6 +88,7 @@ def uneven(problem: Problem, this: Fit, level: Level) -> dict[str, tuple[float, 
     contrasts = np.eye(len(places)) - 1.0 / len(places)
     logarithms = contrasts @ this.minimum.values[places]
     spread = contrasts @ covariance(this, statistics(problem, this))[np.ix_(places, places)] @ contrasts
-    factors, deviations = np.exp(logarithms), np.sqrt(np.maximum(np.diag(spread), 0.0))
+    # no level is better known than any other number of a fit
+    factors, deviations = np.exp(logarithms), np.hypot(np.sqrt(np.maximum(np.diag(spread), 0.0)), AGREEMENT)
     rows = zip(names, factors, deviations, strict=True)
     return {name: (float(f), float(f * d)) for name, f, d in rows if abs(np.log(f)) > SURE * d}
