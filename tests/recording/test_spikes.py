@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from rwn.model.files import read_model
+from rwn.recording.inspection import inspected
 from rwn.recording.inspection.spikes import SPIKES
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import MEASURED
@@ -67,6 +68,15 @@ def test_a_run_that_begins_at_rest_under_a_step_begins_with_no_spike() -> None:
     noise = 0.01 * np.random.default_rng(1).standard_normal(TIME.size)
     current = np.where(TIME > 0.0, 5.0 * np.exp(-TIME / 0.5), 0.0) + noise
     assert not SPIKES.flags(_recording(current=current), "current").any()
+
+
+def test_a_spike_in_a_value_that_is_held_is_found_and_what_follows_it_is_held_too() -> None:
+    noise = 0.01 * np.random.default_rng(1).standard_normal(TIME.size // 5)
+    current = np.repeat(np.sin(TIME[::5]) + noise, 5)
+    current[[503, 2001]] = 9.0
+    (found,), _ = inspected([_recording(current=current)])
+    measured = np.flatnonzero(~found.missing["current"])
+    assert set(measured) == set(range(0, TIME.size, 5))
 
 
 def _flagged(file: Path) -> tuple[Recording, dict[str, Array]]:

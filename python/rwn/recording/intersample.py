@@ -22,7 +22,7 @@ from rwn.values import Values
 Array = NDArray[np.float64]
 
 JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
-CLEAR = 3.0  # deviations of a tick beyond which a row is certainly before or after it
+CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
 FINE = 8  # parts of a sample that are as good as a line
 
 AUTO = "auto"  # as the recordings show
@@ -113,27 +113,44 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
 
     `begin`: of the first tick [s]; None: as the rows' times have it.
     """
+    from scipy.special import ndtr  # late: the command line starts without it
+
     clock = _clock_beside(time)
     if clock is None:
         return None
     begin, first_time = (clock.start, time[0]) if begin is None else (begin, begin)
+    unclear = np.abs(clock.off) < CLEAR * clock.accuracy  # rows of which it is not known whether their tick was before
+    unclear[[0, -1]] = False
     last = np.floor(clock.ticks + clock.off).astype(np.int64)  # tick before each row
-    clear = np.abs(clock.off) > CLEAR * clock.accuracy  # of a row nearer to a tick nothing says which it shows
-    clear[[0, -1]] = True
-    last, values = last[clear], values[clear]
-    first = np.concatenate([[True], np.diff(last) > 0])
-    shown, seen = last[first], values[first]
     ticks = np.arange(last[0], last[-1] + 1)
-    after = np.searchsorted(shown, ticks)  # the first shown tick that is not before each
-    off = np.concatenate([[0.0], _off_the_line(shown, seen)])[after]
+    after, before = (_shown_at(ticks, np.where(unclear, clock.ticks - k, last), values) for k in (0, 1))
+    share = np.ones(ticks.size)  # of `after`
+    chance, near = ndtr(clock.off[unclear] / clock.accuracy[unclear]), clock.ticks[unclear] - last[0]
+    for place in (near - 1, near):  # each such row tells of two ticks
+        share[place[place >= 0]] = chance[place >= 0]
+    mixed, spread = _mixed(share, after, before)
     instants = begin + clock.period * ticks
     instants[0] = first_time
     late = np.concatenate([[True], instants[1:] > first_time])
-    return PiecewiseInput(
-        instants=instants[late],
-        values=_on_curve(ticks.astype(np.float64), shown.astype(np.float64), seen)[late],
-        spread=np.where(shown[after] == ticks, 0.0, off)[late],
-    )
+    return PiecewiseInput(instants=instants[late], values=mixed[late], spread=spread[late])
+
+
+def _shown_at(ticks: NDArray[np.int64], last: NDArray[np.int64], values: Array) -> tuple[Array, Array]:
+    """Value and deviation of an input at `ticks`, (m,) each, where rows of `values` show that of tick `last`, (n,)."""
+    first = np.concatenate([[True], np.diff(last) > 0])
+    shown, seen = last[first].astype(np.float64), values[first]
+    next_shown = np.minimum(np.searchsorted(shown, ticks), shown.size - 1)
+    off = np.concatenate([[0.0], _off_the_line(shown, seen)])[next_shown]
+    curve = _on_curve(ticks.astype(np.float64), shown, seen)
+    known = shown[next_shown] == ticks
+    return np.where(known, seen[next_shown], curve), np.where(known, 0.0, off)
+
+
+def _mixed(share: Array, one: tuple[Array, Array], other: tuple[Array, Array]) -> tuple[Array, Array]:
+    """Mean and deviation (m,) of what is `one` with this probability (m,), and else the `other`."""
+    mean = share * one[0] + (1.0 - share) * other[0]
+    variance = share * one[1] ** 2 + (1.0 - share) * other[1] ** 2 + share * (1.0 - share) * (one[0] - other[0]) ** 2
+    return np.where(one[0] == other[0], one[0], mean), np.sqrt(variance)
 
 
 def _divided(

@@ -25,6 +25,7 @@ def _repeated(recording: Recording, signal: str) -> Flags:
     gaps = np.diff(np.flatnonzero(~repeats))
     usual = int(np.median(gaps))
     regular = usual >= 2 and float(np.mean(gaps == usual)) > AT_ONCE
+    repeats[2:] |= x[2:] == x[:-2]  # also behind a single spike
     return repeats if regular or (quantum(x) == 0.0 and usual >= 2) else none
 
 

@@ -17,6 +17,7 @@ LEVEL = 0.01  # chance that one is found in Gaussian noise, in all samples toget
 RARE = 0.02  # most of the samples that are called spikes: a signal that jumps more often does so by itself
 BESIDE = 0.25  # most that a signal may move beside a spike, in units of the jump
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
+FEWEST = 8  # samples among which one is found
 SETTLING = 3  # samples after a step of the input in which a current may peak by itself
 
 
@@ -32,7 +33,19 @@ def _after_steps(recording: Recording) -> Flags:
 
 
 def _spikes(recording: Recording, signal: str) -> Flags:
-    x, after_steps = np.asarray(recording.signals[signal]), _after_steps(recording)
+    """Among the samples that were measured: what is held between updates has no noise."""
+    missing = recording.missing.get(signal, np.zeros(len(recording), dtype=bool))
+    measured = np.flatnonzero(~missing)
+    if measured.size < FEWEST:
+        return np.zeros(missing.size, dtype=bool)
+    since = np.append(0, measured[:-1] + 1)  # the last sample that was measured
+    after_steps = np.maximum.reduceat(_after_steps(recording), since)[: measured.size]
+    flags = np.zeros(missing.size, dtype=bool)
+    flags[measured] = _among(np.asarray(recording.signals[signal])[measured], after_steps)
+    return flags
+
+
+def _among(x: Array, after_steps: Flags) -> Flags:
     found = np.zeros(x.size, dtype=bool)
     bridged = x
     must_be_beyond = np.pad(after_steps, 1, constant_values=True)
@@ -56,7 +69,7 @@ def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     from scipy.stats import norm
 
     noise = max(noise_from_differences(x), quantum(x))
-    if x.size < 10 or noise == 0.0:
+    if noise == 0.0:
         return np.zeros(x.size, dtype=bool)
     limit = float(norm.isf(0.5 * LEVEL / x.size)) * noise * np.sqrt(1.5)  # a sample against the mean of two
     before, after = x[: -together - 1], x[together + 1 :]
