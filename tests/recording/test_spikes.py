@@ -68,6 +68,8 @@ def test_a_run_that_begins_at_rest_under_a_step_begins_with_no_spike() -> None:
     noise = 0.01 * np.random.default_rng(1).standard_normal(TIME.size)
     current = np.where(TIME > 0.0, 5.0 * np.exp(-TIME / 0.5), 0.0) + noise
     assert not SPIKES.flags(_recording(current=current), "current").any()
+    current[[0, -1]] = 0.0
+    assert not SPIKES.flags(_recording(current=current), "current").any()
 
 
 def test_a_spike_in_a_value_that_is_held_is_found_and_what_follows_it_is_held_too() -> None:

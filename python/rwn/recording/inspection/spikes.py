@@ -82,6 +82,7 @@ def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     others[[0, -1]] = False  # these are mirrored
     beyond = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[others]), initial=0.0))
     dropped = np.all(here == 0.0, axis=0)
+    dropped[[0, -1]] = False  # a run begins and ends at rest
     may = beyond | (~must_be_beyond[1:-together] & (together == 1))
     return _in_all(off & (dropped | (smooth & may)), together)
 
