@@ -56,7 +56,7 @@ def coloured_signals(problem: Problem, residuals: Sequence[Mapping[str, Array]])
 
 
 def is_noise_alone(problem: Problem, residuals: Sequence[Mapping[str, Array]], seen: SensorFilter) -> bool:
-    """Whether errors are noise of this colour and nothing else."""
+    """Whether errors, (n,) of each run by signal, are noise of this colour and nothing else."""
     parts = [run.masked(seen.signal, r[seen.signal]) for run, r in zip(problem.runs, residuals, strict=True)
              if seen.signal in r]  # fmt: skip
     fresh = [x[1:] - seen.share * x[:-1] for x in parts]
