@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rwn.errors import unknown
 from rwn.recording.clock import Clock, clock_of
 from rwn.recording.interpolated import InterpolatedRows, interpolated_rows
+from rwn.recording.noise import noise_from_differences
 from rwn.values import Values
 
 Array = NDArray[np.float64]
@@ -113,26 +114,47 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
 
     `begin`: of the first tick [s]; None: as the rows' times have it.
     """
-    from scipy.special import ndtr  # late: the command line starts without it
-
     clock = _clock_beside(time)
     if clock is None:
         return None
     begin, first_time = (clock.start, time[0]) if begin is None else (begin, begin)
-    unclear = np.abs(clock.off) < CLEAR * clock.accuracy  # rows of which it is not known whether their tick was before
-    unclear[[0, -1]] = False
-    last = np.floor(clock.ticks + clock.off).astype(np.int64)  # tick before each row
+    last, unclear = _last_ticks(clock, values)
     ticks = np.arange(last[0], last[-1] + 1)
     after, before = (_shown_at(ticks, np.where(unclear, clock.ticks - k, last), values) for k in (0, 1))
-    share = np.ones(ticks.size)  # of `after`
-    chance, near = ndtr(clock.off[unclear] / clock.accuracy[unclear]), clock.ticks[unclear] - last[0]
-    for place in (near - 1, near):  # each such row tells of two ticks
-        share[place[place >= 0]] = chance[place >= 0]
-    mixed, spread = _mixed(share, after, before)
+    mixed, spread = _mixed(_chance_after(clock, unclear, ticks), after, before)
     instants = begin + clock.period * ticks
     instants[0] = first_time
     late = np.concatenate([[True], instants[1:] > first_time])
     return PiecewiseInput(instants=instants[late], values=mixed[late], spread=spread[late])
+
+
+def _last_ticks(clock: Clock, values: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """The tick before each row, and whether it may as well be the one before that, (n,) each.
+
+    It is where the row is nearer to a tick than that is known, unless a neighbour shows that tick with another value.
+    """
+    last = np.floor(clock.ticks + clock.off).astype(np.int64)
+    unclear = np.abs(clock.off) < CLEAR * clock.accuracy
+    unclear[[0, -1]] = False
+    another = np.abs(np.diff(values)) > CLEAR * noise_from_differences(values)  # than that of the row before
+    rows = np.flatnonzero(unclear)
+    by_next = ~unclear[rows + 1] & (last[rows + 1] == clock.ticks[rows]) & another[rows]
+    by_previous = ~unclear[rows - 1] & (last[rows - 1] == clock.ticks[rows] - 1) & another[rows - 1]
+    last[rows[by_next]] = clock.ticks[rows[by_next]] - 1
+    last[rows[by_previous]] = clock.ticks[rows[by_previous]]
+    unclear[rows[by_next | by_previous]] = False
+    return last, unclear
+
+
+def _chance_after(clock: Clock, unclear: NDArray[np.bool_], ticks: NDArray[np.int64]) -> Array:
+    """That the row which `ticks` (m,) hang on was taken after its own: the last unclear one up to the next tick."""
+    from scipy.special import ndtr  # late: the command line starts without it
+
+    if not unclear.any():
+        return np.ones(ticks.size)
+    place = np.searchsorted(clock.ticks[unclear], ticks + 1, side="right") - 1
+    chance = ndtr(clock.off[unclear] / clock.accuracy[unclear])
+    return np.where(place < 0, 1.0, chance[np.maximum(place, 0)])
 
 
 def _shown_at(ticks: NDArray[np.int64], last: NDArray[np.int64], values: Array) -> tuple[Array, Array]:
