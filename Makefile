@@ -9,7 +9,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 export PYTHONDONTWRITEBYTECODE :=
 PIP := $(PY) -m pip install -q --disable-pip-version-check
 
-.PHONY: demo demo-real test check test-cpp test-sanitize test-sanitize-lint test-python test-browser mutants lint lint-only bench install \
+.PHONY: demo demo-real test check check-python test-cpp test-sanitize test-sanitize-lint test-python test-browser mutants lint lint-only bench install \
   install-cmake install-tools install-test stubs docs develop clean
 
 # Installed once; again only where something that goes into it has changed.
@@ -55,9 +55,13 @@ test:
 test-sanitize-lint: test-sanitize install-test
 	@$(MAKE) --no-print-directory lint-only
 
-# What to run while working: lint, types, imports, and every test that is not marked slow, on the checkout as it is (`make develop` built it).
-check: lint-only
+# What to run while working: lint, types, imports, and every test that is not marked slow, on the checkout as it is (`make develop`
+# built it). The linters go on beside pytest.
+check:
 	@ls .venv/lib/python3*/site-packages/rwn/_core*.so >/dev/null 2>&1 || { echo "check: run 'make develop' first" >&2; exit 2; }
+	@$(MAKE) -j2 --no-print-directory lint-only check-python
+
+check-python:
 	$(PY) -m pytest -q -n $(JOBS) --dist worksteal -m "not slow"
 
 # The C++ tests as they are shipped: optimised, with the kernels of this processor.

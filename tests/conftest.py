@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+import gc
 import os
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,12 @@ settings.load_profile("repeatable")
 def pytest_report_header() -> str:
     """`make test` builds the kernels of this processor alone, beside the plainest."""
     return f"rwn: kernels of {_core.isa()}"
+
+
+def pytest_collection_finish() -> None:
+    """What was imported and collected lives to the end: no collection of garbage need walk through it again."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture

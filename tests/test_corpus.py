@@ -18,7 +18,7 @@ from tools.trust.hostile import GOOD, count, ended  # noqa: E402
 ALTERED = 20  # inputs for each target, made of its corpus
 
 
-@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("target", [pytest.param(t, marks=pytest.mark.slow) if t == "mf4" else t for t in TARGETS])
 def test_a_reader_refuses_or_reads(target: str) -> None:
     corpus = [path.read_bytes() for path in sorted((CORPUS / target).iterdir())]
     assert corpus

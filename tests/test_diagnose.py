@@ -162,7 +162,10 @@ def test_simulation_follows_the_recording(demo: Diagnosis) -> None:
     assert np.sqrt(np.mean(error**2)) < 0.05 * np.sqrt(np.mean(heldout.signals["speed"] ** 2))
 
 
-@pytest.mark.parametrize(("wandering", "searches"), [(0.0, [0.1]), (0.004, [0.1, 0.3])], ids=["nothing", "unnamed"])
+@pytest.mark.parametrize(
+    ("wandering", "searches"),
+    [pytest.param(0.0, [0.1], id="nothing"), pytest.param(0.004, [0.1, 0.3], id="unnamed", marks=pytest.mark.slow)],
+)
 def test_where_nothing_explains_it_a_longer_search_follows(
     wandering: float, searches: list[float], monkeypatch: pytest.MonkeyPatch
 ) -> None:

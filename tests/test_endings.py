@@ -74,6 +74,7 @@ def test_a_defect_keeps_its_traceback() -> None:
         run(_raises(ZeroDivisionError()))
 
 
+@pytest.mark.slow
 def test_the_second_ctrl_c_ends_what_swallowed_the_first() -> None:
     script = """
 import os, signal, time
@@ -91,6 +92,7 @@ run(deaf)
     assert (done.returncode, done.stderr) == (STOPPED, "rwn: stopped\n")
 
 
+LATE = [pytest.param(module, marks=pytest.mark.slow) for module in ("rwn.diagnose", "rwn.cli")]
 STARTS = {
     "rwn": 'from rwn_command import main; sys.argv = ["rwn", "effects"]; main()',
     "python -m rwn": 'sys.argv = ["-m", "effects"]; sys.orig_argv = ["python", "-m", "rwn", "effects"]\n'
@@ -99,7 +101,7 @@ STARTS = {
 
 
 @pytest.mark.parametrize("start", STARTS)
-@pytest.mark.parametrize("module", ["numpy", "numpy.linalg", "rwn.diagnose", "rwn.cli"])
+@pytest.mark.parametrize("module", ["numpy", "numpy.linalg", *LATE])
 def test_ctrl_c_while_rwn_is_imported_is_one_line(module: str, start: str) -> None:
     """An extension whose import is cut short fails as an ImportError that names no Ctrl-C."""
     script = f"""

@@ -62,6 +62,7 @@ def _counted(work: Work, most: int) -> Tally:
     return tally
 
 
+@pytest.mark.slow
 def test_files_that_are_moved_into_place_lose_nothing() -> None:
     tally = _counted(_work(_whole), 30)
     assert tally.expected == ["0.json", "1.json", "2.json"]

@@ -66,6 +66,7 @@ def test_what_a_sound_axis_leaves_is_noise() -> None:
     assert left.count == sum(isinstance(r, BalancedRun) and r.time.size for r in problem.runs)
 
 
+@pytest.mark.slow
 def test_cogging_is_named_by_the_force_of_a_position_loop() -> None:
     found = rwn.diagnose([held(1)], SHEET, heldout=[held(2)])
     assert [e.name for e in found.effects] == ["cogging-torque"]

@@ -65,7 +65,7 @@ def test_a_type_that_there_is_not_does_not_reach_scipy(kind: int, size: int, tmp
         read_recording(tmp_path / "a.mat")
 
 
-@pytest.mark.parametrize("packed", [False, True])
+@pytest.mark.parametrize("packed", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_whatever_bytes_are_altered_it_ends(packed: bool, tmp_path: Path) -> None:
     scipy.io.savemat(tmp_path / "a.mat", NESTED, do_compression=packed)
     content, draw = (tmp_path / "a.mat").read_bytes(), random.Random(1)

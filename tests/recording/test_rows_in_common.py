@@ -113,6 +113,7 @@ def test_the_real_recordings_have_none_in_common(shared: Path) -> None:
         assert not [(a.name, b.name) for a, b in permutations(runs, 2) if rows_in_common(a, b)], folder.name
 
 
+@pytest.mark.slow
 def test_it_is_said_of_a_recording_that_is_kept_back() -> None:
     run = rwn.read_recording(DEMO / "train.csv")
     signals = {name: values[3000:].copy() for name, values in run.signals.items()}

@@ -106,6 +106,7 @@ def _loaded(out: Path) -> tuple[Diagnosis | None, str]:
         return None, str(error)
 
 
+@pytest.mark.slow
 @forks
 @ways
 def test_a_process_that_is_stopped_before_any_change_leaves_no_mixture(
@@ -176,6 +177,7 @@ def test_what_stops_a_move_leaves_one_result(
         assert ends[-1] == after
 
 
+@pytest.mark.slow
 @forks
 def test_what_waits_does_not_take_the_place_of_a_later_result(
     place: Callable[[Files], Path], files: Callable[[Diagnosis | None], Files]

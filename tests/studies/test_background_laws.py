@@ -156,6 +156,7 @@ def test_wandering_torque_has_its_rms_and_its_correlation_time() -> None:
     assert np.mean(torque[lag:] * torque[:-lag]) / np.var(torque) == pytest.approx(np.exp(-1.0), abs=0.07)
 
 
+@pytest.mark.slow
 def test_wandering_torque_is_the_same_for_its_seed_alone() -> None:
     np.testing.assert_array_equal(wandering(3.0), wandering(3.0))
     assert abs(np.corrcoef(wandering(3.0), wandering(4.0))[0, 1]) < 0.2

@@ -88,6 +88,7 @@ def test_emps_friction_drifts_between_the_files(shared: Path) -> None:
     assert 0.015 < change[2] < 0.04
 
 
+@pytest.mark.slow
 def test_fra233_dry_friction_does_not_bend_the_motor_beyond_belief(shared: Path) -> None:
     model = nominal_model("fra233")
     folder = shared / "data" / fra233.MACHINE.folder

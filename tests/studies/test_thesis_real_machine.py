@@ -57,6 +57,7 @@ def test_a_free_run_is_the_simulation_fed_with_its_own_speed(c: float) -> None:
         np.testing.assert_allclose(fit.free_run(voltage), speed, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_every_network_is_better_than_none_where_there_is_friction(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

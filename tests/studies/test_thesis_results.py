@@ -62,6 +62,7 @@ def test_a_finished_experiment_is_not_run_again(tmp_path: Path) -> None:
     assert len(calls) == 2, "another count is another run"
 
 
+@pytest.mark.slow
 def test_the_longest_trainings_are_made_from_as_many_seeds_as_asked(tmp_path: Path) -> None:
     asked: list[int] = []
 
