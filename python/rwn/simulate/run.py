@@ -183,9 +183,10 @@ class Run:
         missing = dict(self.missing)
         if signal in missing:
             missing[signal] = after_missing(missing[signal])
-        angle = integral(self.speed_measured, self.time, values) if self.angle_from_speed else self.angle
         changed: dict[str, Any] = {signal: values}
-        before = replace(self, missing=missing, angle=angle, **changed)
+        if signal == "speed" and self.angle_from_speed:
+            changed["angle"] = integral(self.speed_measured, self.time, values)
+        before = replace(self, missing=missing, **changed)
         signals = {s: before.measured(s) for s in before.recorded}
         if not self.told_by or is_moving(self.time, signals, self.told_by, self.speed_measured):
             return before
