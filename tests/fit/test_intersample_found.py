@@ -110,3 +110,15 @@ def test_currents_beside_a_step_between_the_rows_are_not_compared() -> None:
     assert set(steps) <= set(np.flatnonzero(found.missing["current"]))
     assert found.missing["current"].mean() < 0.05
     assert without_unknown([kept], stating(MODEL, "held")) == [kept]
+
+
+@pytest.mark.parametrize(("period", "law"), [(1.6e-3, "rounded"), (2.5e-3, "rounded"), (2e-3, "held")])
+def test_times_that_are_written_in_milliseconds_are_told_from_the_ticks_behind_them(period: float, law: str) -> None:
+    time = period * np.arange(3000)
+    voltage = 3.0 * np.sin(2 * np.pi * (0.5 * time + time**2))
+    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    speed = rwn.simulate(MODEL, bare).signals["speed"] + 0.05 * np.random.default_rng(0).standard_normal(time.size)
+    run = rwn.Recording(name="run", time=np.round(time, 3), signals={"voltage": voltage, "speed": speed})
+    found = with_intersample([run], MODEL)
+    assert found.recording.intersample == law
+    assert np.std(rwn.simulate(found, run).signals["speed"] - speed) < 0.06

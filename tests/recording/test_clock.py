@@ -41,3 +41,13 @@ def test_rows_without_a_clock_count_as_one_each() -> None:
     clock = clock_of(np.cumsum(np.random.default_rng(4).exponential(1e-3, 200)))
     assert clock.lost == 0
     assert clock.jitter > 0.5
+
+
+@pytest.mark.parametrize("lost", [0, 50])
+@pytest.mark.parametrize("period", [1.6e-3, 2.5e-3, 3.2e-3, 6.4e-3])
+def test_a_clock_is_found_behind_times_that_are_written_in_milliseconds(period: float, lost: int) -> None:
+    ticks = np.arange(5000)
+    ticks = np.delete(ticks, np.random.default_rng(0).choice(np.arange(1, 4999), lost, replace=False))
+    clock = clock_of(np.round(period * ticks, 3))
+    assert clock.period == pytest.approx(period, rel=1e-6)
+    assert clock.lost == lost

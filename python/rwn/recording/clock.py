@@ -12,6 +12,8 @@ Array = NDArray[np.float64]
 IRREGULAR = 1e-3  # jitter that is more than rounded timestamps
 FIRST = 512  # rows that show a clock beside which they lie up to 0.4 periods off
 SEARCHED = 4.0  # deviations of the median step of these, within which the period is looked for
+AS_WELL = 1.01  # agreement with a grid of fewer rows than ticks, in units of that with all ticks
+LOST = 0.05  # of the rows, at most, where their times are rounded
 FARTHEST = 0.3  # relative distance from the median step beyond which most steps would skip a tick
 PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows
 ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
@@ -58,12 +60,15 @@ def clock_of(time: Array) -> Clock:
     steps = np.diff(time[:rows])
     usual = float(np.median(steps))
     spread = float(np.percentile(np.abs(steps - usual), 68.0)) / usual
-    reach = SEARCHED * 1.25 * spread / np.sqrt(steps.size)  # 1.25: of a median, against a mean
-    period, start = _agreeing(time[:rows], usual, min(reach, FARTHEST))
+    reach = min(SEARCHED * 1.25 * spread / np.sqrt(steps.size), FARTHEST)  # 1.25: of a median, against a mean
+    # the median of rounded steps is one of these; the mean is longer than the period by the share of rows that are lost
+    by_mean = _agreeing(time[:rows], float(np.mean(steps)), max(reach, LOST))
+    by_median = _agreeing(time[:rows], usual, reach)
+    _, period, start = by_median if by_median[0] > AS_WELL * by_mean[0] else by_mean
     while rows < time.size:
         rows = min(2 * rows, time.size)
         two_cycles = 2.0 / rows
-        period, start = _agreeing(time[: rows : -(-rows // ENOUGH)], period, two_cycles)
+        _, period, start = _agreeing(time[: rows : -(-rows // ENOUGH)], period, two_cycles)
     ticks = np.rint((time - start) / period)
     if np.any(np.diff(ticks) < 1):
         ticks, period = np.arange(time.size, dtype=np.float64), usual
@@ -74,11 +79,11 @@ def clock_of(time: Array) -> Clock:
     return Clock(period=period, start=start + period * ticks[0], ticks=(ticks - ticks[0]).astype(np.int64), off=off)
 
 
-def _agreeing(time: Array, period: float, reach: float) -> tuple[float, float]:
-    """The period within a relative `reach` of one, and a tick, about which rows at `time` (n,) lie closest."""
+def _agreeing(time: Array, period: float, reach: float) -> tuple[float, float, float]:
+    """How well rows at `time` (n,) agree in phase at the best period within a relative `reach`, that, and a tick."""
     cycles = (time - time[0]) / period
     shifts = np.linspace(-reach, reach, 2 * int(np.ceil(PER_CYCLE * reach * cycles[-1])) + 1)
     sums = [complex(np.exp(2j * np.pi * (1.0 + shift) * cycles).sum()) for shift in shifts]
     best = int(np.argmax(np.abs(sums)))
     period = period / (1.0 + float(shifts[best]))
-    return period, float(time[0]) + period * float(np.angle(sums[best])) / (2.0 * np.pi)
+    return abs(sums[best]), period, float(time[0]) + period * float(np.angle(sums[best])) / (2.0 * np.pi)

@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 
 JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
 CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
+ROUNDING = 1e-6  # of times as numbers, relatively
 FINE = 8  # parts of a sample that are as good as a line
 
 AUTO = "auto"  # as the recordings show
@@ -107,6 +108,37 @@ def between_ticks(time: Array) -> InterpolatedRows | None:
     """Rows at times (n,) as lines between samples at the ticks of the clock that they lie beside; None: of none."""
     clock = _clock_beside(time)
     return None if clock is None or np.abs(clock.off).max() >= 0.5 else interpolated_rows(time, clock)
+
+
+def rounded(time: Array) -> InterpolatedRows | None:
+    """Rows at times (n,) that are rounded from the ticks of a clock, as the samples at these; None: they are not."""
+    clock, step = _clock_beside(time), _written_to(time)
+    if clock is None or np.ptp(clock.off) - 2.0 * CLEAR * np.max(clock.accuracy) > step / clock.period:
+        return None
+    nothing = np.zeros(time.size)
+    ticks = np.asarray(clock.period * clock.ticks)
+    return InterpolatedRows(rows=time - time[0], ticks=ticks, before=nothing, after=nothing, cut=nothing > 0.0)
+
+
+def _written_to(time: Array) -> float:
+    """The step [s] that times (n,) are whole multiples of, as few digits make them; 0: none."""
+    steps = np.unique(np.diff(time))
+    apart = np.diff(steps)
+    apart = apart[apart > ROUNDING * steps[-1]]
+    if not apart.size:
+        return 0.0
+    step = float(np.min(apart))
+    return step if np.max(np.abs(time / step - np.rint(time / step))) < ROUNDING * time.size else 0.0
+
+
+def _held_from_ticks(time: Array, values: Array) -> PiecewiseInput | None:
+    """As held, from tick to tick; over lost rows as bridged."""
+    rows = rounded(time)
+    if rows is None:
+        return None
+    return _bridged(rows.ticks, values) or PiecewiseInput(
+        instants=rows.ticks, values=values, spread=np.zeros(values.size)
+    )
 
 
 def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> PiecewiseInput | None:
@@ -238,5 +270,10 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
         applied=partial(_at_ticks, begin=0.0),
         words="it changed at the ticks of a clock, between whose samples the rows were interpolated",
         samples=between_ticks,
+    ),
+    "rounded": IntersampleLaw(
+        applied=_held_from_ticks,
+        words="it changed at the ticks of a clock, which the times of the rows are rounded from",
+        samples=rounded,
     ),
 }
