@@ -93,19 +93,23 @@ def _inferred(
         weight = diags_array(compared.astype(np.float64))
         responses[signal] = (weight @ response).tocsr()
         errors[signal] = compared * lfilter([1.0, -1.0], [1.0, -SLOW], filled) + responses[signal] @ before
+    if not responses:
+        return given
     share, levels = _magnitudes(responses, errors, given.spread[first])
-    spread = share * given.spread[first]
     responses = {s: r / levels[s] for s, r in responses.items()}
-    errors = {s: e / levels[s] for s, e in errors.items()}
-    moved = _told(responses, errors, spread)
+    rng = np.random.default_rng(0)
+    both = {s: np.stack([e / levels[s], rng.standard_normal(e.size)], axis=1) for s, e in errors.items()}
+    told = _told(responses, both, share * given.spread[first])
+    moved = told[:, 0]
     limit = np.sqrt(3.0) * given.spread[first]  # half the way from neighbour to neighbour
     values = given.values.copy()
     values[unknown] += np.clip(moved, -limit, limit)[np.searchsorted(first, np.flatnonzero(unknown), side="right") - 1]
-    return replace(given, values=values, noise_left=_noise_left(responses, spread))
+    noise = {s: (noises[:, 1], responses[s] @ told[:, 1]) for s, noises in both.items()}
+    return replace(given, values=values, noise_left={s: _share_left(*each) for s, each in noise.items()})
 
 
 def _told(responses: Mapping[str, csr_array], errors: Mapping[str, Array], spread: Array) -> Array:
-    """The unknown values (m,) of deviations `spread` (m,) that errors (n,) of unit noise tell, by signal."""
+    """The unknown values (m, k) of deviations `spread` (m,) that errors (n, k) of unit noise tell, by signal."""
     from scipy.sparse import diags_array
     from scipy.sparse.linalg import spsolve
 
@@ -123,9 +127,9 @@ def _magnitudes(
     few = min(spread.size, TELLING)
     begin = int(np.argmax(np.convolve(spread, np.ones(few), mode="valid")))
     these = slice(begin, begin + few)
-    parts = {s: np.asarray(r[:, these].todense()) * spread[these] for s, r in responses.items()}
-    kept = {s: np.flatnonzero(p.any(axis=1)) for s, p in parts.items()}  # rows that say anything
-    parts = {s: p[kept[s]] for s, p in parts.items()}
+    blocks = {s: r[:, these] for s, r in responses.items()}
+    kept = {s: np.unique(block.nonzero()[0]) for s, block in blocks.items()}  # rows that say anything
+    parts = {s: blocks[s][kept[s]].toarray() * spread[these] for s in blocks}
     targets = {s: errors[s][kept[s]] for s in parts}
     grams = {s: p.T @ p for s, p in parts.items()}
     share, noise = 1.0, dict.fromkeys(parts, 1.0)
@@ -139,17 +143,9 @@ def _magnitudes(
     return float(np.sqrt(share)), {s: float(np.sqrt(v)) for s, v in noise.items()}
 
 
-def _noise_left(responses: Mapping[str, csr_array], spread: Array) -> dict[str, float]:
-    """What is left of white noise where it tells unknown values of deviations `spread` (m,), by signal."""
-    rng = np.random.default_rng(0)
-    drawn = {s: rng.standard_normal(r.shape[0]) for s, r in responses.items()}
-    told = _told(responses, drawn, spread)
-
-    def kept(noise: Array, response: csr_array) -> float:
-        share = noise_from_differences(noise - response @ told) / noise_from_differences(noise)
-        return float(np.clip(share, LEAST_LEFT, 1.0))
-
-    return {s: kept(drawn[s], response) for s, response in responses.items()}
+def _share_left(noise: Array, told: Array) -> float:
+    """What is left of the deviation of white noise (n,) without what it `told` (n,) of an input by itself."""
+    return float(np.clip(noise_from_differences(noise - told) / noise_from_differences(noise), LEAST_LEFT, 1.0))
 
 
 def _pulses(problem: Problem, this: Fit, run: Run, signal: str, begin: Array, end: Array) -> csr_array:
