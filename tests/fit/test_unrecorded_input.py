@@ -12,8 +12,9 @@ from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intersample import stating
 from rwn.fit.nominal import nominal_of
-from rwn.fit.unrecorded_input import with_unrecorded_input
+from rwn.fit.unrecorded_input import _farthest, with_unrecorded_input
 from rwn.model.model import Model
+from rwn.recording.intersample import PiecewiseInput
 
 MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
          "viscous_friction": 2e-5}  # fmt: skip
@@ -83,3 +84,13 @@ def test_as_many_unknown_values_as_samples_do_not_pass_for_less_noise(rough: flo
     assert all(found[s] > 0.75 * level[s] for s in level)
     if not rough:  # else most of what the current shows may be either
         assert found == pytest.approx(level, rel=0.25)
+
+
+def test_a_value_that_leans_to_one_neighbour_may_yet_be_the_other() -> None:
+    """As of a tick that its row shows by a chance of one in six."""
+    given = PiecewiseInput(
+        instants=STEP * np.arange(4.0), values=np.array([6.0, -1.0, -2.0, -2.0]), spread=np.array([0.0, 2.0, 0.0, 0.0])
+    )
+    low, high = _farthest(given, np.array([1]), np.array([2]))
+    assert low == pytest.approx(-2.0 * np.sqrt(3.0))
+    assert high == pytest.approx(7.0)

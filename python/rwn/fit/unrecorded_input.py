@@ -100,12 +100,19 @@ def _inferred(
     rng = np.random.default_rng(0)
     both = {s: np.stack([e / levels[s], rng.standard_normal(e.size)], axis=1) for s, e in errors.items()}
     told = _told(responses, both, share * given.spread[first])
-    moved = told[:, 0]
-    limit = np.sqrt(3.0) * given.spread[first]  # half the way from neighbour to neighbour
+    low, high = _farthest(given, first, after)
     values = given.values.copy()
-    values[unknown] += np.clip(moved, -limit, limit)[np.searchsorted(first, np.flatnonzero(unknown), side="right") - 1]
+    values[unknown] += np.clip(told[:, 0], low, high)[np.searchsorted(first, np.flatnonzero(unknown), side="right") - 1]
     noise = {s: (noises[:, 1], responses[s] @ told[:, 1]) for s, noises in both.items()}
     return replace(given, values=values, noise_left={s: _share_left(*each) for s, each in noise.items()})
+
+
+def _farthest(given: PiecewiseInput, first: NDArray[np.intp], after: NDArray[np.intp]) -> tuple[Array, Array]:
+    """How far unknown values from `first` (m,) on may move, (m,) each: to either neighbour, or off the line as far."""
+    off, last = np.sqrt(3.0) * given.spread[first], given.values.size - 1
+    beside = np.stack([np.maximum(first - 1, 0), np.append(after, last)[: first.size]])
+    way = given.values[beside] - given.values[first]
+    return np.minimum(way.min(axis=0), -off), np.maximum(way.max(axis=0), off)
 
 
 def _told(responses: Mapping[str, csr_array], errors: Mapping[str, Array], spread: Array) -> Array:
