@@ -55,10 +55,11 @@ test:
 test-sanitize-lint: test-sanitize install-test
 	@$(MAKE) --no-print-directory lint-only
 
-# What to run while working: lint, types, imports, and every test that is not marked slow, on the checkout as it is (`make develop`
-# built it). The linters go on beside pytest.
+# What to run while working: lint, types, imports, and every test that is not marked slow, on the checkout as it is, which
+# `make develop` installed. The linters go on beside pytest.
 check:
-	@ls .venv/lib/python3*/site-packages/rwn/_core*.so >/dev/null 2>&1 || { echo "check: run 'make develop' first" >&2; exit 2; }
+	@diff -rq -x '*.so' -x __pycache__ python/rwn .venv/lib/python3*/site-packages/rwn >/dev/null 2>&1 || \
+	  { echo "check: what is installed is not this checkout; run 'make develop' first" >&2; exit 2; }
 	@$(MAKE) -j2 --no-print-directory lint-only check-python
 
 check-python:
