@@ -5,16 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from made_up_motor import MOTOR
 from rwn.model.model import Model
 from rwn.recording.filters import as_filtered
 from rwn.recording.recording import Recording
 from rwn.simulate.run import Run, run_of
 
-MODEL = Model(
-    kind="dc",
-    parameters={"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
-                "inertia": 2e-5, "viscous_friction": 2e-5},
-)  # fmt: skip
+MODEL = Model(kind="dc", parameters=MOTOR)
 TIME = 1e-3 * np.arange(400)
 SPEED, CURRENT = 40.0 * np.sin(15.0 * TIME), np.cos(15.0 * TIME)
 
