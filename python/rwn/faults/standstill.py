@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.filter_colour import MOST
 from rwn.model.initial_state import CERTAIN, resolution
 
 Array = NDArray[np.float64]
 
-COLOURED = 5.4  # deviation of noise behind a filter of phi = 0.95, over what its second differences show of it
+# Deviation of noise that the slowest filter of a sensor has passed, over what its second differences show of it.
+COLOURED = float(np.sqrt(6.0 / (6.0 - 8.0 * MOST + 2.0 * MOST**2)))
 FEWEST = 3  # samples that stand still: fewer are what an inductance and an inertia take
 
 

@@ -12,10 +12,10 @@ Array = NDArray[np.float64]
 IRREGULAR = 1e-3  # jitter that is more than rounded timestamps
 FIRST = 512  # rows that show a clock beside which they lie up to 0.4 periods off
 SEARCHED = 4.0  # deviations of the median step of these, within which the period is looked for
-AS_WELL = 1.01  # agreement with a grid of fewer rows than ticks, in units of that with all ticks
 LOST = 0.05  # of the rows, at most, where their times are rounded
 FARTHEST = 0.3  # relative distance from the median step beyond which most steps would skip a tick
 PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows
+AS_WELL = 1.0 / float(np.sinc(0.5 / PER_CYCLE))  # agreement at a period over that at the nearest that is tried
 ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
 
 
