@@ -115,11 +115,11 @@ def _decided(
     say("proving it on data that were not fitted", AFTER_SEARCH)
     for fault in found.faults:
         heldout = without(heldout, fault)
-    late_ones = late_beside(heldout, found.model, found.ranking.problem, found.ranking.fits[0].fit)
-    heldout = powered(heldout, late_ones, found.model)
+    late_unseen = late_beside(heldout, found.model, found.ranking.problem, found.ranking.fits[0].fit)
+    heldout = powered(heldout, late_unseen, found.model)
     unseen = measured_alike([judging_run(r, found.model) for r in heldout], found.ranking.problem.whole)
     decision = decide(found.ranking, unseen, found.model, seed=seed)
-    return _Case(found=found, late=late_ones, unseen=unseen, decision=decision)
+    return _Case(found=found, late=late_unseen, unseen=unseen, decision=decision)
 
 
 def _check_options(seed: int, jobs: int | None, effort: float) -> None:

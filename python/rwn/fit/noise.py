@@ -64,13 +64,13 @@ def _coloured(
     for signal, before in problem.noise.items():
         if before.reflection and signal in noise:
             unit = Noise(level=1.0, reflection=before.reflection)
-            fresh = [
-                unit.innovations(run.masked(signal, left[signal]), restart=run.restart_every)
+            found = [
+                _noise(unit.innovations(run.masked(signal, left[signal]), restart=run.restart_every))
+                / run.noise_left(signal)
                 for run, left in zip(problem.runs, residuals, strict=True)
                 if signal in left
             ]
-            of = [run for run, left in zip(problem.runs, residuals, strict=True) if signal in left]
-            level = float(np.median([_noise(x) / run.noise_left(signal) for run, x in zip(of, fresh, strict=True)]))
+            level = float(np.median(found))
             noise[signal] = replace(before, level=max(level, 1e-12))
     return noise
 

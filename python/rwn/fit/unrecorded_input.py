@@ -36,8 +36,8 @@ SLOW = 0.9  # pole of the high-pass filter: it forgets within tens of rows
 LASTS = 60  # rows after which nothing is left of a response in the filter
 FINE = 8  # steps of a response per row
 ROUNDS = 2  # of fitting the model and the input
-TELLING = 400  # unknown values, one after the other, that tell how far they lie off: to a few per cent
-STEPS = 20  # of that
+TELLING = 400  # unknown values in a row, by which the share of their deviations is known to a few per cent
+STEPS = 20  # of expectation and maximisation
 LEAST_SHARE = 1e-6  # of a variance: less moves nothing
 LEAST_LEFT = 0.01  # of the noise of a signal: less is rounding
 
@@ -108,7 +108,11 @@ def _inferred(
 
 
 def _farthest(given: PiecewiseInput, first: NDArray[np.intp], after: NDArray[np.intp]) -> tuple[Array, Array]:
-    """How far unknown values from `first` (m,) on may move, (m,) each: to either neighbour, or off the line as far."""
+    """The least and the most (m,) that unknown values, which begin at `first` (m,), may move by.
+
+    They reach to the known value on either side (`after`: the places (m,) of those that follow), and as far as the
+    input may lie off the line between these.
+    """
     off, last = np.sqrt(3.0) * given.spread[first], given.values.size - 1
     beside = np.stack([np.maximum(first - 1, 0), np.append(after, last)[: first.size]])
     way = given.values[beside] - given.values[first]

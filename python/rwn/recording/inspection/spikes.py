@@ -46,6 +46,7 @@ def _spikes(recording: Recording, signal: str) -> Flags:
 
 
 def _among(x: Array, after_steps: Flags) -> Flags:
+    """The spikes among measured samples x (n,) of a signal; `after_steps` (n,): shortly after a step of the input."""
     found = np.zeros(x.size, dtype=bool)
     bridged = x
     must_be_beyond = np.pad(after_steps, 1, constant_values=True)
