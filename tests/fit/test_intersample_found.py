@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 import rwn
 from rwn.fit.fit import fit, refit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
+from rwn.fit.intersample import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
 from rwn.fit.likelihood import DECISIVE, log_likelihood
 from rwn.fit.nominal import nominal_of
 from rwn.fit.residuals import accuracy_lost
@@ -55,7 +56,19 @@ def test_thinned_rows_are_told_from_whole_ones_also_beneath_missing_physics(
     problem, _ = nominal_of([run], found)
     start = {"coulomb-friction": {"coulomb_torque": 4e-3}}
     explained = fit(problem, hypothesis(problem.prior, tuple(start), problem.scales, start))
-    assert likeliest(problem, explained) == law
+    bare, _ = nominal_of([run], stating(MODEL, "held"))
+    assert likeliest_with_filters(bare, explained, at_first) == law
+
+
+def test_a_filter_is_told_from_thinned_rows_beside_what_was_found_under_these() -> None:
+    """Both make the speed follow the voltage of other rows: the law by itself was chosen before there were filters."""
+    run = _run(friction=5e-3)
+    filtered = lfilter([0.45], [1.0, -0.55], run.signals["speed"])
+    run = replace(run, signals={**run.signals, "speed": filtered})
+    bare, _ = nominal_of([run], stating(MODEL, "held"))
+    start = {"coulomb-friction": {"coulomb_torque": 4e-3}}
+    explained = fit(bare, hypothesis(bare.prior, tuple(start), bare.scales, start))
+    assert likeliest_with_filters(bare, explained, "thirds") == "held"
 
 
 def test_a_law_that_the_free_run_refuses_is_not_taken() -> None:

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
-from rwn.faults.fault import Fault
+from rwn.faults.fault import Fault, without_all
 from rwn.faults.late_enable import LateEnable, needed, powered, retimed
 from rwn.faults.resolve import resolved
 from rwn.faults.uneven_files import uneven_files
 from rwn.fit.fit import Fit
-from rwn.fit.intersample import likeliest, stating, with_intersample, without_unknown
+from rwn.fit.intersample import likeliest_with_filters, stating, with_intersample, without_unknown
+from rwn.fit.preparation import prepare
 from rwn.fit.sensor_filter import stating_filters
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
@@ -77,8 +78,10 @@ def explained(
     still = needed(late, recordings, stated, ranking.problem, best)
     still = retimed(still, recordings, stated, ranking.problem, best)
     again = stated
-    if stated is not model and stated.recording.intersample != HELD:  # what is missing may look like another law
-        again = stating(stated, likeliest(ranking.problem, best))
+    if stated is not model and stated.recording.intersample != HELD:
+        as_held = without_all(powered(recordings, still, model), faults)
+        bare = prepare(as_held, stating(model, HELD))  # what is missing may look like another law
+        again = stating(stated, likeliest_with_filters(bare, best, stated.recording.intersample))
     if (still, again) != (tuple(late), stated):
         as_acted = _as_acted(powered(recordings, still, model), again, None if faults else best)
         faults, ranking = resolved(as_acted, again, say=say, effort=effort)

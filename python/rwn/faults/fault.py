@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -98,6 +99,11 @@ class Fault:
 def without(recordings: Sequence[Recording], fault: Fault) -> list[Recording]:
     """The recordings as they should have been."""
     return [fault.undo(r) for r in recordings]
+
+
+def without_all(recordings: Sequence[Recording], faults: Iterable[Fault]) -> list[Recording]:
+    """The same of several faults, one after the other."""
+    return reduce(without, faults, list(recordings))
 
 
 def _moved_values(values: Array, delay: int) -> Array:

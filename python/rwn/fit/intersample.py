@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from statistics import NormalDist
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit, refit
-from rwn.fit.likelihood import DECISIVE, log_likelihood
+from rwn.fit.likelihood import CERTAINLY, certainly_likelier, log_likelihoods, log_posterior
+from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import LEVEL, accuracy_lost
+from rwn.fit.residuals import accuracy_lost
+from rwn.fit.sensor_filter import filters_and_likelihoods, refitted_beside
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
@@ -20,8 +22,9 @@ from rwn.recording.clock import clock_of
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording, beginnings
 
+Array = NDArray[np.float64]
+
 MOST_OFF = 0.5  # share of the rows: where more are off, that is the noise of the current
-REFUSED = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations of the loss of a law that the free run certainly refuses
 ITERATIONS = 8  # of a fit that begins near its end
 
 
@@ -36,21 +39,68 @@ def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
 
 
 def likeliest(problem: Problem, this: Fit) -> str:
-    """The law under which the errors of a fit, refitted, are likeliest; "held" where none is so by far.
+    """The law under which the errors of a fit, refitted, are likeliest; what the rows' times do not show, by far.
 
     What is new in an error may go with the input by another way than through the drive: a controller answers the noise
     of a row by the input of that row, a cable picks its steps up. A law that foretells this is likelier for no physics,
     so one that simulates the recordings certainly worse, from their input alone, is not taken.
     """
-    under = {law: _under_law(problem, law) for law in INTERSAMPLE}
-    candidates = {law: p for law, p in under.items() if law == HELD or any(r.applied_input is not None for r in p.runs)}
+    candidates = _candidates(problem)
     fits = side_by_side(lambda p: refit(this, p, iterations=ITERATIONS), candidates.values())
     refitted = dict(zip(candidates, fits, strict=True))
-    scores = {law: log_likelihood(candidates[law], refitted[law]) for law in candidates}
-    likely = [law for law in candidates if scores[law] > scores[HELD] + DECISIVE]
+    scores = {law: log_likelihoods(candidates[law], refitted[law]) for law in candidates}
     held = candidates[HELD], refitted[HELD]
-    lost = {law: accuracy_lost(*held, candidates[law], refitted[law]) for law in likely}
-    return max((law for law in likely if lost[law] < REFUSED), key=lambda law: scores[law], default=HELD)
+    lost = {law: accuracy_lost(*held, candidates[law], refitted[law]) for law in candidates}
+    return _chosen({law: scores[law] for law in candidates if lost[law] < CERTAINLY})
+
+
+def likeliest_with_filters(problem: Problem, explanation: Fit, stated: str) -> str:
+    """The law under which what is left beside an explanation is likeliest, with the filters that show under each law.
+
+    What a filter of a sensor leaves looks as if rows had been left out, and the other way round, so the two are judged
+    together. Filters are looked for under the law that is `stated`, under "held" and under the likeliest without any.
+
+    Args:
+        problem: the recordings as prepared, without filters of their sensors.
+        explanation: found under whatever law and filters.
+        stated: the law under which it was found.
+    """
+    candidates = _candidates(problem)
+    fits = side_by_side(lambda p: _explained(explanation, p), candidates.values())
+    refitted = dict(zip(candidates, fits, strict=True))
+    bare = {law: log_posterior(*refitted[law]) for law in candidates}
+    asked = {HELD, max(bare, key=lambda law: bare[law]), *({stated} & set(bare))}
+    if len(asked) == 1:
+        return HELD
+    scores = {law: filters_and_likelihoods(*refitted[law])[1] for law in sorted(asked)}
+    held, as_held = refitted[HELD]
+    lost = {law: accuracy_lost(held, as_held, replace(refitted[law][0], noise=held.noise), refitted[law][1])
+            for law in scores}  # fmt: skip
+    return _chosen({law: scores[law] for law in scores if lost[law] < CERTAINLY})
+
+
+def _chosen(scores: Mapping[str, Array]) -> str:
+    """The likeliest law of those that the times of the rows speak for, or another that is certainly likelier."""
+
+    def likelihood(law: str) -> float:
+        return float(np.sum(scores[law]))
+
+    usual = max((law for law in scores if INTERSAMPLE[law].shown), key=likelihood)
+    certain = [law for law in scores if certainly_likelier(scores[law], scores[usual])]
+    return max((law for law in certain if not INTERSAMPLE[law].shown), key=likelihood, default=usual)
+
+
+def _explained(explanation: Fit, problem: Problem) -> tuple[Problem, Fit]:
+    """The problem weighted by what an explanation leaves of it, and the explanation fitted to that."""
+    (this,) = refitted_beside([explanation], problem)
+    problem = with_noise_of(problem, this)
+    return problem, refit(this, problem, iterations=ITERATIONS)
+
+
+def _candidates(problem: Problem) -> dict[str, Problem]:
+    """The problem under each law by which the input acted otherwise than held, and as held."""
+    under = {law: _under_law(problem, law) for law in INTERSAMPLE}
+    return {law: p for law, p in under.items() if law == HELD or any(r.applied_input is not None for r in p.runs)}
 
 
 def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recording]:

@@ -16,7 +16,7 @@ from rwn.fit.budget import one_stage, shares_by_rank
 from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.likelihood import log_posterior
+from rwn.fit.likelihood import BLOCKS, log_posterior, log_posteriors
 from rwn.fit.part import screening_part
 from rwn.fit.prior import Nuisance
 from rwn.fit.prior_weight import BELIEVABLE
@@ -39,6 +39,11 @@ ROUNDS = 2  # in which the filters of several signals are estimated beside each 
 
 def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
     """The filters that the errors of a fit show; none of signals that the model filters by itself."""
+    return filters_and_likelihoods(problem, this)[0]
+
+
+def filters_and_likelihoods(problem: Problem, this: Fit) -> tuple[tuple[SensorFilter, ...], Array]:
+    """The same, and how likely blocks of rows are by what goes best with these (log, BIC; (BLOCKS,))."""
     residuals = problem.residuals(this.vector, this.active)
     seen = coloured_signals(problem, residuals)
     hidden = not seen or any(one.share >= MOST for one in seen)
@@ -47,15 +52,15 @@ def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
         residuals = problem.residuals(slow.vector, slow.active)
         seen = coloured_signals(problem, residuals) or seen
     if not seen:
-        return ()
+        return (), _likelihoods(problem, this, ())
     found = [_filters_beside(problem, base, seen, residuals) for base in _without_lags(problem, this)]
-    return max(found, key=lambda pair: pair[1])[0]
+    return max(found, key=lambda pair: float(np.sum(pair[1])))
 
 
 def _filters_beside(
     problem: Problem, base: Fit, seen: Sequence[SensorFilter], residuals: Sequence[Mapping[str, Array]]
-) -> tuple[tuple[SensorFilter, ...], float]:
-    """The filters beside an explanation, and how likely both are (log, BIC)."""
+) -> tuple[tuple[SensorFilter, ...], Array]:
+    """The filters beside an explanation, and how likely blocks of rows are by both."""
     found: dict[str, SensorFilter] = {}
     known = list(seen)
     for _ in range(ROUNDS):
@@ -70,7 +75,7 @@ def _filters_beside(
         if len(known) == 1:
             break
     filters = _together(problem, base, tuple(found.values()))
-    return filters, _likelihood(problem, base, filters)
+    return filters, _likelihoods(problem, base, filters)
 
 
 def _uncovered(
@@ -103,7 +108,7 @@ def _together(problem: Problem, base: Fit, found: tuple[SensorFilter, ...]) -> t
     def negative_likelihood(logarithms: Array) -> float:
         filters = at(logarithms)
         inside = all(LEAST <= f.share <= MOST for f in filters)
-        return -_likelihood(problem, base, filters) if inside else np.inf
+        return -float(np.sum(_likelihoods(problem, base, filters))) if inside else np.inf
 
     start = np.log([f.time_constant for f in digital])
     simplex = np.vstack([start, start + SIMPLEX * np.eye(start.size)])
@@ -116,13 +121,14 @@ def _of_time(problem: Problem, f: SensorFilter, time_constant: float) -> SensorF
     return replace(f, time_constant=time_constant, share=_share_kept(problem, f.signal, time_constant))
 
 
-def _likelihood(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) -> float:
-    """How likely an explanation and filters beside it are (log, BIC)."""
+def _likelihoods(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) -> Array:
+    """How likely blocks of rows are by an explanation and filters beside it (log, BIC; (BLOCKS,))."""
     on = filtered(problem, filters)
     this = _refitted(base, on)
     shown = sum(_samples(problem, f.signal) * float(np.log(1.0 - f.share)) for f in filters if f.digital)
     unknowns = len(this.hypothesis.unknowns) + len(on.filters)
-    return log_posterior(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
+    paid = shown + 0.5 * unknowns * float(np.log(problem.samples))
+    return log_posteriors(on, this) - paid / BLOCKS
 
 
 def _samples(problem: Problem, signal: str) -> int:

@@ -61,11 +61,13 @@ class IntersampleLaw:
     """How an input acts between rows, and how that is said.
 
     `samples`: of rows at times (n,) that lie between samples at the ticks of a clock, how; `applied` then counts from
-    the first tick. None: a row is what was at its time.
+    the first tick. None: a row is what was at its time. `shown`: the times of the rows show that it may be so, and it
+    is then no less likely beforehand than a held input.
     """
 
     applied: Callable[[Array, Array], PiecewiseInput | None]
     words: str
+    shown: bool = False
     samples: Callable[[Array], InterpolatedRows | None] = _own_samples
 
 
@@ -252,8 +254,8 @@ def _off_the_line(time: Array, values: Array) -> Array:
 
 
 INTERSAMPLE: dict[str, IntersampleLaw] = {
-    HELD: IntersampleLaw(applied=_held, words="each row's own, until the next"),
-    "bridged": IntersampleLaw(applied=_bridged, words="it went on changing over the rows that are missing"),
+    HELD: IntersampleLaw(applied=_held, shown=True, words="each row's own, until the next"),
+    "bridged": IntersampleLaw(applied=_bridged, shown=True, words="it went on changing over the rows that are missing"),
     "halves": IntersampleLaw(
         applied=partial(_in_parts, parts=2),
         words="it changed twice from row to row, as where every second row was kept",
@@ -264,15 +266,17 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
     ),
     "line": IntersampleLaw(applied=_linear, words="it moved on a line from row to row"),
     "ticks": IntersampleLaw(
-        applied=_at_ticks, words="it changed at the ticks of a clock beside which the rows were taken"
+        applied=_at_ticks, shown=True, words="it changed at the ticks of a clock beside which the rows were taken"
     ),
     "interpolated": IntersampleLaw(
         applied=partial(_at_ticks, begin=0.0),
+        shown=True,
         words="it changed at the ticks of a clock, between whose samples the rows were interpolated",
         samples=between_ticks,
     ),
     "rounded": IntersampleLaw(
         applied=_held_from_ticks,
+        shown=True,
         words="it changed at the ticks of a clock, which the times of the rows are rounded from",
         samples=rounded,
     ),
