@@ -10,6 +10,7 @@ import pytest
 import rwn
 from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, fit_nominal
 from rwn.fit.levenberg_marquardt import FitStatus, Minimum
+from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.part import part
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
@@ -186,3 +187,25 @@ def test_effects_come_in_the_order_of_the_best_of_their_fits(lagging: Problem, m
     monkeypatch.setattr(screening, "_to_the_end", lambda *_, **__: ends)
     found = screen(lagging, base, ["speed-sensor-lag", "input-delay"])
     assert [(f.added, f.cost) for f in found] == [(("speed-sensor-lag",), 2.0), (("input-delay",), 5.0)]
+
+
+def test_a_law_that_starts_far_behind_goes_on_where_what_is_ahead_leaves_more_than_noise() -> None:
+    """A limit of the current gains at once what a saturation gains after twenty more iterations, and then far more."""
+    truth = {"resistance": 11.55, "inductance": 1.6e-3, "torque_constant": 0.00396, "back_emf_constant": 0.00396,
+             "inertia": 4.16e-8, "viscous_friction": 2.95e-8}  # fmt: skip
+    given = {"resistance": 13.7, "inductance": 1.1e-3, "torque_constant": 0.00374, "back_emf_constant": 0.0042,
+             "inertia": 5.3e-8, "viscous_friction": 1e-7}  # fmt: skip
+    known_to = {"resistance": 0.12, "inductance": 0.25, "torque_constant": 0.03, "back_emf_constant": 0.033,
+                "inertia": 0.18, "viscous_friction": 0.8}  # fmt: skip
+    time = 1e-3 * np.arange(3000)
+    voltage = 1.7 * np.sign(np.sin(2 * np.pi * 3 * time)) + 0.5 * np.sin(2 * np.pi * 13 * time)
+    effect = {"magnetic-saturation": {"saturation_current": 0.06}}
+    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    speed = rwn.simulate(rwn.Model(kind="dc", parameters=truth, effects=effect), bare).signals["speed"]
+    speed = speed + 0.5 * np.random.default_rng(1).standard_normal(time.size)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage, "speed": speed})
+    problem = prepare([run], rwn.Model(kind="dc", parameters=given, uncertainty=known_to))
+    problem, nominal = weighted_by_nominal(problem)
+    found = screen(problem, nominal, ["current-limit", "magnetic-saturation", "supply-sag"])
+    assert found[0].added == ("magnetic-saturation",)
+    assert found[0].cost < 0.1 * found[1].cost

@@ -17,6 +17,7 @@ from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.part import part, screening_part
 from rwn.fit.problem import Problem
+from rwn.fit.residuals import statistics
 from rwn.fit.secant import down_secants
 from rwn.name.starts import (
     Attempt,
@@ -58,7 +59,7 @@ def screen(
     attempts = distinct_ends(promising(best_of_each(attempts, keep, orders=keep), here), on.samples)
     best_here = best * here / base.cost if np.isfinite(best) else best
     near = _down_secants(attempts, on, here, best_here)
-    ends = _to_the_end(problem, near, on, best_here=best_here, best=best)
+    ends = _given_up(problem, _to_the_end(problem, near, on, best_here=best_here, best=best))
     best_of: dict[tuple[str, ...], Fit] = {}
     for end in sorted(ends, key=lambda end: end.cost):
         best_of.setdefault(end.fit.added, end.fit)
@@ -155,6 +156,18 @@ def _to_the_end(
         return attempt
 
     return by_rank(unfinished, attempts)
+
+
+def _given_up(problem: Problem, ends: list[Attempt]) -> list[Attempt]:
+    """Those that were given up for being far behind go on after all, where what was ahead leaves more than noise."""
+    best = min(ends, key=lambda end: end.cost, default=None)
+    if best is None or statistics(problem, best.fit).at_the_floor:
+        return ends
+
+    def to_the_end(attempt: Attempt, share: float) -> Attempt:
+        return _attempt(attempt.start, TO_THE_END, problem, share=share) if _under_way(attempt.fit) else attempt
+
+    return _by_rank(problem, to_the_end, ends)
 
 
 def _by_rank(
