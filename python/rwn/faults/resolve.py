@@ -69,13 +69,11 @@ def resolved(
 ) -> tuple[list[Fault], Ranking]:
     """Faults of the recordings, and what explains these when they are undone; `effort`: see `budget.meter`."""
 
-    work = meter(effort)
-
     def ranking(
         of: Sequence[Recording], at_once: int = MOST_EFFECTS, *, names: Sequence[str] | None = None,
         after: Ranking | None = None,
     ) -> Ranking:  # fmt: skip
-        return rank(prepare(of, model, work=work), progress=say, at_once=at_once, names=names, after=after)
+        return rank(prepare(of, model, work=meter(effort)), progress=say, at_once=at_once, names=names, after=after)
 
     if model.drive.coefficients:  # its gain is in no unit that could be doubted
         return [], ranking(recordings)

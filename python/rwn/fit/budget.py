@@ -1,7 +1,8 @@
 """What the search for an explanation may cost, counted in the core: the same on every machine and in every run.
 
 A stage of the search may take a tenth of what is left, so that no budget is ever used up; where little is left, what
-would be tried next is not.
+is tried beside the most promising is not. Each number of effects at once has a budget of its own, and so has a search
+that begins anew under another measurement: what was tried before decides nothing about what is tried.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import numpy as np
 
 from rwn import _core
 
-TOTAL = 13e9  # work of a usual search: 16 s of one core of 2026, 10 s of two, of the 20 s of a diagnosis
+TOTAL = 13e9  # work of a usual search by so many effects: 16 s of one core of 2026, 10 s of two
 STAGE = 0.1  # share of the work that is left, for the fits of a stage together
 LEAST = 0.1  # share of TOTAL that counts as left at least
 RESERVE = 0.3  # share of TOTAL that is left for what is promising rather than spent on what has not been tried
@@ -21,6 +22,11 @@ def meter(effort: float = 1.0) -> _core.Work:
     work = _core.Work()
     work.add(round((1.0 - effort) * TOTAL))
     return work
+
+
+def renew(work: _core.Work, begun: int) -> None:
+    """Sets a meter back to what it had counted when a search began."""
+    work.add(begun - work.done)
 
 
 def left(work: _core.Work) -> float:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rwn.fit.angle import along_the_simulated_angle
-from rwn.fit.budget import affords_more, one_stage
+from rwn.fit.budget import affords_more, one_stage, renew
 from rwn.fit.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
 from rwn.fit.filter_colour import SensorFilter
@@ -50,7 +50,7 @@ class _Grown(NamedTuple):
     pairs: Pairs
     paired: bool  # some have several effects
     complete: bool  # more effects at once would not help
-    cut_short: int  # so many effects at once would have been tried, but for what that costs; 0: none
+    cut_short: int  # so many effects at once were tried beside the best alone, for what that costs; 0: none
 
 
 def rank(
@@ -63,21 +63,24 @@ def rank(
     not. `after`: a ranking of the same recordings by fewer effects, or by some of them, to go on from. `known`:
     explanations by several effects that were found under another measurement.
     """
-    as_prepared = problem
+    as_prepared, begun = problem, problem.work.done
     wanted = [n for n in names or problem.prior.table if observable(n, problem)]
     alone = after.alone if after else _each_alone(problem, wanted, progress)
     problem, nominal, fits = alone.problem, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
     before = statistics(problem, nominal)
-    grown = _grown(alone, fits, wanted, after.pairs if after else NO_PAIRS, at_once=at_once, progress=progress)
+    pairs = after.pairs if after else NO_PAIRS
+    grown = _grown(alone, fits, wanted, pairs, at_once=at_once, begun=begun, progress=progress)
     again = refitted_beside(known, problem)
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
         problem, nominal, fits = _under_own_noise(problem, nominal, fits)
     measured = _measured(as_prepared, problem, min([nominal, *fits], key=lambda f: f.cost), at_once)
     if measured:  # otherwise than thought, beside whatever is missing
+        renew(problem.work, begun)
         alone_again = rank(measured, progress=progress, at_once=1)
         if names is None and at_once == 1:
             return alone_again
+        renew(problem.work, begun)
         several = [f for f in best_few(fits) if len(f.added) > 1]  # what a second search may not afford to find
         return rank(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
     fits = with_simpler(problem, nominal, fits) if names is None else fits
@@ -106,9 +109,12 @@ def rank(
 
 
 def _grown(
-    alone: Fits, fits: list[Fit], wanted: Sequence[str], pairs: Pairs, *, at_once: int, progress: Progress
+    alone: Fits, fits: list[Fit], wanted: Sequence[str], pairs: Pairs, *, at_once: int, begun: int, progress: Progress
 ) -> _Grown:
-    """Single effects, then the best of them with more beside, as long as that helps; `pairs` are known already."""
+    """Single effects, then the best of them with more beside, as long as that helps.
+
+    `pairs` are known already. `begun`: what the meter of the search had counted when it began.
+    """
     problem = alone.problem
     _, left = _best_of(problem, [alone.nominal, *fits])
     bases = _diverse(fits)
@@ -117,12 +123,11 @@ def _grown(
         if complete:
             break
         known = pairs if size == 2 else NO_PAIRS
-        cut_short = 0 if affords_more(problem.work) else size
-        if cut_short and not known.fits:
-            break
+        renew(problem.work, begun)
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
         found = _beside(problem, bases, wanted, fits, known)
         more, pairs = found.fits, found if size == 2 else pairs
+        cut_short = size if found.cut_short else 0
         gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
         complete = gained < WORTH * left.variance
         if complete:
@@ -231,11 +236,12 @@ def _beside(
 
     Once the best found leaves noise alone, one that has no part in it is tried beside its parts: it may rival one.
     """
-    found, tried, names = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted)
+    found, tried, names, skipped = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted), False
     for place, base in enumerate(bases):
         parts = _complete_explanation(problem, found)
         rivals = bool(parts) and not parts & set(base.added)
         if (place or known.fits) and not rivals and not affords_more(problem.work):
+            skipped = True
             continue
         beside = [n for n in names if n in parts] if rivals else names
         new = [name for name in beside if (base.added, name) not in tried]
@@ -243,7 +249,7 @@ def _beside(
         tried |= {(base.added, name) for name in new}
         met = {name for f in (*fits, *found) for name in f.added}
         names = [name for name in wanted if name in met]
-    return Pairs(distinct(found), tried)
+    return Pairs(distinct(found), tried, cut_short=skipped)
 
 
 def _complete_explanation(problem: Problem, found: Sequence[Fit]) -> frozenset[str]:

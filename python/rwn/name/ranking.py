@@ -24,6 +24,7 @@ class Pairs(NamedTuple):
 
     fits: list[Fit]
     tried: frozenset[tuple[tuple[str, ...], str]]  # what was added to what
+    cut_short: bool = False  # some would have been built on, but for what that costs
 
 
 NO_PAIRS = Pairs([], frozenset())
@@ -44,7 +45,7 @@ class Ranking:
     pairs: Pairs  # under the noise of `alone`
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     at_a_limit: tuple[Fit, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
-    cut_short: int = 0  # so many effects at once would have been tried, but for what that costs; 0: none
+    cut_short: int = 0  # so many effects at once were tried beside the best alone, for what that costs; 0: none
     complete: bool = True  # no other effects and no more at once would have been tried, had they been allowed
 
     @property

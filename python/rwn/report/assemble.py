@@ -173,8 +173,8 @@ def _warnings(
         )
     if ranking.cut_short:
         texts.append(
-            f"{ranking.cut_short} effects at once were not tried, since the search had cost what it may: --effort 3 "
-            "leaves room for them, and so do recordings of fewer samples, without the parts that say little"
+            f"{ranking.cut_short} effects at once were tried with the likeliest alone, since the search had cost what "
+            "it may: --effort 3 leaves room for others, and so do recordings of fewer samples"
         )
     for f in ranking.at_a_limit[:1]:
         met = [unknown_name(name) for name in f.limits_met]
