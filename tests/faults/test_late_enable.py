@@ -82,6 +82,22 @@ def test_a_first_sample_far_off_is_no_motion() -> None:
     assert abs(late.samples - 130) <= 2
 
 
+def test_a_speed_sensor_with_a_bias_stands_still_too() -> None:
+    """It reads 2 rad/s whatever the voltage does: no motion goes on like that."""
+    recording = _run(STEPS, 130)
+    biased = replace(recording, signals={**recording.signals, "speed": np.array(recording.signals["speed"]) + 2.0})
+    (late,) = late_enables([biased], MODEL)
+    assert abs(late.samples - 130) <= 2
+
+
+def test_an_even_motion_under_an_even_voltage_is_no_late_enable() -> None:
+    steps = np.concatenate([np.full(200, 2.0), STEPS])
+    running = _run(np.concatenate([np.full(1000, 2.0), steps]), 0)
+    later = slice(1000, None)
+    signals = {name: np.array(x)[later] for name, x in running.signals.items()}
+    assert late_enables([rwn.Recording(name="run", time=running.time[later], signals=signals)], MODEL) == ()
+
+
 def test_a_first_current_far_off_is_no_motion_of_a_shaft_whose_speed_is_zero() -> None:
     acting = np.where(np.arange(STEPS.size) < 130, 0.0, STEPS)
     time = 1e-3 * np.arange(STEPS.size)

@@ -233,13 +233,17 @@ def _acting(steps: Array, time: float) -> Array:
 
 
 def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
-    """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded."""
+    """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded.
+
+    Where these are not about 0, whether a change of the input moves it at all.
+    """
     run = replace(run_of(recording, model).until(samples), own=beside.own, levels=beside.levels)
-    if run.in_motion and not _stands_about_zero(run, samples):
-        return False
     out = problem.simulate(run, this.vector, this.active).signals
-    error = {s: np.abs(out[s] - run.signal(s)) for s in run.recorded}
-    return any(np.max(e) > CERTAIN * problem.noise[s].deviation for s, e in error.items())
+    told = {s: run.signal(s) for s in run.recorded}
+    if run.in_motion and not _stands_about_zero(run, samples):  # it turns evenly, or its sensor has a bias
+        even = replace(run, input=np.full(run.input.size, run.input[0]), applied_input=None)
+        told = problem.simulate(even, this.vector, this.active).signals
+    return any(np.max(np.abs(out[s] - told[s])) > CERTAIN * problem.noise[s].deviation for s in run.recorded)
 
 
 def _stands_about_zero(run: Run, samples: int) -> bool:
