@@ -71,6 +71,20 @@ def test_a_clipped_signal_is_found(speed: Array) -> None:
     assert np.abs(speed[lost]).min() > 59.0
 
 
+def test_peaks_that_are_cut_off_for_a_sample_each_are_found(speed: Array) -> None:
+    """Few rows for each swing: one or two are beyond the end of the range."""
+    swinging = 62.0 * np.sin(1.1 * np.arange(speed.size)) + np.random.default_rng(3).standard_normal(speed.size)
+    cut = np.clip(swinging, -60.0, 60.0)
+    (found,) = inspected([_recording({"speed": cut})]).findings
+    assert found.kind == "clipping"
+    assert found.count == np.count_nonzero(cut != swinging)
+
+
+def test_a_largest_value_that_comes_twice_is_not_clipped(speed: Array) -> None:
+    twice = np.minimum(speed, np.sort(speed)[-2])
+    assert not inspected([_recording({"speed": twice})]).findings
+
+
 def test_counts_at_standstill_are_neither_held_nor_clipped() -> None:
     rng = np.random.default_rng(2)
     counts = np.round(20.0 * np.maximum(np.sin(3e-3 * np.arange(N)), 0.0) + 0.3 * rng.standard_normal(N))

@@ -1,4 +1,4 @@
-"""A signal that stands exactly at its largest or smallest value: the end of a converter's range."""
+"""A signal that is exactly at its largest or smallest value again and again: the end of a converter's range."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-TOGETHER = 5  # samples in a row at the end of the range: of a noise larger than its steps not even three are alike
+CHANCE = 1e-6  # that so many samples of a noise larger than its steps have the largest value by chance
 
 
 def _clipped(recording: Recording, signal: str) -> Flags:
@@ -21,25 +21,31 @@ def _clipped(recording: Recording, signal: str) -> Flags:
     x, found = every[new], np.zeros(every.size, dtype=bool)
     flags = np.zeros(x.size, dtype=bool)
     moving = x[np.append(False, np.diff(x) != 0.0)]
-    if moving.size < 20 or not noise_from_differences(moving) > 2.0 * quantum(x):
+    if moving.size < 20:
+        return found
+    step, noise = quantum(x) or float(np.min(np.diff(np.unique(x)))), noise_from_differences(moving)
+    if not noise > 2.0 * step:
         return found  # steps as coarse as the noise repeat by themselves
     for end in (float(np.max(x)), float(np.min(x))):
         at = x == end
-        if end != 0.0 and _longest(at) >= TOGETHER:
+        beside = np.count_nonzero(np.abs(x - end) < noise) - np.count_nonzero(at)
+        if end != 0.0 and _by_chance(np.count_nonzero(at), max(beside, 1) * step / noise) < CHANCE:
             flags |= at
     found[new] = flags
     return found
 
 
-def _longest(at: Flags) -> int:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], at.astype(int), [0]])))
-    return int(np.max(edges[1::2] - edges[::2], initial=0))
+def _by_chance(count: int, expected: float) -> float:
+    """Probability that `count` samples are alike, where those beside let so many be `expected` beside the first."""
+    from scipy.special import pdtrc  # late: the command line starts without it
+
+    return float(pdtrc(count - 2, expected)) if count > 1 else 1.0
 
 
 CLIPPING = Check(
     kind="clipping",
     flags=_clipped,
-    words=lambda signal, flags: f"{int(flags.sum())} samples of the {signal} stand at the end of its range",
+    words=lambda signal, flags: f"{int(flags.sum())} samples of the {signal} are at the end of its range",
     done="left out",
     signals=("current", "speed"),
 )
