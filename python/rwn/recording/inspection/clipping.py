@@ -28,8 +28,8 @@ def _clipped(recording: Recording, signal: str) -> Flags:
         return found  # steps as coarse as the noise repeat by themselves
     for end in (float(np.max(x)), float(np.min(x))):
         at = x == end
-        beside = np.count_nonzero(np.abs(x - end) < noise) - np.count_nonzero(at)
-        if end != 0.0 and _by_chance(np.count_nonzero(at), max(beside, 1) * step / noise) < CHANCE:
+        alike, near = int(np.sum(at)), int(np.sum(np.abs(x - end) < noise))
+        if end != 0.0 and _by_chance(alike, max(near - alike, 1) * step / noise) < CHANCE:
             flags |= at
     found[new] = flags
     return found
