@@ -140,19 +140,30 @@ def accuracy_lost(problem: Problem, this: Fit, other: Problem, that: Fit) -> flo
     Diebold, Mariano (1995): the mean difference of squared weighted errors over its own deviation, which counts how
     long differences last. `other`: the same recordings under the same noise.
     """
-    difference = _losses(other, that) - _losses(problem, this)
+    return loss_gained(
+        losses(problem, problem.residuals(this.vector, this.active)),
+        losses(other, other.residuals(that.vector, that.active)),
+    )
+
+
+def loss_gained(before: Array, after: Array) -> float:
+    """The same of the losses of every sample (n,)."""
+    difference = after - before
     spread = float(np.std(difference)) * np.sqrt(correlation_time(difference) / difference.size)
     return float(np.mean(difference)) / spread if spread > 0.0 else 0.0
 
 
-def _losses(problem: Problem, this: Fit) -> Array:
-    """Squared weighted error of each sample, all signals together; 0 where nothing is compared."""
+def losses(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> Array:
+    """Squared weighted error of each sample, all signals together; 0 where nothing is compared.
+
+    `residuals`: (n,) of each run, by signal.
+    """
 
     def of_a_run(left: Mapping[str, Array]) -> Array:
         squares: Array = np.sum([np.square(x / problem.noise[s].level) for s, x in left.items()], axis=0)
         return squares
 
-    return np.concatenate(list(map(of_a_run, problem.residuals(this.vector, this.active))))
+    return np.concatenate(list(map(of_a_run, residuals)))
 
 
 def statistics_of(joined: Mapping[str, Array]) -> Statistics:

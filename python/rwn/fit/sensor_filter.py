@@ -16,12 +16,12 @@ from rwn.fit.budget import one_stage, shares_by_rank
 from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.likelihood import BLOCKS, log_posterior, log_posteriors
+from rwn.fit.likelihood import BLOCKS, certainly_likelier, log_posterior, log_posteriors
 from rwn.fit.part import screening_part
 from rwn.fit.prior import Nuisance
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import statistics
+from rwn.fit.residuals import loss_gained, losses, statistics
 from rwn.model.model import Model
 from rwn.model.vocabulary import analog_filters
 from rwn.parallel import side_by_side
@@ -224,23 +224,36 @@ def _refitted(this: Fit, problem: Problem) -> Fit:
 
 
 def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter | None:
-    """The filter, digital or analog, under which the errors are likelier than as coloured noise alone; None: neither.
+    """The filter, digital or analog, that is certainly likelier than coloured noise alone; None: neither is.
 
-    By BIC: a filter has a time constant more.
+    By BIC: a filter has a time constant more. An autoregression may have been any other filtered, so that where much is
+    missing, or where the input is noisy, a filter gains or loses by what that happens to be; one under which the
+    recordings are not simulated better is none.
     """
-    lag = replace(seen, digital=False)
-    analog = filtered(problem, [lag])
-    sampled, score = _digital(problem, this, seen)
-    scores: dict[SensorFilter | None, float] = {
-        lag: log_posterior(analog, _refitted(this, analog)),
-        None: log_posterior(problem, this) + 0.5 * np.log(problem.samples),
-        sampled: score,
-    }
-    return max(scores, key=lambda which: scores[which])
+    kinds = [replace(seen, digital=False), _digital(problem, this, seen)]
+    kinds = [f for f in kinds if _accuracy_lost(problem, this, f) < 0.0]
+    without = _likelihoods(problem, this, [])
+    scores = {f: _likelihoods(problem, this, [f]) for f in kinds}
+    certain = [f for f in kinds if certainly_likelier(scores[f], without)]
+    return max(certain, key=lambda f: float(np.sum(scores[f])), default=None)
 
 
-def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFilter, float]:
-    """The digital filter under which the errors are likeliest, and their log-likelihood."""
+def _accuracy_lost(problem: Problem, this: Fit, f: SensorFilter) -> float:
+    """How much worse an explanation simulates the signals as they were recorded with a filter, in deviations."""
+    from scipy.signal import lfilter  # late: the command line starts without it
+
+    on = filtered(problem, [f])
+    that = _refitted(this, on)
+    left = [dict(of_a_run) for of_a_run in on.residuals(that.vector, that.active)]
+    for of_a_run in left:
+        if f.digital and f.signal in of_a_run:
+            of_a_run[f.signal] = lfilter([1.0 - f.share], [1.0, -f.share], np.nan_to_num(of_a_run[f.signal]))
+    before = losses(problem, problem.residuals(this.vector, this.active))
+    return loss_gained(before, losses(problem, left))
+
+
+def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter:
+    """The digital filter under which the errors are likeliest."""
     from scipy.optimize import minimize_scalar  # late: the command line starts without it
 
     def negative_log_posterior(problem: Problem, logarithm: float) -> float:
@@ -262,8 +275,8 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> tuple[SensorFil
     beside = np.concatenate([[np.inf], scores, [np.inf]])
     dips = np.flatnonzero((scores <= beside[:-2]) & (scores <= beside[2:]))  # another motor may do with another filter
     around = [tried[[max(k - 1, 0), min(k + 1, SHARES - 1)]] for k in dips[np.argsort(scores[dips])][:DIPS]]
-    score, logarithm = min(side_by_side(refined, around))
-    return _of_time(problem, replace(seen, digital=True), float(np.exp(logarithm))), -score
+    _, logarithm = min(side_by_side(refined, around))
+    return _of_time(problem, replace(seen, digital=True), float(np.exp(logarithm)))
 
 
 def refitted_beside(known: Sequence[Fit], problem: Problem) -> list[Fit]:
