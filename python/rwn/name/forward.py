@@ -24,6 +24,7 @@ from rwn.fit.residuals import Statistics, join, statistics, statistics_of
 from rwn.fit.secant import all_down_secants
 from rwn.fit.sensor_filter import filtered, refitted_beside, sensor_filters
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
+from rwn.name.degenerate import adds
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Fits, Pairs, Ranking
 from rwn.name.screening import screen
@@ -38,9 +39,7 @@ WORTH = 0.2  # smallest share of the remaining misfit that a further effect has 
 FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free run follows the motion
 LARGEST_NRMSE = 0.2  # rms error of a signal, as a share of its spread, up to which a free run follows the motion
 PATIENCE = 4  # factor on the iterations in short windows: the first steps of a fit are short where the misfit is large
-WHOLE = 0.99  # share of the recording's time from which a window counts as all of it
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
-BRIEF = 10  # fewest samples that a load disturbance lasts
 
 
 class _Grown(NamedTuple):
@@ -85,7 +84,7 @@ def rank(
         return rank(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
     fits = with_simpler(problem, nominal, fits) if names is None else fits
     at_a_limit = [f for f in fits if f.limits_met]
-    fits = [f for f in fits if not (f.limits_met or f.idle or _covers_all_or_a_moment(f, problem))]
+    fits = [f for f in fits if not f.limits_met and adds(f, problem)]
     best, left = _best_of(problem, [nominal, *fits])
     weighted, finals, counted = final_fits(problem, [nominal, *fits], left)
     ranked = weigh([nominal, *fits], counted, rivals=len(wanted), prior=_prior(as_prepared), finals=finals)
@@ -117,7 +116,7 @@ def _grown(
     """
     problem = alone.problem
     _, left = _best_of(problem, [alone.nominal, *fits])
-    bases = _diverse(fits)
+    bases = _diverse([f for f in fits if adds(f, problem)])
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     for size in range(2, at_once + 1):
         if complete:
@@ -134,7 +133,7 @@ def _grown(
             break
         fits, paired = [*fits, *more], True
         best, left = _best_of(problem, fits)
-        bases = sorted(more, key=lambda f: f.cost)[:2]
+        bases = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2]
         complete = left.at_the_floor or _at_its_floor(problem, best)
     return _Grown(fits, pairs, paired, complete, cut_short)
 
@@ -290,12 +289,3 @@ def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Proble
     begun = replace(best, minimum=replace(best.minimum, values=free.minimum.values))
     first, *rest = refit_all([begun if f is best else f for f in (nominal, *best_few(fits))], other)
     return other, first, sorted(rest, key=lambda f: f.cost)
-
-
-def _covers_all_or_a_moment(this: Fit, problem: Problem) -> bool:
-    """Whether a load is said to act from end to end of the recordings, which has a name of its own, or for a moment.
-
-    A stray sample is no load.
-    """
-    brief = BRIEF / max(r.time.size for r in problem.whole)
-    return any(not brief < end - begin < WHOLE for begin, end in this.windows)
