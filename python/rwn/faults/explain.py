@@ -22,6 +22,8 @@ from rwn.recording.inspection import Finding
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording
 
+ASKED_AGAIN = 2  # times that how the input acted is asked of what was found; each that changes it costs a search
+
 
 @dataclass(frozen=True, kw_only=True)
 class Explained:
@@ -64,26 +66,23 @@ class Explained:
 def explained(
     recordings: Sequence[Recording], model: Model, *, late: Sequence[LateEnable], say: Progress, effort: float = 1.0
 ) -> Explained:
-    """The explanation; found once more where under the best one the input acted otherwise.
+    """The explanation; found anew where under the best one the input acted otherwise.
 
     `late`: power stages that were enabled late, as far as the nominal model shows them. `effort`: what the search may
     cost, as a multiple of the usual.
 
     Raises InputError where a recording does not fit the model.
     """
-    on = powered(recordings, late, model)
-    stated = with_intersample(on, model)
-    faults, ranking = resolved(_as_acted(on, stated), stated, say=say, effort=effort)
-    best = ranking.fits[0].fit
-    still = needed(late, recordings, stated, ranking.problem, best)
-    still = retimed(still, recordings, stated, ranking.problem, best)
-    again = stated
-    if stated is not model and stated.recording.intersample != HELD:
-        as_held = without_all(powered(recordings, still, model), faults)
-        bare = prepare(as_held, stating(model, HELD))  # what is missing may look like another law
-        again = stating(stated, likeliest_with_filters(bare, best, stated.recording.intersample))
-    if (still, again) != (tuple(late), stated):
-        as_acted = _as_acted(powered(recordings, still, model), again, None if faults else best)
+    on, still = powered(recordings, late, model), tuple(late)
+    again = with_intersample(on, model)
+    faults, ranking = resolved(_as_acted(on, again), again, say=say, effort=effort)
+    for _ in range(ASKED_AGAIN):
+        asked = _asked_again(recordings, model, still, again, faults, ranking)
+        if asked == (still, again):
+            break
+        still, again = asked
+        best = None if faults else ranking.fits[0].fit
+        as_acted = _as_acted(powered(recordings, still, model), again, best)
         faults, ranking = resolved(as_acted, again, say=say, effort=effort)
     for wrong in contradicted(ranking):
         free = without_declared(again, wrong)
@@ -93,6 +92,20 @@ def explained(
             break
     again = stating_filters(again, ranking.problem.filters)
     return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)
+
+
+def _asked_again(
+    recordings: Sequence[Recording], model: Model, late: Sequence[LateEnable], stated: Model, faults: Sequence[Fault],
+    ranking: Ranking,
+) -> tuple[tuple[LateEnable, ...], Model]:  # fmt: skip
+    """The late enables, and the model with the law between rows, as the best explanation that was found has them."""
+    best = ranking.fits[0].fit
+    still = needed(late, recordings, stated, ranking.problem, best)
+    still = retimed(still, recordings, stated, ranking.problem, best)
+    if stated is model or stated.recording.intersample == HELD:
+        return still, stated
+    bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
+    return still, stating(stated, likeliest_with_filters(bare, best, stated.recording.intersample))
 
 
 def _as_acted(recordings: Sequence[Recording], model: Model, best: Fit | None = None) -> list[Recording]:
