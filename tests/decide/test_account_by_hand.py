@@ -13,7 +13,7 @@ from rwn.decide import account as module
 from rwn.decide.account import Account, Acting, Remainder, account, remainder
 from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.evidence import Evidence, _predicted
-from rwn.name.weights import MISSPECIFIED
+from rwn.fit.residuals import MISSPECIFIED
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
 

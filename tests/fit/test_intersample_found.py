@@ -44,7 +44,7 @@ def test_thinned_rows_are_told_from_whole_ones(every: int, law: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("every", "at_first", "law"), [(1, "held", "held"), (2, "thirds", "halves"), (3, "thirds", "thirds")]
+    ("every", "at_first", "law"), [(1, "held", "held"), (2, "held", "halves"), (3, "thirds", "thirds")]
 )
 def test_thinned_rows_are_told_from_whole_ones_also_beneath_missing_physics(
     every: int, at_first: str, law: str

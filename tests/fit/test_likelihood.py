@@ -1,25 +1,19 @@
-"""What makes one choice certainly likelier than another."""
+"""When one choice is decisively likelier than another."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from rwn.fit.likelihood import BLOCKS, DECISIVE, certainly_likelier
+from rwn.fit.likelihood import is_decisive
+from rwn.fit.residuals import MISSPECIFIED, MOST_SAMPLES, statistics_of
 
 
-@pytest.mark.parametrize("factor", [1.1, 1e3])
-def test_a_gain_that_all_blocks_share_is_certain(factor: float) -> None:
-    gains = factor * DECISIVE / BLOCKS * (1.0 + 0.5 * np.cos(np.arange(BLOCKS)))
-    assert certainly_likelier(gains, np.zeros(BLOCKS))
-    assert not certainly_likelier(np.zeros(BLOCKS), gains)
-
-
-def test_a_gain_of_a_few_moments_is_not_certain_however_large() -> None:
-    gains = np.zeros(BLOCKS)
-    gains[[3, 17]] = 1e4
-    assert not certainly_likelier(gains, np.zeros(BLOCKS))
-
-
-def test_a_small_gain_is_not_decisive_however_even() -> None:
-    assert not certainly_likelier(np.full(BLOCKS, 0.9 * DECISIVE / BLOCKS), np.zeros(BLOCKS))
+@pytest.mark.parametrize(("slow", "most"), [(0.0, MOST_SAMPLES), (10.0, MISSPECIFIED)])
+def test_a_gain_counts_in_as_many_samples_as_what_is_left_is_worth(slow: float, most: float) -> None:
+    """Of 20 000 samples: errors that are more than noise say little, however many there are."""
+    noise = np.random.default_rng(1).standard_normal(20_000)
+    left = statistics_of({"speed": noise + slow * np.sin(np.arange(noise.size) / 300.0)})
+    enough = np.log(1000.0) * noise.size / most
+    assert is_decisive(1.01 * enough, left)
+    assert not is_decisive(0.99 * enough, left)

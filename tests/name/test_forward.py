@@ -16,7 +16,7 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import MOST_COLOURED, Statistics, statistics, statistics_of
+from rwn.fit.residuals import MISSPECIFIED, MOST_COLOURED, Statistics, statistics, statistics_of
 from rwn.model.model import Model
 from rwn.name.backward import with_simpler
 from rwn.name.degenerate import adds
@@ -24,7 +24,7 @@ from rwn.name.forward import _beside, _diverse, rank
 from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import NO_PAIRS
 from rwn.name.screening import screen
-from rwn.name.weights import MISSPECIFIED, weigh
+from rwn.name.weights import weigh
 from rwn.recording.noise import Noise
 from rwn.recording.speed_measurement import CENTRAL
 from rwn.simulate.run import Run

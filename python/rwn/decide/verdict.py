@@ -9,8 +9,8 @@ import numpy as np
 from rwn.decide import excitation
 from rwn.decide.account import Account, Remainder
 from rwn.fit.intervals import deviations
+from rwn.fit.residuals import MOST_SAMPLES
 from rwn.name.ranking import Ranking
-from rwn.name.weights import MOST_SAMPLES
 
 Verdict = Literal[
     "missing-physics", "adequate", "unexplained", "insufficient-excitation", "recording-mistake"

@@ -102,7 +102,7 @@ def _asked_again(
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
     still = retimed(still, recordings, stated, ranking.problem, best)
-    if stated is model or stated.recording.intersample == HELD:
+    if stated is model or (stated.recording.intersample == HELD and ranking.left.at_the_floor):
         return still, stated
     bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
     return still, stating(stated, likeliest_with_filters(bare, best, stated.recording.intersample))

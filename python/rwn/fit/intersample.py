@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit, refit
-from rwn.fit.likelihood import CERTAINLY, certainly_likelier, log_likelihoods, log_posterior
+from rwn.fit.likelihood import is_decisive, log_likelihood, log_posterior
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import accuracy_lost
-from rwn.fit.sensor_filter import filters_and_likelihoods, refitted_beside
+from rwn.fit.residuals import LEVEL, accuracy_lost, statistics
+from rwn.fit.sensor_filter import filters_and_likelihood, refitted_beside
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
@@ -24,6 +25,7 @@ from rwn.recording.recording import Recording, beginnings
 
 Array = NDArray[np.float64]
 
+CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations of the loss of a law that the free run certainly refuses
 MOST_OFF = 0.5  # share of the rows: where more are off, that is the noise of the current
 ITERATIONS = 8  # of a fit that begins near its end
 
@@ -39,7 +41,7 @@ def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
 
 
 def likeliest(problem: Problem, this: Fit) -> str:
-    """The law under which the errors of a fit, refitted, are likeliest; what the rows' times do not show, by far.
+    """The law under which the errors of a fit, refitted, are likeliest; one that the rows' times do not show, by far.
 
     What is new in an error may go with the input by another way than through the drive: a controller answers the noise
     of a row by the input of that row, a cable picks its steps up. A law that foretells this is likelier for no physics,
@@ -47,11 +49,8 @@ def likeliest(problem: Problem, this: Fit) -> str:
     """
     candidates = _candidates(problem)
     fits = side_by_side(lambda p: refit(this, p, iterations=ITERATIONS), candidates.values())
-    refitted = dict(zip(candidates, fits, strict=True))
-    scores = {law: log_likelihoods(candidates[law], refitted[law]) for law in candidates}
-    held = candidates[HELD], refitted[HELD]
-    lost = {law: accuracy_lost(*held, candidates[law], refitted[law]) for law in candidates}
-    return _chosen({law: scores[law] for law in candidates if lost[law] < CERTAINLY})
+    refitted = dict(zip(candidates, zip(candidates.values(), fits, strict=True), strict=True))
+    return _chosen(refitted, {law: log_likelihood(*refitted[law]) for law in candidates})
 
 
 def likeliest_with_filters(problem: Problem, explanation: Fit, stated: str) -> str:
@@ -72,22 +71,26 @@ def likeliest_with_filters(problem: Problem, explanation: Fit, stated: str) -> s
     asked = {HELD, max(bare, key=lambda law: bare[law]), *({stated} & set(bare))}
     if len(asked) == 1:
         return HELD
-    scores = {law: filters_and_likelihoods(*refitted[law])[1] for law in sorted(asked)}
+    scores = {law: filters_and_likelihood(*refitted[law])[1] for law in sorted(asked)}
+    return _chosen(refitted, scores)
+
+
+def _chosen(refitted: Mapping[str, tuple[Problem, Fit]], scores: Mapping[str, float]) -> str:
+    """The likeliest law of those that the times of the rows speak for, or another that is decisively likelier.
+
+    One that simulates the recordings certainly worse than a held input is neither.
+    """
     held, as_held = refitted[HELD]
-    lost = {law: accuracy_lost(held, as_held, replace(refitted[law][0], noise=held.noise), refitted[law][1])
-            for law in scores}  # fmt: skip
-    return _chosen({law: scores[law] for law in scores if lost[law] < CERTAINLY})
 
+    def lost(law: str) -> float:
+        problem, this = refitted[law]
+        return accuracy_lost(held, as_held, replace(problem, noise=held.noise), this)
 
-def _chosen(scores: Mapping[str, Array]) -> str:
-    """The likeliest law of those that the times of the rows speak for, or another that is certainly likelier."""
-
-    def likelihood(law: str) -> float:
-        return float(np.sum(scores[law]))
-
-    usual = max((law for law in scores if INTERSAMPLE[law].shown), key=likelihood)
-    certain = [law for law in scores if certainly_likelier(scores[law], scores[usual])]
-    return max((law for law in certain if not INTERSAMPLE[law].shown), key=likelihood, default=usual)
+    believable = [law for law in scores if law == HELD or lost(law) < CERTAINLY]
+    usual = max((law for law in believable if INTERSAMPLE[law].shown), key=lambda law: scores[law])
+    others = [law for law in believable if not INTERSAMPLE[law].shown]
+    decisive = [law for law in others if is_decisive(scores[law] - scores[usual], statistics(*refitted[law]))]
+    return max(decisive, key=lambda law: scores[law], default=usual)
 
 
 def _explained(explanation: Fit, problem: Problem) -> tuple[Problem, Fit]:

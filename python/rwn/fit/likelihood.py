@@ -3,13 +3,11 @@
 What a model leaves out moves slowly against the sample time and is the same under every choice, so the errors are
 compared by what is new in them: their likelihood as autoregressions. Where a choice is made beside an explanation, one
 under which the parameters have to leave what was declared pays for that; before anything is explained they leave
-it under every choice. Such errors are not noise, and a few sharp moments may make any choice a million times likelier:
-one that is certain is so by the scatter of its gain from block to block too.
+it under every choice. What is new in errors that are more than noise is no noise either: it counts as few samples as
+the evidence for effects does.
 """
 
 from __future__ import annotations
-
-from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +15,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.levenberg_marquardt import prior_cost
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import LEVEL
+from rwn.fit.residuals import Statistics
 from rwn.recording.intersample import between_ticks
 from rwn.simulate.run import Run
 
@@ -25,40 +23,29 @@ Array = NDArray[np.float64]
 
 ORDER = 8  # of the autoregressions
 DECISIVE = float(np.log(1000.0))  # how much likelier another choice has to be than what is usual
-BLOCKS = 30  # of the rows: enough for a deviation to be known to a tenth, each longer than an error lasts
-CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations
+
+
+def is_decisive(gained: float, left: Statistics) -> bool:
+    """Whether a gain of log-likelihood is decisive, counted in as many samples as what is left is worth.
+
+    `left`: by the choice for which it speaks.
+    """
+    return gained * min(left.most_independent / max(left.count, 1), 1.0) > DECISIVE
 
 
 def log_posterior(problem: Problem, this: Fit) -> float:
     """Of a fit, by what it leaves and by how far its parameters are from what was declared; up to a constant."""
-    return float(np.sum(log_posteriors(problem, this)))
-
-
-def log_posteriors(problem: Problem, this: Fit) -> Array:
-    """The same by blocks of rows, (BLOCKS,)."""
-    moved = 0.5 * prior_cost(this.hypothesis.unknowns, this.minimum.values)
-    return log_likelihoods(problem, this) - moved / BLOCKS
+    return log_likelihood(problem, this) - 0.5 * prior_cost(this.hypothesis.unknowns, this.minimum.values)
 
 
 def log_likelihood(problem: Problem, this: Fit) -> float:
-    """Of what a fit leaves, each signal an autoregression of its own; up to a constant."""
-    return float(np.sum(log_likelihoods(problem, this)))
-
-
-def certainly_likelier(one: Array, other: Array) -> bool:
-    """Whether logarithms (BLOCKS,) under one choice are decisively above those under another (Vuong 1989, 1 %)."""
-    gains = one - other
-    return bool(np.sum(gains) > max(DECISIVE, CERTAINLY * float(np.std(gains, ddof=1)) * np.sqrt(gains.size)))
-
-
-def log_likelihoods(problem: Problem, this: Fit) -> Array:
-    """Of what a fit leaves, each signal an autoregression of its own; of each of as many blocks of rows, (BLOCKS,).
+    """Of what a fit leaves, each signal an autoregression of its own; up to a constant.
 
     An autoregression is over even steps: errors of uneven rows are those of the samples that these would lie between,
     and the noise of a row, where it was not interpolated, is larger there the farther it lies from its tick.
     """
     residuals = problem.residuals(this.vector, this.active)
-    blocks = np.zeros(BLOCKS)
+    likelihood = 0.0
     for signal in dict.fromkeys(s for left in residuals for s in left):
         pairs = [(r, left[signal]) for r, left in zip(problem.runs, residuals, strict=True) if signal in left]
         even = [_evenly(r, signal, left) for r, left in pairs]
@@ -70,13 +57,12 @@ def log_likelihoods(problem: Problem, this: Fit) -> Array:
             weights = np.linalg.lstsq(before, now)[0]
             new = now - before @ weights
             samples = sum(r.time.size for r, _ in pairs)
-            logarithms = _log_densities(new, noise, 1.0 + float(weights @ weights))
-            blocks += [samples / new.size * np.sum(of_block) for of_block in np.array_split(logarithms, BLOCKS)]
-    return blocks
+            likelihood -= 0.5 * samples * _log_variance(new, noise, 1.0 + float(weights @ weights))
+    return likelihood
 
 
-def _log_densities(new: Array, noise: Array, noises: float) -> Array:
-    """Of what is new in errors (n,), normal with the variance that is likeliest; up to a constant.
+def _log_variance(new: Array, noise: Array, noises: float) -> float:
+    """Mean logarithm of the variance of what is new in errors, and of its squares over it.
 
     `noise`: of the rows (n,), 1 on the scale of the errors where none is amplified; `noises`: of how many rows it is
     made up. The rest of what is new is no noise, and alike in all rows.
@@ -84,8 +70,7 @@ def _log_densities(new: Array, noise: Array, noises: float) -> Array:
     whole = float(np.mean(new**2)) + 1e-300
     share = min(noises * float(np.mean(noise)) / whole, 1.0)
     relative = 1.0 + share * (noise / np.mean(noise) - 1.0)
-    variance = relative * (np.mean(new**2 / relative) + 1e-300)
-    return np.asarray(-0.5 * (np.log(variance) + new**2 / variance - 1.0))
+    return float(np.log(np.mean(new**2 / relative) + 1e-300) + np.mean(np.log(relative)))
 
 
 def _evenly(run: Run, signal: str, errors: Array) -> tuple[Array, Array]:

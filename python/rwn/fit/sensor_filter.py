@@ -16,7 +16,7 @@ from rwn.fit.budget import one_stage, shares_by_rank
 from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.likelihood import BLOCKS, certainly_likelier, log_posterior, log_posteriors
+from rwn.fit.likelihood import log_posterior
 from rwn.fit.part import screening_part
 from rwn.fit.prior import Nuisance
 from rwn.fit.prior_weight import BELIEVABLE
@@ -39,11 +39,11 @@ ROUNDS = 2  # in which the filters of several signals are estimated beside each 
 
 def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
     """The filters that the errors of a fit show; none of signals that the model filters by itself."""
-    return filters_and_likelihoods(problem, this)[0]
+    return filters_and_likelihood(problem, this)[0]
 
 
-def filters_and_likelihoods(problem: Problem, this: Fit) -> tuple[tuple[SensorFilter, ...], Array]:
-    """The same, and how likely blocks of rows are by what goes best with these (log, BIC; (BLOCKS,))."""
+def filters_and_likelihood(problem: Problem, this: Fit) -> tuple[tuple[SensorFilter, ...], float]:
+    """The same, and how likely the recordings are by the explanation that goes best with these (log, BIC)."""
     residuals = problem.residuals(this.vector, this.active)
     seen = coloured_signals(problem, residuals)
     hidden = not seen or any(one.share >= MOST for one in seen)
@@ -52,15 +52,15 @@ def filters_and_likelihoods(problem: Problem, this: Fit) -> tuple[tuple[SensorFi
         residuals = problem.residuals(slow.vector, slow.active)
         seen = coloured_signals(problem, residuals) or seen
     if not seen:
-        return (), _likelihoods(problem, this, ())
+        return (), _likelihood(problem, this, ())
     found = [_filters_beside(problem, base, seen, residuals) for base in _without_lags(problem, this)]
-    return max(found, key=lambda pair: float(np.sum(pair[1])))
+    return max(found, key=lambda pair: pair[1])
 
 
 def _filters_beside(
     problem: Problem, base: Fit, seen: Sequence[SensorFilter], residuals: Sequence[Mapping[str, Array]]
-) -> tuple[tuple[SensorFilter, ...], Array]:
-    """The filters beside an explanation, and how likely blocks of rows are by both."""
+) -> tuple[tuple[SensorFilter, ...], float]:
+    """The filters beside an explanation, and how likely both are (log, BIC)."""
     found: dict[str, SensorFilter] = {}
     known = list(seen)
     for _ in range(ROUNDS):
@@ -75,7 +75,7 @@ def _filters_beside(
         if len(known) == 1:
             break
     filters = _together(problem, base, tuple(found.values()))
-    return filters, _likelihoods(problem, base, filters)
+    return filters, _likelihood(problem, base, filters)
 
 
 def _uncovered(
@@ -108,7 +108,7 @@ def _together(problem: Problem, base: Fit, found: tuple[SensorFilter, ...]) -> t
     def negative_likelihood(logarithms: Array) -> float:
         filters = at(logarithms)
         inside = all(LEAST <= f.share <= MOST for f in filters)
-        return -float(np.sum(_likelihoods(problem, base, filters))) if inside else np.inf
+        return -_likelihood(problem, base, filters) if inside else np.inf
 
     start = np.log([f.time_constant for f in digital])
     simplex = np.vstack([start, start + SIMPLEX * np.eye(start.size)])
@@ -121,14 +121,13 @@ def _of_time(problem: Problem, f: SensorFilter, time_constant: float) -> SensorF
     return replace(f, time_constant=time_constant, share=_share_kept(problem, f.signal, time_constant))
 
 
-def _likelihoods(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) -> Array:
-    """How likely blocks of rows are by an explanation and filters beside it (log, BIC; (BLOCKS,))."""
+def _likelihood(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) -> float:
+    """How likely an explanation and filters beside it are (log, BIC)."""
     on = filtered(problem, filters)
     this = _refitted(base, on)
     shown = sum(_samples(problem, f.signal) * float(np.log(1.0 - f.share)) for f in filters if f.digital)
     unknowns = len(this.hypothesis.unknowns) + len(on.filters)
-    paid = shown + 0.5 * unknowns * float(np.log(problem.samples))
-    return log_posteriors(on, this) - paid / BLOCKS
+    return log_posterior(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
 
 
 def _samples(problem: Problem, signal: str) -> int:
@@ -224,18 +223,16 @@ def _refitted(this: Fit, problem: Problem) -> Fit:
 
 
 def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter | None:
-    """The filter, digital or analog, that is certainly likelier than coloured noise alone; None: neither is.
+    """The filter, digital or analog, under which the errors are likelier than as coloured noise alone; None: neither.
 
     By BIC: a filter has a time constant more. An autoregression may have been any other filtered, so that where much is
     missing, or where the input is noisy, a filter gains or loses by what that happens to be; one under which the
     recordings are not simulated better is none.
     """
     kinds = [replace(seen, digital=False), _digital(problem, this, seen)]
-    kinds = [f for f in kinds if _accuracy_lost(problem, this, f) < 0.0]
-    without = _likelihoods(problem, this, [])
-    scores = {f: _likelihoods(problem, this, [f]) for f in kinds}
-    certain = [f for f in kinds if certainly_likelier(scores[f], without)]
-    return max(certain, key=lambda f: float(np.sum(scores[f])), default=None)
+    scores = {f: _likelihood(problem, this, [f]) for f in kinds if _accuracy_lost(problem, this, f) < 0.0}
+    without = _likelihood(problem, this, [])
+    return max((f for f in scores if scores[f] > without), key=lambda f: scores[f], default=None)
 
 
 def _accuracy_lost(problem: Problem, this: Fit, f: SensorFilter) -> float:

@@ -10,8 +10,6 @@ import numpy as np
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 
-MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it counts for
-MOST_SAMPLES = 1000.0  # most independent samples that noise counts for: a simulation is exact to 0.1 % of its square
 LOST = 1e12  # log of evidence against a fit whose simulation ran away: what no recording outweighs, and still a number
 
 
@@ -32,7 +30,7 @@ class RankedFit:
 
 def effective_samples(left: Statistics) -> float:
     """How many independent samples a residual counts for, against a fit that leaves more."""
-    return min(left.effective, MOST_SAMPLES if left.at_the_floor else MISSPECIFIED)
+    return min(left.effective, left.most_independent)
 
 
 def log_odds(this: Fit, other: Fit, left: Statistics) -> float:
