@@ -65,6 +65,18 @@ def test_a_type_that_there_is_not_does_not_reach_scipy(kind: int, size: int, tmp
         read_recording(tmp_path / "a.mat")
 
 
+@pytest.mark.parametrize(
+    ("at", "put"), [(0, b"MAATLB"), (0, b"Octave"), (124, b"\x02\x01IM"), (124, b"\x01\x02MI"), (124, b"\x00\x01IX")]
+)
+def test_a_header_that_scipy_does_not_look_at_hides_nothing(at: int, put: bytes, tmp_path: Path) -> None:
+    scipy.io.savemat(tmp_path / "a.mat", {"x": np.arange(40.0)})
+    content = bytearray((tmp_path / "a.mat").read_bytes()[:-1])
+    content[at : at + len(put)] = put
+    (tmp_path / "a.mat").write_bytes(content)
+    with pytest.raises(ValueError, match=r"an element of type|a version that there is not"):
+        check_elements(tmp_path / "a.mat")
+
+
 @pytest.mark.parametrize("packed", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_whatever_bytes_are_altered_it_ends(packed: bool, tmp_path: Path) -> None:
     scipy.io.savemat(tmp_path / "a.mat", NESTED, do_compression=packed)

@@ -10,7 +10,8 @@ from pathlib import Path
 Read = Callable[[int], bytes]
 
 _HEADER, _TAG = 128, 8  # bytes
-_ORDERS = {b"\x00\x01IM": "<", b"\x01\x00MI": ">"}  # of bytes; version 7.3 has another number before them
+_ORDERS = {b"\x00\x01IM": "<", b"\x01\x00MI": ">"}  # of bytes, with the version before it
+_HDF = {b"\x00\x02IM", b"\x02\x00MI"}  # version 7.3
 _MATRIX, _COMPRESSED = 14, 15
 _TYPES = {1, 2, 3, 4, 5, 6, 7, 9, 12, 13, _MATRIX, _COMPRESSED, 16, 17, 18}
 _DEEPEST = 60  # structs in structs
@@ -41,13 +42,17 @@ class _Stream:
 def check_elements(path: Path) -> None:
     """Raises ValueError or zlib.error where a tag names a type that there is not, or more bytes than what holds it has.
 
-    A file without the header of these versions is left to others.
+    Versions 4 and 7.3 are left to others. Which it is, scipy reads off the first and the last bytes of the header, not
+    off its text.
     """
     with path.open("rb") as file:
         head = file.read(_HEADER)
-        if not head.startswith(b"MATLAB 5.0") or head[124:] not in _ORDERS:
+        version = head[124:]
+        if 0 in head[:4] or version in _HDF:
             return
-        stream = _Stream(file.read, _ORDERS[head[124:]])
+        if version not in _ORDERS:
+            raise ValueError("a version that there is not")
+        stream = _Stream(file.read, _ORDERS[version])
         left = path.stat().st_size - _HEADER
         while left >= _TAG:
             left -= _element(stream, left, 0)
