@@ -40,6 +40,7 @@ class FakeIdentification:
     not_identifiable: tuple[str, ...] = ()
     residual_over_noise: float = 1.0
     findings: tuple[()] = ()
+    warnings: tuple[()] = ()
 
 
 def _fake_diagnose(calls: list[dict[str, Any]]) -> Callable[..., Diagnosis]:
