@@ -136,7 +136,7 @@ COUNT ?= 100
 SECONDS ?= 60
 TARGET ?= every
 PAGE := --page docs/testing.md
-.PHONY: coverage coverage-cpp fuzz hostile kills soak mutants-python long-csv wheels install-trust
+.PHONY: coverage coverage-cpp fuzz fuzz-corpus hostile kills soak mutants-python long-csv wheels install-trust
 install-trust:
 	@$(PIP) --group trust
 
@@ -173,6 +173,12 @@ coverage-cpp: install-test install-trust
 
 fuzz: install-trust
 	$(TRUST).fuzz $(TARGET) --seconds $(SECONDS) $(PAGE)
+
+# Without guidance and with the same inputs in every run, which CI does too, within what UNTIL leaves of its time (as `date +%s`).
+UNTIL ?= inf
+fuzz-corpus: SECONDS = 600
+fuzz-corpus:
+	$(TRUST).fuzz_corpus $(TARGET) --seconds $(SECONDS) --until $(UNTIL) --jobs $(JOBS) $(PAGE)
 
 hostile:
 	$(TRUST).hostile --damaged $(COUNT) $(PAGE)

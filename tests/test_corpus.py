@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))  # tools are no part of the package
 
-from tools.trust.cases import _damage  # noqa: E402
+from tools.trust.cases import damage  # noqa: E402
 from tools.trust.fuzz import CORPUS, TARGETS  # noqa: E402
 from tools.trust.hostile import GOOD, count, ended  # noqa: E402
 
@@ -26,7 +26,7 @@ def test_a_reader_refuses_or_reads(target: str) -> None:
     for data in corpus:
         TARGETS[target](data)
     for _ in range(ALTERED):
-        TARGETS[target](_damage(draw.choice(corpus), draw))
+        TARGETS[target](damage(draw.choice(corpus), draw))
 
 
 @pytest.mark.slow

@@ -91,9 +91,11 @@ def diagnose(
         say("drawing", 0.95)
         made = assemble(correction, found.faults, model, case.unseen, seed=seed, elapsed=time.perf_counter() - began)
         layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
-        made = replace(made, corrected=replace(made.corrected, recording=layout))
+        corrected = replace(made.corrected, recording=layout)
         enabled = (one.as_finding(model.drive.input) for one in case.late)
-        return replace(made, findings=(*findings, *found.findings, *unseen_findings, *common, *enabled))
+        findings = (*findings, *found.findings, *unseen_findings, *common, *enabled)
+        warnings = (*made.warnings, *(told for recording in (*fitted, *judged) for told in recording.warnings))
+        return replace(made, corrected=corrected, findings=findings, warnings=warnings)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -96,6 +96,20 @@ def test_one_end_of_a_stretch_will_do() -> None:
 
 
 @pytest.mark.parametrize(
+    ("line", "got", "expected"),
+    [
+        ('columns.speed = { source = 3, unit = "rad/s" }', "a number", "text in quotes"),
+        ("from = true", "true or false", "a number, or text with a unit"),
+        ("decimate = 1.5", "a number", "a whole number"),
+        ("columns = [1]", "a list", "a table"),
+    ],
+)
+def test_a_key_of_another_type_is_refused_in_words(line: str, got: str, expected: str) -> None:
+    said = _refused(f"{MODEL}[recording]\n{line}\n")
+    assert (said.what, said.expected) == (f"the value is {got}", expected)
+
+
+@pytest.mark.parametrize(
     ("value", "kind"), [("true", "true or false"), ("[1]", "list"), ("{ a = 1 }", "dict"), ("1979-05-27", "date")]
 )
 def test_a_value_is_a_number_or_a_text_with_a_unit(value: str, kind: str) -> None:

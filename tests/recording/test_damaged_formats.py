@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import scipy.io
+import scipy.sparse
 
 from rwn.errors import InputError
 from rwn.recording.formats.extra import quiet
@@ -65,6 +66,39 @@ def test_a_type_that_there_is_not_does_not_reach_scipy(kind: int, size: int, tmp
         read_recording(tmp_path / "a.mat")
 
 
+@pytest.mark.parametrize(("flags", "found"), [((6 | 0x800, 0), "its numbers"), ((5, 9), "its numbers"), ((), "flags")])
+def test_numbers_that_a_matrix_lacks_are_not_read_behind_it(flags: tuple[int, ...], found: str, tmp_path: Path) -> None:
+    """scipy would take the next variable for the imaginary part, and its tag for a type of numbers."""
+    scipy.io.savemat(tmp_path / "a.mat", {"x": np.arange(40.0), "y": np.arange(40.0)})
+    content = (tmp_path / "a.mat").read_bytes()
+    before = struct.pack("<IIII", 6, 8, 6, 0)
+    assert content.count(before) == 2
+    altered = struct.pack("<IIII", 6, 8, *flags) if flags else struct.pack("<IIII", 6, 4, 6, 0)
+    (tmp_path / "a.mat").write_bytes(content.replace(before, altered, 1))
+    with pytest.raises(ValueError, match=f"a matrix without {found}"):
+        check_elements(tmp_path / "a.mat")
+    with pytest.raises(InputError, match=r"a\.mat: this is not a \.mat file, or it is damaged"):
+        read_recording(tmp_path / "a.mat")
+
+
+def test_complex_and_sparse_matrices_are_left_to_scipy(tmp_path: Path) -> None:
+    given = {"c": np.arange(4.0) + 1j, "s": scipy.sparse.eye_array(4, format="csc"), "e": np.empty((0, 0)), "t": "text"}
+    scipy.io.savemat(tmp_path / "a.mat", given)
+    check_elements(tmp_path / "a.mat")
+
+
+@pytest.mark.parametrize(
+    ("at", "put"), [(0, b"MAATLB"), (0, b"Octave"), (124, b"\x02\x01IM"), (124, b"\x01\x02MI"), (124, b"\x00\x01IX")]
+)
+def test_a_header_that_scipy_does_not_look_at_hides_nothing(at: int, put: bytes, tmp_path: Path) -> None:
+    scipy.io.savemat(tmp_path / "a.mat", {"x": np.arange(40.0)})
+    content = bytearray((tmp_path / "a.mat").read_bytes()[:-1])
+    content[at : at + len(put)] = put
+    (tmp_path / "a.mat").write_bytes(content)
+    with pytest.raises(ValueError, match=r"an element of type|a version that there is not"):
+        check_elements(tmp_path / "a.mat")
+
+
 @pytest.mark.parametrize("packed", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_whatever_bytes_are_altered_it_ends(packed: bool, tmp_path: Path) -> None:
     scipy.io.savemat(tmp_path / "a.mat", NESTED, do_compression=packed)
@@ -81,7 +115,7 @@ def test_whatever_bytes_are_altered_it_ends(packed: bool, tmp_path: Path) -> Non
 def test_structs_nested_beyond_reason_are_refused(tmp_path: Path) -> None:
     inner = b""
     for _ in range(100):
-        inner = struct.pack("<II", 14, len(inner)) + inner
+        inner = struct.pack("<IIIIII", 14, 16 + len(inner), 6, 8, 1, 0) + inner
     (tmp_path / "a.mat").write_bytes(b"MATLAB 5.0".ljust(124) + b"\x00\x01IM" + inner)
     with pytest.raises(ValueError, match="an element of type 14"):
         check_elements(tmp_path / "a.mat")

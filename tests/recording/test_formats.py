@@ -250,6 +250,10 @@ def _xarray() -> Any:
     )
 
 
+def _xarray_with_units_in_its_names() -> Any:
+    return _imported("xarray").Dataset({name: ("row", values) for name, values in NAMED.items()})
+
+
 OBJECTS: dict[str, Callable[[], Any]] = {
     "pandas": _pandas,
     "pandas with times as its index": _pandas_with_an_index,
@@ -258,6 +262,7 @@ OBJECTS: dict[str, Callable[[], Any]] = {
     "polars": _polars,
     "pyarrow": _pyarrow,
     "xarray": _xarray,
+    "xarray with units in its names": _xarray_with_units_in_its_names,
     "dictionary": lambda: dict(NAMED),
     "dictionary of lists": lambda: {name: values.tolist() for name, values in NAMED.items()},
 }

@@ -203,7 +203,7 @@ def _damaged(count: int, draw: random.Random, good: Path) -> Iterator[Case]:
     files = sorted(path for path in good.rglob("*") if path.is_file())
     for k in range(count):
         path = files[k % len(files)]
-        name, content = str(path.relative_to(good)), _damage(path.read_bytes(), draw)
+        name, content = str(path.relative_to(good)), damage(path.read_bytes(), draw)
         command: tuple[str, ...]
         if name.startswith("trials/"):
             command = ("trials", "score", "trials")
@@ -218,7 +218,7 @@ def _damaged(count: int, draw: random.Random, good: Path) -> Iterator[Case]:
         yield Case(kind=kind, what=f"{name}, {k}", command=command, files={name: content}, refuse=False)
 
 
-def _damage(content: bytes, draw: random.Random) -> bytes:
+def damage(content: bytes, draw: random.Random) -> bytes:
     text = bytearray(content)
     for _ in range(draw.randint(1, 4)):
         at = draw.randrange(len(text) + 1)

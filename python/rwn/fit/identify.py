@@ -40,7 +40,7 @@ class Identification:
     interval. `status`: `converged`, `iteration-limit`, `stalled` or `diverged`; `advice`: what to do about it.
     `not_identifiable`: parameters of which these recordings say less than the data sheet does. `residual_over_noise`:
     rms of what the fit leaves, in units of the noise; 1: nothing but noise. `findings`: what is odd in the recordings,
-    and what was done about it.
+    and what was done about it; `warnings`: what reading them told.
     """
 
     model: Model
@@ -50,6 +50,7 @@ class Identification:
     not_identifiable: tuple[str, ...]
     residual_over_noise: float
     findings: tuple[Finding, ...] = ()
+    warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         names = ", ".join(self.parameters)
@@ -88,7 +89,8 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     Raises InputError where a recording does not fit the model.
     """
     model = model_of(model)
-    runs, findings = inspected(recordings_to_fit(recordings, model))
+    given = recordings_to_fit(recordings, model)
+    runs, findings = inspected(given)
     if model.effects:
         check_declared(prepare(runs, model), model)
     model = with_intersample(runs, model)
@@ -106,6 +108,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
         not_identifiable=_unseen(this, left),
         residual_over_noise=left.variance**0.5,
         findings=findings,
+        warnings=tuple(warning for recording in given for warning in recording.warnings),
     )
 
 

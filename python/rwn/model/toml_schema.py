@@ -97,6 +97,17 @@ def decode(text: str, where: str) -> File:
         ) from error
 
 
+_QUANTITY = "a number, or text with a unit"
+_EXPECTED = {
+    "float | str": _QUANTITY, "float | str | object": _QUANTITY, "str": "text in quotes", "object": "a table",
+    "int": "a whole number", "float": "a number", "bool": "true or false", "array": "a list",
+}  # fmt: skip
+_GOT = {
+    "int": "a number", "float": "a number", "bool": "true or false", "str": "text", "object": "a table",
+    "array": "a list",
+}  # fmt: skip
+
+
 def _worded(message: str, where: str) -> InputError:
     """msgspec's `Expected `x`, got `y` - at `$.a.b`` in our words."""
     what, _, path = message.partition(" - at `$")
@@ -107,19 +118,10 @@ def _worded(message: str, where: str) -> InputError:
         return unknown("key", found[1], _table_at(keys).__struct_encode_fields__, where=place)
     wrong = re.search(r"[Ee]xpected `(.+?)`, got `(.+?)`", what)
     if wrong:
-        either = "a number, or text with a unit"
-        names = {"float | str": either, "float | str | object": either, "str": "text in quotes", "object": "a table"}
-        got = {
-            "int": "a number",
-            "bool": "true or false",
-            "str": "text",
-            "object": "a table",
-            "array": "a list",
-        }
         return InputError(
-            f"the value is {got.get(wrong[2], wrong[2])}",
+            f"the value is {_GOT.get(wrong[2], wrong[2])}",
             where=place,
-            expected=names.get(wrong[1], wrong[1]),
+            expected=_EXPECTED.get(wrong[1].removesuffix(" | null"), wrong[1]),
             fix="correct the value",
         )
     missing = re.search(r"missing required field `(.+)`", what)

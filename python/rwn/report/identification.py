@@ -87,7 +87,7 @@ def lines(fit: Identification, signals: Sequence[ExplainedSignal], nominal: Mode
         yield f"{row.recording}: {how}, rms error {number(row.error)} {symbol(row.unit)}".rstrip()
     yield f"what is left has {number(fit.residual_over_noise, 2)} times the rms of the noise (1: nothing but noise)"
     yield from (f"{finding.recording}: {finding.words} ({finding.done})" for finding in fit.findings)
-    yield from (f"warning: {text}" for text in _doubts(fit, nominal))
+    yield from (f"warning: {text}" for text in (*fit.warnings, *_doubts(fit, nominal)))
 
 
 def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:

@@ -25,7 +25,8 @@ def table_of_object(source: Any, wanted: Collection[str]) -> Table:
     if is_frame(source):
         found = list(columns_of_frame(source))
     elif hasattr(source, "data_vars") and hasattr(source, "coords"):
-        found = [(str(name), v.values, v.attrs.get("units")) for name, v in source.variables.items()]
+        said = [(*name_and_unit_of(str(name)), variable) for name, variable in source.variables.items()]
+        found = [(name, variable.values, unit or variable.attrs.get("units")) for name, unit, variable in said]
     elif isinstance(source, Mapping):
         told = [(*name_and_unit_of(str(name)), values) for name, values in source.items()]
         found = [(name, values, unit) for name, unit, values in told]
