@@ -28,12 +28,12 @@ install-cmake:
 	@./tools/setup.sh test
 	@$(PIP) cmake ninja
 
-# Not compiled to bytecode: most of these files are other packages' own tests, which nothing imports.
+# Not compiled to bytecode: most of these files nothing imports, and what is imported is compiled then, once.
 install-tools: install-cmake
 	@$(PIP) --no-compile --group test --group dev
 
 install-test: install-tools
-	@$(PIP) '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON -C cmake.define.RWN_KERNELS_FOR=this
+	@$(PIP) --no-compile '.[plot,thesis]' -C cmake.define.RWN_WERROR=ON -C cmake.define.RWN_KERNELS_FOR=this
 
 # The main job on the embedded recording, whose missing effect is known.
 demo: install

@@ -67,12 +67,12 @@ def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     Several together, and those that `must_be_beyond`, are spikes beyond all others alone: a motor may well swing within
     a few samples.
     """
-    from scipy.stats import norm
+    from scipy.special import ndtri  # late: the command line starts without it
 
     noise = max(noise_from_differences(x), quantum(x))
     if noise == 0.0:
         return np.zeros(x.size, dtype=bool)
-    limit = float(norm.isf(0.5 * LEVEL / x.size)) * noise * np.sqrt(1.5)  # a sample against the mean of two
+    limit = float(-ndtri(0.5 * LEVEL / x.size)) * noise * np.sqrt(1.5)  # a sample against the mean of two
     before, after = x[: -together - 1], x[together + 1 :]
     here = np.stack([x[1 + k : x.size - together + k] for k in range(together)])
     jump = np.min(np.abs(here - 0.5 * (before + after)), axis=0)
