@@ -174,7 +174,7 @@ coverage-cpp: install-test install-trust
 fuzz: install-trust
 	$(TRUST).fuzz $(TARGET) --seconds $(SECONDS) $(PAGE)
 
-# Without guidance and with the same inputs in every run, which CI does too, within what UNTIL leaves of its time (as `date +%s`).
+# Without guidance and with the same inputs in every run, within what UNTIL leaves of a time (as `date +%s`).
 UNTIL ?= inf
 fuzz-corpus: SECONDS = 600
 fuzz-corpus:

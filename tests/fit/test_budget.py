@@ -104,12 +104,13 @@ def test_something_is_left_however_much_was_spent() -> None:
 
 
 def test_where_the_budget_is_spent_more_effects_are_tried_beside_the_best_alone() -> None:
-    ranking = rank(_problem(_spent(0.9)), progress=lambda *_: None, names=LATE)
+    names = [*LATE, "magnetic-saturation"]
+    ranking = rank(_problem(_spent(0.9)), progress=lambda *_: None, names=names)
     assert ranking.cut_short
-    built_on = {base for base, _ in ranking.pairs.tried}
-    assert len(built_on) == 1
-    whole = rank(_problem(), progress=lambda *_: None, names=LATE)
+    assert len({base for base, _ in ranking.pairs.tried}) == 1
+    whole = rank(_problem(), progress=lambda *_: None, names=names)
     assert not whole.cut_short
+    assert len({base for base, _ in whole.pairs.tried}) == 2
     assert whole.closest.cost <= ranking.closest.cost
 
 

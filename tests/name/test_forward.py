@@ -19,7 +19,6 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import MISSPECIFIED, MOST_COLOURED, Statistics, statistics, statistics_of
 from rwn.model.model import Model
 from rwn.name.backward import with_simpler
-from rwn.name.degenerate import adds
 from rwn.name.forward import _beside, _diverse, rank
 from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import NO_PAIRS
@@ -57,39 +56,6 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(problem: Problem, name: str
         values = this.minimum.values.copy()
         values[k] = at * getattr(this.hypothesis.unknowns[k], limit)
         assert replace(this, minimum=replace(this.minimum, values=values)).limits_met == met
-
-
-@pytest.mark.parametrize(("begin", "end", "none"), [(0.3, 0.6, False), (0.0005, 0.9995, True), (0.998, 0.9985, True)])
-def test_a_load_from_end_to_end_or_for_a_moment_is_none(problem: Problem, begin: float, end: float, none: bool) -> None:
-    this = _fit_with(problem, "load-disturbance")
-    names = [u.name for u in this.hypothesis.unknowns]
-    at = [names.index(f"load-disturbance.{t}") for t in ("t_start", "t_end")]
-    values = this.minimum.values.copy()
-    values[at] = np.array([begin, end]) * this.hypothesis.unknowns[at[0]].upper
-    moved = replace(this, minimum=replace(this.minimum, values=values))
-    assert moved.windows == [pytest.approx((begin, end))]
-    assert adds(moved, problem) != none
-    assert _fit_with(problem, "quadratic-drag").windows == []
-
-
-def test_loads_that_say_the_same_do_not_keep_another_law_from_being_built_on() -> None:
-    """A load at all times, one on a spring of no stiffness, one from end to end: all three are a constant load."""
-    motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
-             "inertia": 2e-5, "viscous_friction": 2e-5, "coulomb_friction": 4e-3}  # fmt: skip
-    truth = {"asymmetric-friction": {"coulomb_torque_plus": 5e-4, "coulomb_torque_minus": 6e-3},
-             "quadratic-drag": {"drag_coefficient": 4e-7}}  # fmt: skip
-    time = 1e-3 * np.arange(3000)
-    voltage = 5.0 * np.sin(2 * np.pi * (1.0 * time + 1.0 * time**2))
-    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
-    speed = rwn.simulate(Model(kind="dc", parameters=motor, effects=truth), bare).signals["speed"]
-    speed = speed + 0.1 * np.random.default_rng(2).standard_normal(time.size)
-    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage, "speed": speed})
-    model = Model(kind="dc", parameters=motor, uncertainty={"coulomb_friction": 0.5, "viscous_friction": 0.5})
-    loads = ["load-disturbance", "constant-load", "load-spring"]
-    ranking = rank(prepare([run], model), progress=_silent, names=[*loads, "asymmetric-friction", "quadratic-drag"])
-    alone = [f for f in ranking.alone.fits if f.added[0] in loads]
-    assert sum(adds(f, ranking.problem) for f in alone) < 3
-    assert {"asymmetric-friction", "quadratic-drag"} in [set(f.added) for f in ranking.fits]
 
 
 def test_the_ends_of_a_difference_are_not_compared(problem: Problem) -> None:
