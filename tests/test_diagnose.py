@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -163,13 +161,10 @@ def test_simulation_follows_the_recording(demo: Diagnosis) -> None:
 
 
 @pytest.mark.parametrize(
-    ("wandering", "searches"),
-    [pytest.param(0.0, [0.1], id="nothing"), pytest.param(0.004, [0.1, 0.3], id="unnamed", marks=pytest.mark.slow)],
+    ("wandering", "verdict"),
+    [pytest.param(0.0, "adequate"), pytest.param(0.004, "unexplained", marks=pytest.mark.slow)],
 )
-def test_where_nothing_explains_it_a_longer_search_follows(
-    wandering: float, searches: list[float], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A torque that wanders in time has no name."""
+def test_a_torque_that_wanders_in_time_has_no_name(wandering: float, verdict: str) -> None:
     rng = np.random.default_rng(2)
     time = 2e-3 * np.arange(1200)
     model = rwn.Model(kind="axis", parameters={"inertia": 1e-3, "viscous_friction": 2e-3}, uncertainty={"inertia": 0.1})
@@ -177,22 +172,8 @@ def test_where_nothing_explains_it_a_longer_search_follows(
     walk = np.cumsum(rng.standard_normal(time.size))
     acting = rwn.Recording(name="x", time=time, signals={"torque": asked + wandering * walk / np.std(walk)})
     speed = rwn.simulate(model, acting).signals["speed"] + 0.02 * rng.standard_normal(time.size)
-    efforts = []
-    module = importlib.import_module("rwn.diagnose")
-    search = module.explained
-
-    def recorded(*args: Any, effort: float, **others: Any) -> Any:
-        efforts.append(round(effort, 3))
-        return search(*args, effort=effort, **others)
-
-    monkeypatch.setattr(module, "explained", recorded)
     run = rwn.Recording(name="x", time=time, signals={"torque": asked, "speed": speed})
     said: list[tuple[str, float]] = []
     found = rwn.diagnose([run], model, effort=0.1, progress=lambda what, done: said.append((what, done)))
-    assert found.verdict == ("unexplained" if wandering else "adequate")
-    assert efforts == searches
-    begun = [k for k, (what, _) in enumerate(said) if "searching 3 times as long" in what]
-    assert len(begun) == len(searches) - 1
-    for k in begun:  # with a span of its own, so that the time that is left is that of this search
-        assert [done for _, done in said[k : k + 2]] == [0.0, 0.0]
+    assert found.verdict == verdict
     assert said[-1][1] > 0.9

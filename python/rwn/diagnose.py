@@ -32,7 +32,6 @@ from rwn.report.diagnosis import Diagnosis
 from rwn.simulate.run import Run, judging_run, measured_alike
 
 LEAST_EFFORT, MOST_EFFORT = 0.1, 1000.0
-LONGER = 3.0  # of a search where the usual one explains too little
 AFTER_SEARCH = 0.85  # progress when the search is done
 
 
@@ -54,9 +53,9 @@ def diagnose(
         heldout: runs used for proof alone; without them every recording is judged by fits that did not see it.
         seed: of the block bootstrap; the result depends on input and seed alone.
         jobs: threads (default: all processors); the result does not depend on it.
-        effort: what the search may cost, as a multiple of the usual; a warning says what was not tried for it. Where
-            what was found explains too little, a search of three times that follows.
-        progress: called with what is being done and how far it is, 0 to 1; a search that follows begins at 0 again.
+        effort: what the search may cost, as a multiple of the usual; a warning says what was not tried for it.
+        progress: called with what is being done and how far it is, 0 to 1; a search under another measurement begins
+            anew.
 
     Returns:
         The verdict, located region, named effects with intervals, corrected model and the curves that show it.
@@ -81,10 +80,6 @@ def diagnose(
     with thread_pool(jobs or os.cpu_count() or 1):
         late = late_enables(recordings, model)
         case = _decided(recordings, heldout, model, late, seed=seed, effort=effort, say=say)
-        if case.decision.is_poor:
-            say(f"what was found explains too little: searching {LONGER:g} times as long", 0.0)
-            longer = _decided(recordings, heldout, model, late, seed=seed, effort=LONGER * effort, say=say)
-            case = min(case, longer, key=lambda c: c.decision.remainder.error)
         say("correcting the model", 0.9)
         found, model = case.found, case.found.model
         correction = correct(case.decision, case.unseen, model, seed=seed)

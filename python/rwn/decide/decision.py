@@ -12,7 +12,6 @@ from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.network_places import Place
 from rwn.model.model import Model
-from rwn.name.forward import FAR_OFF
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.prove.heldout import HeldoutRow
@@ -31,11 +30,6 @@ class Decision:
     verdict: Verdict
     rows: tuple[HeldoutRow, ...]
     other: Place | None = None  # where a law without a name is seen in what is left
-
-    @property
-    def is_poor(self) -> bool:
-        """Whether nothing explains the recordings, or what is stated does not follow the motion."""
-        return self.verdict == "unexplained" or self.remainder.error > FAR_OFF
 
 
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit, refit
-from rwn.fit.likelihood import is_decisive, log_likelihood, log_posterior
+from rwn.fit.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
@@ -76,7 +76,7 @@ def likeliest_with_filters(problem: Problem, explanation: Fit, stated: str) -> s
 
 
 def _chosen(refitted: Mapping[str, tuple[Problem, Fit]], scores: Mapping[str, float]) -> str:
-    """The likeliest law of those that the times of the rows speak for, or another that is decisively likelier.
+    """The likeliest law, "held" where none is decisively so; of one that no times show, by what is left is worth.
 
     One that simulates the recordings certainly worse than a held input is neither.
     """
@@ -87,7 +87,8 @@ def _chosen(refitted: Mapping[str, tuple[Problem, Fit]], scores: Mapping[str, fl
         return accuracy_lost(held, as_held, replace(problem, noise=held.noise), this)
 
     believable = [law for law in scores if law == HELD or lost(law) < CERTAINLY]
-    usual = max((law for law in believable if INTERSAMPLE[law].shown), key=lambda law: scores[law])
+    shown = [law for law in believable if INTERSAMPLE[law].shown and scores[law] > scores[HELD] + DECISIVE]
+    usual = max(shown, key=lambda law: scores[law], default=HELD)
     others = [law for law in believable if not INTERSAMPLE[law].shown]
     decisive = [law for law in others if is_decisive(scores[law] - scores[usual], statistics(*refitted[law]))]
     return max(decisive, key=lambda law: scores[law], default=usual)
@@ -101,9 +102,22 @@ def _explained(explanation: Fit, problem: Problem) -> tuple[Problem, Fit]:
 
 
 def _candidates(problem: Problem) -> dict[str, Problem]:
-    """The problem under each law by which the input acted otherwise than held, and as held."""
+    """The problem under each law by which the input acted otherwise than held, and as held.
+
+    Not under one by which most of a signal is not known: between values that are held there is nothing to interpolate.
+    """
     under = {law: _under_law(problem, law) for law in INTERSAMPLE}
-    return {law: p for law, p in under.items() if law == HELD or any(r.applied_input is not None for r in p.runs)}
+    acting = {law: p for law, p in under.items() if any(r.applied_input is not None for r in p.runs)}
+    return {HELD: under[HELD]} | {law: p for law, p in acting.items() if law == HELD or _is_known(p, under[HELD])}
+
+
+def _is_known(problem: Problem, held: Problem) -> bool:
+    """Whether most of what is compared under a held input is under another law."""
+    return all(
+        np.sum(~run.not_compared(s)) > MOST_OFF * np.sum(~other.not_compared(s))
+        for run, other in zip(problem.runs, held.runs, strict=True)
+        for s in run.recorded
+    )
 
 
 def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recording]:

@@ -61,8 +61,7 @@ class IntersampleLaw:
     """How an input acts between rows, and how that is said.
 
     `samples`: of rows at times (n,) that lie between samples at the ticks of a clock, how; `applied` then counts from
-    the first tick. None: a row is what was at its time. `shown`: the times of the rows show that it may be so, and it
-    is then no less likely beforehand than a held input.
+    the first tick. None: a row is what was at its time. `shown`: the times of the rows show that it may be so.
     """
 
     applied: Callable[[Array, Array], PiecewiseInput | None]
