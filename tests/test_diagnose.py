@@ -160,11 +160,9 @@ def test_simulation_follows_the_recording(demo: Diagnosis) -> None:
     assert np.sqrt(np.mean(error**2)) < 0.05 * np.sqrt(np.mean(heldout.signals["speed"] ** 2))
 
 
-@pytest.mark.parametrize(
-    ("wandering", "verdict"),
-    [pytest.param(0.0, "adequate"), pytest.param(0.004, "unexplained", marks=pytest.mark.slow)],
-)
-def test_a_torque_that_wanders_in_time_has_no_name(wandering: float, verdict: str) -> None:
+@pytest.mark.parametrize("wandering", [0.0, pytest.param(0.004, marks=pytest.mark.slow)])
+def test_of_a_torque_that_wanders_in_time_much_is_left(wandering: float) -> None:
+    """It has no name; steady loads for a while are what comes nearest."""
     rng = np.random.default_rng(2)
     time = 2e-3 * np.arange(1200)
     model = rwn.Model(kind="axis", parameters={"inertia": 1e-3, "viscous_friction": 2e-3}, uncertainty={"inertia": 0.1})
@@ -175,5 +173,6 @@ def test_a_torque_that_wanders_in_time_has_no_name(wandering: float, verdict: st
     run = rwn.Recording(name="x", time=time, signals={"torque": asked, "speed": speed})
     said: list[tuple[str, float]] = []
     found = rwn.diagnose([run], model, effort=0.1, progress=lambda what, done: said.append((what, done)))
-    assert found.verdict == verdict
+    assert (found.verdict == "adequate") == (wandering == 0.0)
+    assert ("speed" in found.remainder.signals) == (wandering > 0.0)
     assert said[-1][1] > 0.9
