@@ -64,7 +64,10 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     if not any(one.far for one in seen.values()):
         return None
     best, least = None, np.inf
+    agreed = _motions_agree(recordings)
     for fault in _candidates(seen, model):
+        if agreed and len(set(MOTION) & set(fault.signals)) == 1:  # speed and position say that each other is right
+            continue
         if not all(seen[s].bettered(fault.factor) for s in fault.signals if s in seen):
             continue
         undone = _misfits_without(fault, seen, recordings, model)
@@ -76,6 +79,12 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
         if left < (most if _beyond_physics(fault.factor) else min(most, LEFT)) and everywhere < least:
             best, least = fault, everywhere
     return best
+
+
+def _motions_agree(recordings: Sequence[Recording]) -> bool:
+    """Whether the speed of some recording is the rate of its position, and of none of another scale."""
+    motions = [motion for recording in recordings if (motion := kinematics_of(recording))]
+    return any(motion.agree for motion in motions) and not any(motion.contradict for motion in motions)
 
 
 def _kinematic_fault(recordings: Sequence[Recording], model: Model) -> Fault | None:

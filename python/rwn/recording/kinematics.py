@@ -26,6 +26,11 @@ class Kinematics(NamedTuple):
         """Whether the two cannot both be right."""
         return abs(self.correlation) > ONE_MOTION and abs(self.ratio - 1.0) > CONTRADICTS
 
+    @property
+    def agree(self) -> bool:
+        """Whether each says that the other is right."""
+        return self.correlation > ONE_MOTION and not self.contradict
+
 
 def kinematics_of(recording: Recording) -> Kinematics | None:
     """Of the speed added up over time against the position; None without both, or where either stands still.
