@@ -6,8 +6,9 @@ the recordings far better than these. An explanation under which the drive would
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -172,7 +173,7 @@ def _best_held(problem: Problem, waits: Sequence[float]) -> Fit:
     `waits`: delays [s] to begin from.
     """
     nominal, shown = fit_nominal(problem), [e for n, e in problem.prior.table.items() if observable(n, problem)]
-    held = min([nominal, *screen(problem, nominal, [e.name for e in shown if e.holds])], key=_cost)
+    held = min([nominal, *screen(problem, nominal, [e.name for e in shown if e.holds])], key=attrgetter("cost"))
     if any(problem.prior.table[name].delays for name in held.hypothesis.effects):
         return held
 
@@ -182,16 +183,12 @@ def _best_held(problem: Problem, waits: Sequence[float]) -> Fit:
         names = (*held.added, effect.name)
         return fit(problem, hypothesis(problem.prior, names, problem.scales, starts, held.motor))
 
-    return min([held, *(delayed(e, wait) for e in shown if e.delays for wait in waits)], key=_cost)
-
-
-def _cost(this: Fit) -> float:
-    return this.cost
+    return min([held, *(delayed(e, wait) for e in shown if e.delays for wait in waits)], key=attrgetter("cost"))
 
 
 def _waiting_time(recording: Recording, late: LateEnable, model: Model) -> float:
     """From the first input to the power [s]."""
-    begins = int(np.argmax(np.asarray(recording.signals[model.drive.input]) != 0.0))
+    begins = np.argmax(np.asarray(recording.signals[model.drive.input]) != 0.0)
     return float(max(late.time - _since_start(recording)[begins], 0.0))
 
 
@@ -235,24 +232,29 @@ def _acting(steps: Array, time: float) -> Array:
 def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
     """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded.
 
-    Where these are not about 0, whether a change of the input moves it at all.
+    Where these are not about 0, whether a change of the input moves it, and would from rest.
     """
     run = replace(run_of(recording, model).until(samples), own=beside.own, levels=beside.levels)
+    if not run.in_motion or _stands_about_zero(run, samples):
+        return _moves(problem, this, run, {s: run.signal(s) for s in run.recorded})
+    even = replace(run, input=np.full(run.input.size, run.input[0]), applied_input=None)  # it turns evenly,
+    turning = problem.simulate(even, this.vector, this.active).signals
+    still = replace(run, in_motion=False, own=(), start=(0.0, 0.0, run.start[2]), input_before=0.0)  # or has a bias
+    standing = {s: np.full(run.time.size, still.start[2] if s == "position" else 0.0) for s in run.recorded}
+    return _moves(problem, this, run, turning) and _moves(problem, this, still, standing)
+
+
+def _moves(problem: Problem, this: Fit, run: Run, unmoved: Mapping[str, Array]) -> bool:
+    """Whether a run of a fit leaves signals (n,) by more than their noise; not where the driving force is fitted."""
     out = problem.simulate(run, this.vector, this.active).signals
-    told = {s: run.signal(s) for s in run.recorded}
-    if run.in_motion and not _stands_about_zero(run, samples):  # it turns evenly, or its sensor has a bias
-        even = replace(run, input=np.full(run.input.size, run.input[0]), applied_input=None)
-        told = problem.simulate(even, this.vector, this.active).signals
-    compared = [s for s in run.recorded if s in problem.noise]  # not where the driving force is fitted
-    return any(np.max(np.abs(out[s] - told[s])) > CERTAIN * problem.noise[s].deviation for s in compared)
+    compared = [s for s in run.recorded if s in problem.noise]
+    return any(np.max(np.abs(out[s] - unmoved[s])) > CERTAIN * problem.noise[s].deviation for s in compared)
 
 
 def _stands_about_zero(run: Run, samples: int) -> bool:
     """Whether the speed of the samples that stand still is 0 within their noise, be the first of them as it may."""
-    if "speed" not in run.recorded:
-        return False
     still = run.signal("speed")[:samples]
-    return bool(abs(np.mean(still)) <= CERTAIN * np.std(still))
+    return bool(still.size and abs(np.mean(still)) <= CERTAIN * np.std(still))
 
 
 def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> _Beginning:
