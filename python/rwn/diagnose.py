@@ -14,7 +14,7 @@ from rwn.correct.correction import correct
 from rwn.decide.decision import Decision, decide
 from rwn.errors import InputError
 from rwn.faults.explain import Explained, explained
-from rwn.faults.fault import without
+from rwn.faults.fault import without_all
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
 from rwn.fit.declared import check_declared
 from rwn.fit.nominal import check_it_runs
@@ -110,8 +110,7 @@ def _decided(
     found = explained(recordings, model, late=late, say=say, effort=effort)
     check_it_runs(found.ranking.problem, found.ranking.nominal)
     say("proving it on data that were not fitted", AFTER_SEARCH)
-    for fault in found.faults:
-        heldout = without(heldout, fault)
+    heldout = without_all(heldout, found.faults)
     late_unseen = late_beside(heldout, found.model, found.ranking.problem, found.ranking.fits[0].fit)
     heldout = powered(heldout, late_unseen, found.model)
     unseen = measured_alike([judging_run(r, found.model) for r in heldout], found.ranking.problem.whole)

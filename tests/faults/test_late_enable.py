@@ -91,7 +91,7 @@ def test_a_speed_sensor_with_a_bias_stands_still_too() -> None:
 
 
 def test_friction_that_holds_a_drive_whose_sensor_has_a_bias_is_no_late_enable() -> None:
-    """Trial 3 of seed 10110: what reads -2.7 rad/s is taken to turn, where no friction holds."""
+    """What reads -2.7 rad/s is taken to turn, and no friction holds what turns."""
     run = _run(3.0 * np.sin(2 * np.pi * 1.5 * 1e-3 * np.arange(3000)), 0, friction=0.02)
     biased = replace(run, signals={**run.signals, "speed": np.array(run.signals["speed"]) - 2.7})
     known = Model(kind="dc", parameters={**MOTOR, "coulomb_friction": 0.02}, uncertainty={"coulomb_friction": 0.3})

@@ -2,37 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.fit import Fit, fit_nominal
+from rwn.fit.fit import Fit
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name.degenerate import adds
 from rwn.name.forward import rank
-from rwn.name.screening import screen
 
-DEMO = Path(rwn.__file__).parent / "demo"
-
-
-@pytest.fixture(scope="module")
-def problem() -> Problem:
-    model = rwn.read_model(DEMO / "model.toml")
-    return prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model)
-
-
-def _fit_with(problem: Problem, name: str) -> Fit:
-    return screen(problem, fit_nominal(problem), [name])[0]
+FitWith = Callable[[str], Fit]  # an effect's name -> the demo's recording explained by it
 
 
 @pytest.mark.parametrize(("begin", "end", "none"), [(0.3, 0.6, False), (0.0005, 0.9995, True), (0.998, 0.9985, True)])
-def test_a_load_from_end_to_end_or_for_a_moment_is_none(problem: Problem, begin: float, end: float, none: bool) -> None:
-    this = _fit_with(problem, "load-disturbance")
+def test_a_load_from_end_to_end_or_for_a_moment_is_none(
+    problem: Problem, fit_with: FitWith, begin: float, end: float, none: bool
+) -> None:
+    this = fit_with("load-disturbance")
     names = [u.name for u in this.hypothesis.unknowns]
     at = [names.index(f"load-disturbance.{t}") for t in ("t_start", "t_end")]
     values = this.minimum.values.copy()
@@ -40,7 +31,7 @@ def test_a_load_from_end_to_end_or_for_a_moment_is_none(problem: Problem, begin:
     moved = replace(this, minimum=replace(this.minimum, values=values))
     assert moved.windows == [pytest.approx((begin, end))]
     assert adds(moved, problem) != none
-    assert _fit_with(problem, "quadratic-drag").windows == []
+    assert fit_with("quadratic-drag").windows == []
 
 
 def test_loads_that_say_the_same_do_not_keep_another_law_from_being_built_on() -> None:

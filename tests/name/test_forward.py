@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -28,29 +28,19 @@ from rwn.recording.noise import Noise
 from rwn.recording.speed_measurement import CENTRAL
 from rwn.simulate.run import Run
 
-DEMO = Path(rwn.__file__).parent / "demo"
+FitWith = Callable[[str], Fit]  # an effect's name -> the demo's recording explained by it
 
 
 def _silent(what: str, done: float) -> None:
     pass
 
 
-@pytest.fixture(scope="module")
-def problem() -> Problem:
-    model = rwn.read_model(DEMO / "model.toml")
-    return prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model)
-
-
-def _fit_with(problem: Problem, name: str) -> Fit:
-    return screen(problem, fit_nominal(problem), [name])[0]
-
-
 @pytest.mark.parametrize(
     ("name", "shape", "limit"), [("stribeck-friction", "stribeck_speed", "upper"), ("backlash", "gap", "lower")]
 )
-def test_a_law_on_a_limit_of_its_parameters_is_known(problem: Problem, name: str, shape: str, limit: str) -> None:
+def test_a_law_on_a_limit_of_its_parameters_is_known(fit_with: FitWith, name: str, shape: str, limit: str) -> None:
     """Friction that never falls is Coulomb's, and a backlash without a gap a shaft."""
-    this = _fit_with(problem, name)
+    this = fit_with(name)
     k = [u.name for u in this.hypothesis.unknowns].index(f"{name}.{shape}")
     for at, met in ((1.0, (f"{name}.{shape}",)), (0.9 if limit == "upper" else 1.1, ())):
         values = this.minimum.values.copy()
@@ -83,9 +73,9 @@ def test_a_drifting_position_is_no_sign_of_a_law() -> None:
     assert statistics(problem, this, drift=False).coloured > 10.0
 
 
-def test_second_effects_are_added_to_explanations_of_different_kinds(problem: Problem) -> None:
+def test_second_effects_are_added_to_explanations_of_different_kinds(problem: Problem, fit_with: FitWith) -> None:
     names = ("asymmetric-friction", "stribeck-friction", "coulomb-friction", "actuator-deadzone", "quadratic-drag")
-    drag = _fit_with(problem, "quadratic-drag")
+    drag = fit_with("quadratic-drag")
     fits = [replace(drag, hypothesis=_with(problem, name)) for name in names]
     assert [f.added[0] for f in _diverse(fits)] == ["asymmetric-friction", "stribeck-friction", "actuator-deadzone"]
 
@@ -94,8 +84,8 @@ def _with(problem: Problem, name: str) -> Hypothesis:
     return hypothesis(problem.prior, (name,), problem.scales)
 
 
-def test_an_effect_without_strength_is_idle(problem: Problem) -> None:
-    this = _fit_with(problem, "position-dependent-friction")
+def test_an_effect_without_strength_is_idle(fit_with: FitWith) -> None:
+    this = fit_with("position-dependent-friction")
     k = [u.name for u in this.hypothesis.unknowns].index("position-dependent-friction.variation")
     values = this.minimum.values.copy()
     values[k] = 0.1
@@ -178,10 +168,10 @@ def test_pairs_that_were_tried_are_not_tried_again(problem: Problem, monkeypatch
 
 @pytest.mark.parametrize("at_the_floor", [True, False])
 def test_beside_an_explanation_of_all_its_parts_alone_are_tried(
-    problem: Problem, monkeypatch: pytest.MonkeyPatch, at_the_floor: bool
+    problem: Problem, fit_with: FitWith, monkeypatch: pytest.MonkeyPatch, at_the_floor: bool
 ) -> None:
     names = ["coulomb-friction", "quadratic-drag", "input-delay", "sensor-bias"]
-    first, part, other = (_fit_with(problem, name) for name in names[:3])
+    first, part, other = (fit_with(name) for name in names[:3])
     both = replace(first.hypothesis, added=(first.added[0], part.added[0]))
     pair = replace(first, hypothesis=both, minimum=replace(first.minimum, cost=0.0))
     noise = np.random.default_rng(1).normal(size=1000)

@@ -20,7 +20,7 @@ from rwn.faults.delay import (
     suspected,
     unexplained,
 )
-from rwn.faults.fault import GEAR, Fault, without
+from rwn.faults.fault import GEAR, Fault, without, without_all
 from rwn.faults.gear import gear_ratio
 from rwn.faults.scale import as_gear, wrong_scale
 from rwn.fit.budget import affords_more, meter
@@ -106,8 +106,7 @@ def _geared(
 ) -> tuple[list[Fault], Ranking]:  # fmt: skip
     """The faults with the ratio of the gear fitted, and what explains the recordings then."""
     others = [m for m in made if m is not gear]
-    for fault in others:
-        recordings = without(recordings, fault)
+    recordings = without_all(recordings, others)
     fitted = gear_ratio(gear, recordings, model, found)
     if abs(fitted.factor / gear.factor - 1.0) < WRONG:
         return list(made), found

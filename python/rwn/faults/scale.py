@@ -17,7 +17,7 @@ from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Fault, without
 from rwn.faults.similarity import FAR, Similarity
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.recording.kinematics import kinematics_of
+from rwn.recording.kinematics import Kinematics, kinematics_of
 from rwn.recording.recording import Recording, beginnings
 from rwn.recording.smoothing import smooth
 from rwn.simulate.inverse_dynamics import needed_force
@@ -81,9 +81,14 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     return best
 
 
+def _motions(recordings: Sequence[Recording]) -> list[Kinematics]:
+    """Speed against position, of the recordings that have both."""
+    return [motion for recording in recordings if (motion := kinematics_of(recording))]
+
+
 def _motions_agree(recordings: Sequence[Recording]) -> bool:
     """Whether the speed of some recording is the rate of its position, and of none of another scale."""
-    motions = [motion for recording in recordings if (motion := kinematics_of(recording))]
+    motions = _motions(recordings)
     return any(motion.agree for motion in motions) and not any(motion.contradict for motion in motions)
 
 
@@ -92,7 +97,7 @@ def _kinematic_fault(recordings: Sequence[Recording], model: Model) -> Fault | N
 
     Which of the two it is, the model decides. None where no unit makes them agree: a gear between their sensors, say.
     """
-    motions = [motion for recording in recordings if (motion := kinematics_of(recording))]
+    motions = _motions(recordings)
     if not motions or not all(motion.contradict for motion in motions):
         return None
     ratios = np.array([motion.ratio for motion in motions])

@@ -26,7 +26,7 @@ from rwn.recording.recording import Recording, beginnings
 Array = NDArray[np.float64]
 
 CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations of the loss of a law that the free run certainly refuses
-MOST_OFF = 0.5  # share of the rows: where more are off, that is the noise of the current
+MOST_OFF = 0.5  # share of the rows of a signal that may be unknown: with more, little of it is left to be compared
 ITERATIONS = 8  # of a fit that begins near its end
 
 
