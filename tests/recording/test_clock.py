@@ -37,6 +37,13 @@ def test_a_perfect_clock_has_no_jitter() -> None:
     assert clock.start == pytest.approx(0.5)
 
 
+def test_a_clock_that_is_asked_for_again_is_not_looked_for_again() -> None:
+    time = 1e-3 * np.arange(500)
+    assert clock_of(time) is clock_of(time.copy())
+    with pytest.raises(ValueError, match="read-only"):
+        clock_of(time).ticks[0] = 1
+
+
 def test_rows_without_a_clock_count_as_one_each() -> None:
     clock = clock_of(np.cumsum(np.random.default_rng(4).exponential(1e-3, 200)))
     assert clock.lost == 0

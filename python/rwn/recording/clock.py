@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ FARTHEST = 0.3  # relative distance from the median step beyond which most steps
 PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows
 AS_WELL = 1.0 / float(np.sinc(0.5 / PER_CYCLE))  # agreement at a period over that at the nearest that is tried
 ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
+REMEMBERED = 16  # clocks kept, of a few recordings and parts of them: a search asks for each thousands of times
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,6 +58,12 @@ def clock_of(time: Array) -> Clock:
     The ticks are those of the period at which the rows' phases agree best, of the first rows and then of twice as many:
     jitter does not add up. Rows that share a tick keep no clock: each counts as one.
     """
+    return _clock_of(np.ascontiguousarray(time, dtype=np.float64).tobytes())
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _clock_of(times: bytes) -> Clock:
+    time = np.frombuffer(times)
     rows = min(FIRST, time.size)
     steps = np.diff(time[:rows])
     usual = float(np.median(steps))
@@ -75,8 +83,15 @@ def clock_of(time: Array) -> Clock:
     else:
         period = float(np.polyfit(ticks, time, 1)[0])
     start = float(np.mean(time - period * ticks))
-    off = (time - start) / period - ticks
-    return Clock(period=period, start=start + period * ticks[0], ticks=(ticks - ticks[0]).astype(np.int64), off=off)
+    clock = Clock(
+        period=period,
+        start=start + period * ticks[0],
+        ticks=(ticks - ticks[0]).astype(np.int64),
+        off=(time - start) / period - ticks,
+    )
+    for shared in (clock.ticks, clock.off):
+        shared.setflags(write=False)
+    return clock
 
 
 def _agreeing(time: Array, period: float, reach: float) -> tuple[float, float, float]:
