@@ -18,7 +18,9 @@ def _rosenbrock(values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArr
     return np.array([-(1.0 - x), -10.0 * (y - x * x)]), np.array([[-1.0, 0.0], [-20.0 * x, 10.0]])
 
 
-def _found(*, probed: bool, doubt: int = 1) -> tuple[Minimum, Counter[str]]:
+def _found(
+    *, probed: bool, doubt: int = 1, most: int = 60, roughly: bool = False
+) -> tuple[Minimum, Counter[str]]:
     calls: Counter[str] = Counter()
 
     def evaluate(values: NDArray[np.float64]) -> Normal:
@@ -32,7 +34,10 @@ def _found(*, probed: bool, doubt: int = 1) -> tuple[Minimum, Counter[str]]:
         return Normal(chi2=float(error @ error), gradient=np.empty(0), curvature=np.empty((0, 0)))
 
     start = np.array([-1.9, 2.0])
-    found = minimise(evaluate, start, UNKNOWNS, tolerance=1e-12, probe=probe if probed else None, doubt=doubt)
+    found = minimise(
+        evaluate, start, UNKNOWNS, tolerance=1e-12, probe=probe if probed else None, doubt=doubt, max_iterations=most,
+        roughly=roughly,
+    )  # fmt: skip
     return found, calls
 
 
@@ -53,6 +58,16 @@ def test_a_probe_saves_derivatives_and_changes_no_step() -> None:
         assert calls["evaluate"] < without["evaluate"]
         taken.append(calls["evaluate"])
     assert taken[1] <= taken[0]  # with every step in doubt derivatives are made of those that are taken, and no others
+
+
+def test_a_rough_end_saves_the_last_derivatives_and_is_the_same_place() -> None:
+    for most in (1, 3):
+        plain, needed = _found(probed=True, most=most)
+        rough, calls = _found(probed=True, most=most, roughly=True)
+        np.testing.assert_array_equal(rough.values, plain.values)
+        assert (rough.cost, rough.chi2, rough.iterations) == (plain.cost, plain.chi2, plain.iterations)
+        assert calls["evaluate"] <= needed["evaluate"]
+    assert _found(probed=True, most=1, roughly=True)[1]["evaluate"] == 1
 
 
 def test_what_priors_alone_decide_is_found_too() -> None:

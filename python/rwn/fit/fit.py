@@ -163,9 +163,12 @@ def _meets(unknown: Unknown, value: float) -> bool:
 
 def fit(
     problem: Problem, this: Hypothesis, *, max_iterations: int = TO_THE_END, tolerance: float = 1e-2,
-    damping: float = DAMPING, share: float = np.inf,
+    damping: float = DAMPING, share: float = np.inf, roughly: bool = False,
 ) -> Fit:  # fmt: skip
-    """Fits the unknowns of a hypothesis to the runs, by one iteration at least; `share`: what it may cost."""
+    """Fits the unknowns of a hypothesis to the runs, by one iteration at least.
+
+    `share`: what it may cost. `roughly`: the curvature need not be that of where it ends.
+    """
     own = problem.metered()
 
     def evaluate(values: Array) -> CountedNormal:
@@ -176,7 +179,7 @@ def fit(
 
     end = minimise(
         evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance, damping=damping,
-        prior_scale=problem.colour, probe=probe, enough=lambda: own.work.done >= share,
+        prior_scale=problem.colour, probe=probe, enough=lambda: own.work.done >= share, roughly=roughly,
     )  # fmt: skip
     problem.work.add(own.work.done)
     return Fit(hypothesis=this, minimum=end)

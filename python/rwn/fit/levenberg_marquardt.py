@@ -112,12 +112,12 @@ class _Search:
         """Cost in search coordinates, and what it is made of."""
         return self._priced(z, self.evaluate(self.values(z)))
 
-    def at_if_below(self, z: Array, bar: float) -> tuple[float, Normal]:
-        """The same, by the error alone where the cost is above `bar`."""
-        if self.probe is None:
+    def tried(self, z: Array, bar: float, *, last: bool, doubted: bool) -> tuple[float, Normal]:
+        """The same; by the error alone in the last iteration, and where the cost, in doubt, is above `bar`."""
+        if self.probe is None or not (last or doubted):
             return self.at(z)
         probed = self._priced(z, self.probe(self.values(z)))
-        return self.at(z) if probed[0] < bar else probed
+        return self.at(z) if probed[0] < bar and not last else probed
 
     def _priced(self, z: Array, normal: Normal) -> tuple[float, Normal]:
         large = float(np.max(np.abs(normal.curvature), initial=0.0))
@@ -178,22 +178,24 @@ def minimise(
     probe: Evaluate | None = None,
     doubt: int = 1,
     enough: Callable[[], bool] | None = None,
+    roughly: bool = False,
 ) -> Minimum:
     """Levenberg-Marquardt (Nielsen's damping) from `start` (p,) within the unknowns' bounds.
 
     Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: what
     priors are multiplied by: the independent samples that a coloured residual is short of. `probe` gives the error
     without derivatives: it decides on a step after `doubt` that were not taken, and `evaluate` follows if that one is.
-    `enough`: asked after every iteration, ends the fit as the iteration limit does.
+    `enough`: asked after every iteration, ends the fit as the iteration limit does. `roughly`: it may be the curvature
+    before the last iteration that is returned where this limit ends the fit.
     """
     search = _Search(evaluate, probe, unknowns, prior_scale)
     z = search.begun(start)
     cost, normal = search.at(z)
     if not np.isfinite(cost):
-        return _minimum(search, z, normal, cost, cost, FitStatus.DIVERGED, 0, damping)
+        return _minimum(search, z, normal, normal.chi2, cost, cost, FitStatus.DIVERGED, 0, damping)
     gradient, curvature = search.slopes(z, normal)
-    first = cost
-    growth, status, count, misses = 2.0, FitStatus.ITERATION_LIMIT, 0, 0
+    first, chi2, status = cost, normal.chi2, FitStatus.ITERATION_LIMIT
+    growth, count, misses = 2.0, 0, 0
     for count in range(1, max_iterations + 1):
         if count > 1 and enough is not None and enough():
             count -= 1  # reported: of those that were done
@@ -204,37 +206,43 @@ def minimise(
             damping, growth, misses = damping * 10.0, 2.0, misses + 1
             if misses <= 8:
                 continue
-        little = tolerance * max(1.0, cost / max(1, _size(normal)))
-        while promised < little and damping > UNDAMPED:  # does damping alone hold the step back?
-            damping, growth = max(RELIEF * damping, UNDAMPED), 2.0
-            step = _step(search, z, gradient, curvature, damping)
-            promised = _promise(step, gradient, curvature)
+        little = tolerance * max(1.0, cost / max(1, int(getattr(normal, "count", 1))))
+        if promised < little and damping > UNDAMPED:  # does damping alone hold the step back?
+            (step, promised, damping), growth = _relieved(search, z, gradient, curvature, damping, little), 2.0
         if promised < little:
             status = FitStatus.CONVERGED
             break
         least = cost - LEAST * promised
-        reached, there = search.at(z + step) if misses < doubt else search.at_if_below(z + step, least)
+        last = roughly and count == max_iterations
+        reached, there = search.tried(z + step, least, last=last, doubted=misses >= doubt)
         if reached < least:
-            gain = (cost - reached) / promised
-            z, cost, normal = z + step, reached, there
+            damping *= max(1.0 / 5.0, 1.0 - (2.0 * (cost - reached) / promised - 1.0) ** 3)
+            z, cost, chi2, normal = z + step, reached, there.chi2, normal if last else there
             gradient, curvature = search.slopes(z, normal)
-            damping *= max(1.0 / 5.0, 1.0 - (2.0 * gain - 1.0) ** 3)
             growth, misses = 2.0, 0
         else:
             damping, growth, misses = damping * growth, growth * 2.0, misses + 1
             if misses > 8:
                 status = FitStatus.STALLED
                 break
-    return _minimum(search, z, normal, cost, first, status, count, damping)
+    return _minimum(search, z, normal, chi2, cost, first, status, count, damping)
+
+
+def _relieved(
+    search: _Search, z: Array, gradient: Array, curvature: Array, damping: float, little: float
+) -> tuple[Array, float, float]:
+    """The step of the first lower damping that promises `little` or more, or of the least; its promise, its damping."""
+    while True:
+        damping = max(RELIEF * damping, UNDAMPED)
+        step = _step(search, z, gradient, curvature, damping)
+        promised = _promise(step, gradient, curvature)
+        if promised >= little or damping <= UNDAMPED:
+            return step, promised, damping
 
 
 def _promise(step: Array, gradient: Array, curvature: Array) -> float:
     """Cost that a step removes if the problem is quadratic."""
     return float(2.0 * step @ gradient - step @ curvature @ step)
-
-
-def _size(normal: Normal) -> int:
-    return int(getattr(normal, "count", 0)) or 1
 
 
 def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
@@ -266,11 +274,12 @@ def _reach(search: _Search) -> Array:
 
 
 def _minimum(
-    search: _Search, z: Array, normal: Normal, cost: float, first: float, status: FitStatus, count: int, damping: float
-) -> Minimum:
+    search: _Search, z: Array, normal: Normal, chi2: float, cost: float, first: float, status: FitStatus, count: int,
+    damping: float,
+) -> Minimum:  # fmt: skip
     return Minimum(
         values=search.values(z),
-        chi2=normal.chi2,
+        chi2=chi2,
         cost=cost,
         first=first,
         information=search.information(z, normal),

@@ -24,7 +24,6 @@ from rwn.name.starts import (
     Start,
     best_of_each,
     best_unfitted,
-    derivatives_mislead,
     distinct_ends,
     far_behind,
     kind_of,
@@ -77,7 +76,7 @@ def _first_round(problem: Problem, base: Fit, these: Sequence[Start], keep: int,
         return list(these)
     competing = _before_fitting(competing, part(problem, base, FIRST_ROUND_SAMPLES))
     on = part(problem, base, FIRST_ROUND_SAMPLES) if base.added or patience > 1 else screening_part(problem, base)
-    attempts = _round(competing, iterations=patience, on=on, problem=problem)
+    attempts = _round(competing, iterations=patience, on=on, problem=problem, roughly=True)
     began = {id(attempt): start for start, attempt in zip(competing, attempts, strict=True)}
     kept = [(a.start, began[id(a)]) for a in best_of_each(attempts, keep, orders=keep + 1)]
     return [*(s for s in these if counts[kind_of(s)] <= keep), *_unless_much_worse(kept, screening_part(problem, base))]
@@ -97,29 +96,29 @@ def _unless_much_worse(pairs: Sequence[tuple[Start, Start]], on: Problem) -> lis
 
 
 def _before_fitting(these: Sequence[Start], on: Problem) -> list[Start]:
-    """Where derivatives mislead from afar, the few best of an effect's starts before anything is fitted.
-
-    That is for periodic effects, each order by itself, for delays, and where a contact makes the error non-smooth.
-    """
-    misled = [s for s in these if derivatives_mislead(s)]
-    ends = side_by_side(lambda s: on.error(s.hypothesis.vector, s.hypothesis.active), misled)
-    ranked = [s for s, _ in sorted(zip(misled, ends, strict=True), key=lambda pair: pair[1])]
-    return [*(s for s in these if not derivatives_mislead(s)), *best_unfitted(ranked)]
+    """The few best of each kind before anything is fitted, of a periodic effect those of each order."""
+    ends = side_by_side(lambda s: on.error(s.hypothesis.vector, s.hypothesis.active), these)
+    ranked = sorted(zip(these, ends, strict=True), key=lambda pair: pair[1])
+    return best_unfitted([start for start, _ in ranked])
 
 
-def _round(these: Sequence[Start], *, iterations: int, on: Problem, problem: Problem) -> list[Attempt]:
+def _round(
+    these: Sequence[Start], *, iterations: int, on: Problem, problem: Problem, roughly: bool = False
+) -> list[Attempt]:
     """Some iterations of every start; each attempt holds the start of the next round where this one ended."""
     costs = side_by_side(lambda s: cost_of_a_step(on, s.hypothesis), these)
     shares = shares_of_steps(problem.work, costs)
     return side_by_side(
-        lambda pair: _attempt(pair[0], iterations, on, share=pair[1]), zip(these, shares, strict=True)
+        lambda pair: _attempt(pair[0], iterations, on, share=pair[1], roughly=roughly),
+        zip(these, shares, strict=True),
     )
 
 
-def _attempt(start: Start, iterations: int, on: Problem, *, share: float) -> Attempt:
+def _attempt(start: Start, iterations: int, on: Problem, *, share: float, roughly: bool = False) -> Attempt:
     end = fit(
-        on, start.hypothesis, max_iterations=iterations, tolerance=RESOLUTION, damping=start.damping, share=share
-    )
+        on, start.hypothesis, max_iterations=iterations, tolerance=RESOLUTION, damping=start.damping, share=share,
+        roughly=roughly,
+    )  # fmt: skip
     return Attempt(start.after(end), end)
 
 

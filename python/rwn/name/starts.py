@@ -12,12 +12,11 @@ from rwn.fit.fit import FAR_BEHIND, Fit
 from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING
 from rwn.fit.problem import Problem
-from rwn.fit.secant import nonsmooth_unknowns
 from rwn.name.initial_guesses.guess import Guess
 from rwn.name.initial_guesses.guesses import initial_guesses
 from rwn.name.initial_guesses.initial_angle import aligned, free_to_turn, without_phases
 
-KEPT_UNFITTED = 4  # starts kept of an effect whose derivatives mislead far from the minimum
+KEPT_UNFITTED = 4  # starts of a kind that get an iteration: the best of all is among them in 99 % (docs/method-details)
 KEPT_OF_AN_ORDER = 2  # starts kept of each order of a periodic effect
 SAME_END = 1.0  # two starts have reached the same minimum within this squared distance, in units of its variance
 REDUCED_INERTIA = 1.0 / 3.0  # of the inertia, in a start beside which a delay or a lag may take the place of the rest
@@ -96,19 +95,13 @@ def _with_less_inertia(base: Fit) -> list[dict[str, float]]:
     return [{**base.motor, "inertia": REDUCED_INERTIA * base.motor["inertia"]}]
 
 
-def derivatives_mislead(start: Start) -> bool:
-    """Whether the derivatives at a start may point away from the minimum."""
-    many_minima = start.hypothesis.table[start.name].guess == "best_of_scan"
-    return bool(start.order or many_minima or nonsmooth_unknowns(start.hypothesis, start.name))
-
-
 def kind_of(start: Start) -> Kind:
     """What it competes within."""
     return start.name, start.order, start.motor
 
 
 def best_unfitted(ranked: Sequence[Start]) -> list[Start]:
-    """Of starts whose derivatives mislead, by what they leave, least first, the best few of each kind."""
+    """Of starts, by what they leave, least first, the best few of each kind."""
     met: Counter[Kind] = Counter()
     kept = []
     for start in ranked:

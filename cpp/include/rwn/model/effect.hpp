@@ -66,13 +66,12 @@ enum class Hook : unsigned {
 constexpr Hook operator|(Hook a, Hook b) { return Hook{static_cast<unsigned>(a) | static_cast<unsigned>(b)}; }
 constexpr bool has(Hook all, Hook one) { return (static_cast<unsigned>(all) & static_cast<unsigned>(one)) != 0; }
 
-/// Where first guesses come from: what the parameters scan; the same, of which the best are looked for before anything
-/// is fitted, since the error has many minima; a spectrum over the angle; a change of the residual in time; a resonance
-/// of it; or the recorded values themselves, so that nothing is fitted.
-enum class Guess { scan, best_of_scan, spectrum, window, resonance, values };
+/// Where first guesses come from: what the parameters scan; a spectrum over the angle; a change of the residual in time;
+/// a resonance of it; or the recorded values themselves, so that nothing is fitted.
+enum class Guess { scan, spectrum, window, resonance, values };
 
 constexpr std::string_view to_string(Guess guess) {
-  constexpr std::string_view names[] = {"scan", "best_of_scan", "spectrum", "window", "resonance", "values"};
+  constexpr std::string_view names[] = {"scan", "spectrum", "window", "resonance", "values"};
   return names[static_cast<int>(guess)];
 }
 

@@ -19,7 +19,7 @@ struct InputDelay {
                                                             2.5,  2.85, 3.3,  3.7,  4.5,  5.5,  6.5,  8.0,
                                                             10.0, 13.0, 17.0, 23.0, 32.0, 50.0, 80.0, 120.0},
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::delay, .varies = false, .guess = Guess::best_of_scan};
+  static constexpr EffectTraits traits{.hooks = Hook::delay, .varies = false};
 
   template <class S>
   static S delay(const S* p) {
