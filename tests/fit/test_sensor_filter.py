@@ -10,12 +10,13 @@ import pytest
 import rwn
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
+from rwn.fit.known_filters import filtered, known_filters
 from rwn.fit.levenberg_marquardt import prior_cost
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
-from rwn.fit.sensor_filter import filtered, refitted_beside, sensor_filters
+from rwn.fit.sensor_filter import refitted_beside, sensor_filters
 from rwn.model.model import Model
 from rwn.recording.filters import as_filtered
 
@@ -113,6 +114,17 @@ def test_a_filter_is_undone_and_is_no_missing_physics() -> None:
     off, before = (abs(f.value("inertia") / MOTOR["inertia"] - 1.0) for f in (fitted, plain))
     assert off < 0.01
     assert before > 5.0 * off
+
+
+def test_filters_that_a_problem_was_given_are_those_it_knows() -> None:
+    problem, nominal = weighted_by_nominal(_problem(0.6))
+    (found,) = sensor_filters(problem, nominal)
+    for given in (found, replace(found, digital=False)):
+        (known,) = known_filters(filtered(problem, [given]))
+        assert (known.signal, known.digital) == (given.signal, given.digital)
+        assert known.time_constant == given.time_constant
+        assert known.share == pytest.approx(given.share)
+    assert known_filters(problem) == ()
 
 
 def test_a_lag_of_the_sensor_is_fitted_with_whatever_else() -> None:

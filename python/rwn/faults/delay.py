@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from rwn.faults.fault import MOTION, SHIFT, Fault, Removes, without
 from rwn.faults.scale import gears
 from rwn.fit.fit import Fit, fit_nominal, refit
+from rwn.fit.known_filters import noise_before_filters
 from rwn.fit.noise import with_noise_of
 from rwn.fit.part import screening_part
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import variance
-from rwn.fit.sensor_filter import noise_before_filters
 from rwn.model.model import Model
 from rwn.model.recordings import LONGEST_SHIFT
 from rwn.name.ranking import Ranking

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.fault import Fault, without_all
 from rwn.faults.late_enable import LateEnable, needed, powered, retimed
 from rwn.faults.resolve import resolved
 from rwn.faults.uneven_files import uneven_files
+from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit
 from rwn.fit.intersample import likeliest_with_filters, stating, with_intersample, without_unknown
+from rwn.fit.known_filters import known_filters, stating_filters
 from rwn.fit.preparation import prepare
-from rwn.fit.sensor_filter import stating_filters
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.name.forward import Progress
@@ -63,6 +65,14 @@ class Explained:
         return tuple(found)
 
 
+class _Measured(NamedTuple):
+    """How recordings came about."""
+
+    late: tuple[LateEnable, ...]
+    model: Model  # states how the input acted between the rows
+    filters: tuple[SensorFilter, ...]  # of the sensors, beside those that the model states
+
+
 def explained(
     recordings: Sequence[Recording], model: Model, *, late: Sequence[LateEnable], say: Progress, effort: float = 1.0
 ) -> Explained:
@@ -76,17 +86,18 @@ def explained(
     on, still = powered(recordings, late, model), tuple(late)
     again = with_intersample(on, model)
     faults, ranking = resolved(_as_acted(on, again), again, say=say, effort=effort)
+    filters: tuple[SensorFilter, ...] = ()
     for _ in range(ASKED_AGAIN):
         asked = _asked_again(recordings, model, still, again, faults, ranking)
-        if asked == (still, again):
+        if (asked.late, asked.model) == (still, again):
             break
-        still, again = asked
+        still, again, filters = asked
         best = None if faults else ranking.fits[0].fit
         as_acted = _as_acted(powered(recordings, still, model), again, best)
-        faults, ranking = resolved(as_acted, again, say=say, effort=effort)
+        faults, ranking = resolved(as_acted, again, filters=filters, say=say, effort=effort)
     for wrong in contradicted(ranking):
-        free = without_declared(again, wrong)
-        others, freed = resolved(_as_acted(powered(recordings, still, model), again), free, say=say, effort=effort)
+        free, as_acted = without_declared(again, wrong), _as_acted(powered(recordings, still, model), again)
+        others, freed = resolved(as_acted, free, filters=filters, say=say, effort=effort)
         if confirmed(freed, ranking, again, wrong):
             faults, ranking = others, freed
             break
@@ -97,15 +108,17 @@ def explained(
 def _asked_again(
     recordings: Sequence[Recording], model: Model, late: Sequence[LateEnable], stated: Model, faults: Sequence[Fault],
     ranking: Ranking,
-) -> tuple[tuple[LateEnable, ...], Model]:  # fmt: skip
-    """The late enables, and the model with the law between rows, as the best explanation that was found has them."""
+) -> _Measured:  # fmt: skip
+    """How the recordings came about, as the best explanation that was found has it."""
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
     still = retimed(still, recordings, stated, ranking.problem, best)
+    known = tuple(f for f in known_filters(ranking.problem) if f.signal not in stated.recording.filters)
     if stated is model or (stated.recording.intersample == HELD and ranking.left.at_the_floor):
-        return still, stated
+        return _Measured(still, stated, known)
     bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
-    return still, stating(stated, likeliest_with_filters(bare, best, stated.recording.intersample))
+    law, filters = likeliest_with_filters(bare, best, stated.recording.intersample)
+    return _Measured(still, stating(stated, law), known if law == stated.recording.intersample else filters)
 
 
 def _as_acted(recordings: Sequence[Recording], model: Model, best: Fit | None = None) -> list[Recording]:

@@ -24,6 +24,8 @@ from rwn.faults.fault import GEAR, Fault, without, without_all
 from rwn.faults.gear import gear_ratio
 from rwn.faults.scale import as_gear, wrong_scale
 from rwn.fit.budget import affords_more, meter
+from rwn.fit.filter_colour import SensorFilter
+from rwn.fit.known_filters import filtered
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import MOST_EFFECTS, Progress, rank
@@ -65,15 +67,20 @@ class _Refined(NamedTuple):
 
 
 def resolved(
-    recordings: Sequence[Recording], model: Model, *, say: Progress, effort: float = 1.0
-) -> tuple[list[Fault], Ranking]:
-    """Faults of the recordings, and what explains these when they are undone; `effort`: see `budget.meter`."""
+    recordings: Sequence[Recording], model: Model, *, filters: Sequence[SensorFilter] = (), say: Progress,
+    effort: float = 1.0,
+) -> tuple[list[Fault], Ranking]:  # fmt: skip
+    """Faults of the recordings, and what explains these when they are undone.
+
+    `filters`: of the sensors, that are known already. `effort`: see `budget.meter`.
+    """
 
     def ranking(
         of: Sequence[Recording], at_once: int = MOST_EFFECTS, *, names: Sequence[str] | None = None,
         after: Ranking | None = None,
     ) -> Ranking:  # fmt: skip
-        return rank(prepare(of, model, work=meter(effort)), progress=say, at_once=at_once, names=names, after=after)
+        problem = filtered(prepare(of, model, work=meter(effort)), filters)
+        return rank(problem, progress=say, at_once=at_once, names=names, after=after)
 
     if model.drive.coefficients:  # its gain is in no unit that could be doubted
         return [], ranking(recordings)

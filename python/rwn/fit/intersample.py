@@ -9,6 +9,7 @@ from statistics import NormalDist
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit, refit
 from rwn.fit.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
 from rwn.fit.noise import with_noise_of
@@ -53,8 +54,10 @@ def likeliest(problem: Problem, this: Fit) -> str:
     return _chosen(refitted, {law: log_likelihood(*refitted[law]) for law in candidates})
 
 
-def likeliest_with_filters(problem: Problem, explanation: Fit, stated: str) -> str:
-    """The law under which what is left beside an explanation is likeliest, with the filters that show under each law.
+def likeliest_with_filters(
+    problem: Problem, explanation: Fit, stated: str
+) -> tuple[str, tuple[SensorFilter, ...]]:
+    """The law under which what is left beside an explanation is likeliest, with the filters that show under it.
 
     What a filter of a sensor leaves looks as if rows had been left out, and the other way round, so the two are judged
     together. Filters are looked for under the law that is `stated`, under "held" and under the likeliest without any.
@@ -70,9 +73,10 @@ def likeliest_with_filters(problem: Problem, explanation: Fit, stated: str) -> s
     bare = {law: log_posterior(*refitted[law]) for law in candidates}
     asked = {HELD, max(bare, key=lambda law: bare[law]), *({stated} & set(bare))}
     if len(asked) == 1:
-        return HELD
-    scores = {law: filters_and_likelihood(*refitted[law])[1] for law in sorted(asked)}
-    return _chosen(refitted, scores)
+        return HELD, ()
+    found = {law: filters_and_likelihood(*refitted[law]) for law in sorted(asked)}
+    law = _chosen(refitted, {law: likelihood for law, (_, likelihood) in found.items()})
+    return law, found[law][0]
 
 
 def _chosen(refitted: Mapping[str, tuple[Problem, Fit]], scores: Mapping[str, float]) -> str:

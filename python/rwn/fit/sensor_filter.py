@@ -16,16 +16,14 @@ from rwn.fit.budget import one_stage, shares_by_rank
 from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
+from rwn.fit.known_filters import filtered, share_kept, undone
 from rwn.fit.likelihood import log_posterior
 from rwn.fit.part import screening_part
-from rwn.fit.prior import Nuisance
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import loss_gained, losses, statistics
-from rwn.model.model import Model
 from rwn.model.vocabulary import analog_filters
 from rwn.parallel import side_by_side
-from rwn.recording.noise import Noise
 
 Array = NDArray[np.float64]
 
@@ -62,10 +60,14 @@ def _filters_beside(
 ) -> tuple[tuple[SensorFilter, ...], float]:
     """The filters beside an explanation, and how likely both are (log, BIC)."""
     found: dict[str, SensorFilter] = {}
+    asked: dict[str, list[SensorFilter]] = {}
     known = list(seen)
     for _ in range(ROUNDS):
         for one in known:  # what one signal shows depends on the others' filters
             others = [f for f in found.values() if f.signal != one.signal]
+            if asked.get(one.signal) == others:
+                continue
+            asked[one.signal] = others
             on = filtered(problem, others)
             best = _likeliest_kind(on, _refitted(base, on), found.get(one.signal, one))
             if best is None and is_noise_alone(problem, residuals, one):
@@ -118,7 +120,7 @@ def _together(problem: Problem, base: Fit, found: tuple[SensorFilter, ...]) -> t
 
 
 def _of_time(problem: Problem, f: SensorFilter, time_constant: float) -> SensorFilter:
-    return replace(f, time_constant=time_constant, share=_share_kept(problem, f.signal, time_constant))
+    return replace(f, time_constant=time_constant, share=share_kept(problem, f.signal, time_constant))
 
 
 def _likelihood(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) -> float:
@@ -132,57 +134,6 @@ def _likelihood(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) ->
 
 def _samples(problem: Problem, signal: str) -> int:
     return sum(r.signal(signal).size for r in problem.runs)
-
-
-def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
-    """The model with filters [s] by signal in its recordings' layout, beside those that are there."""
-    known = {**model.recording.filters, **filters}
-    return replace(model, recording=replace(model.recording, filters=known)) if filters else model
-
-
-def filtered(problem: Problem, filters: Sequence[SensorFilter]) -> Problem:
-    """The problem with the filters undone where they are digital, else among what every hypothesis fits."""
-    for f in filters:
-        problem = _undone(problem, f.signal, f.time_constant) if f.digital else _as_nuisance(problem, f)
-    return problem
-
-
-def _as_nuisance(problem: Problem, f: SensorFilter) -> Problem:
-    """The problem with an analog filter among what every hypothesis fits, and with noise that went through it."""
-    lag = analog_filters(problem.prior.table)[f.signal]
-    (p,) = lag.parameters
-    own = Nuisance(effect=lag.name, values={p.name: f.time_constant}, spread={p.name: 1.0})
-    prior = replace(problem.prior, nuisance=(*problem.prior.nuisance, own))
-    return replace(
-        problem, prior=prior, noise={**problem.noise, f.signal: replace(problem.noise[f.signal], reflection=(f.share,))}
-    )
-
-
-def _undone(problem: Problem, signal: str, time_constant: float) -> Problem:
-    """The problem with the signal as it was before a digital filter, and with the noise that it had there."""
-    runs, whole = (
-        tuple(r.unfiltered(signal, time_constant) if r.signal(signal).size else r for r in of)
-        for of in (problem.runs, problem.whole)
-    )
-    filters = {**problem.filters, signal: time_constant}
-    noise = noise_before_filters(replace(problem, filters={signal: time_constant}), problem.noise)
-    return replace(problem, runs=runs, whole=whole, noise=noise, filters=filters)
-
-
-def noise_before_filters(problem: Problem, noise: Mapping[str, Noise]) -> dict[str, Noise]:
-    """Noise as recorded, as it is where the filters of a problem are undone: a filter had taken some of it off."""
-    before = dict(noise)
-    for signal, time_constant in problem.filters.items():
-        if signal in before:
-            share = _share_kept(problem, signal, time_constant)
-            before[signal] = before[signal].scaled(float(np.sqrt((1.0 + share) / (1.0 - share))))
-    return before
-
-
-def _share_kept(problem: Problem, signal: str, time_constant: float) -> float:
-    """phi of a filter."""
-    step = float(np.median([r.sample_time for r in problem.runs if r.signal(signal).size]))
-    return float(np.exp(-step / time_constant))
 
 
 def _with_lags(problem: Problem, this: Fit) -> Fit:
@@ -255,8 +206,8 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter:
 
     def negative_log_posterior(problem: Problem, logarithm: float) -> float:
         time_constant = float(np.exp(logarithm))
-        on = _undone(problem, seen.signal, time_constant)
-        shown = 1.0 - _share_kept(problem, seen.signal, time_constant)  # of what is new in a sample
+        on = undone(problem, seen.signal, time_constant)
+        shown = 1.0 - share_kept(problem, seen.signal, time_constant)  # of what is new in a sample
         return _samples(problem, seen.signal) * float(np.log(shown)) - log_posterior(on, _refitted(this, on))
 
     def refined(between: Array) -> tuple[float, float]:

@@ -14,6 +14,7 @@ from rwn.fit.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
 from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
+from rwn.fit.known_filters import filtered
 from rwn.fit.levels import can_differ, friction, with_levels
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
@@ -22,7 +23,7 @@ from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, join, statistics, statistics_of
 from rwn.fit.secant import all_down_secants
-from rwn.fit.sensor_filter import filtered, refitted_beside, sensor_filters
+from rwn.fit.sensor_filter import refitted_beside, sensor_filters
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.degenerate import adds
 from rwn.name.observable import observable

@@ -1,0 +1,77 @@
+"""Signals that went through filters of their sensors which are known: undone, or fitted beside everything else."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rwn.fit.filter_colour import SensorFilter
+from rwn.fit.prior import Nuisance
+from rwn.fit.problem import Problem
+from rwn.model.model import Model
+from rwn.model.vocabulary import analog_filters
+from rwn.recording.noise import Noise
+
+
+def filtered(problem: Problem, filters: Sequence[SensorFilter]) -> Problem:
+    """The problem with the filters undone where they are digital, else among what every hypothesis fits."""
+    for f in filters:
+        problem = undone(problem, f.signal, f.time_constant) if f.digital else _as_nuisance(problem, f)
+    return problem
+
+
+def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
+    """The model with filters [s] by signal in its recordings' layout, beside those that are there."""
+    known = {**model.recording.filters, **filters}
+    return replace(model, recording=replace(model.recording, filters=known)) if filters else model
+
+
+def known_filters(problem: Problem) -> tuple[SensorFilter, ...]:
+    """The filters that a problem was given, see `filtered`."""
+    fitted = {n.effect: next(iter(n.values.values())) for n in problem.prior.nuisance}
+    lags = {s: fitted[lag.name] for s, lag in analog_filters(problem.prior.table).items() if lag.name in fitted}
+    return tuple(
+        SensorFilter(signal=s, share=share_kept(problem, s, time), time_constant=time, digital=digital)
+        for times, digital in ((problem.filters, True), (lags, False))
+        for s, time in times.items()
+    )
+
+
+def noise_before_filters(problem: Problem, noise: Mapping[str, Noise]) -> dict[str, Noise]:
+    """Noise as recorded, as it is where the filters of a problem are undone: a filter had taken some of it off."""
+    before = dict(noise)
+    for signal, time_constant in problem.filters.items():
+        if signal in before:
+            share = share_kept(problem, signal, time_constant)
+            before[signal] = before[signal].scaled(float(np.sqrt((1.0 + share) / (1.0 - share))))
+    return before
+
+
+def _as_nuisance(problem: Problem, f: SensorFilter) -> Problem:
+    """The problem with an analog filter among what every hypothesis fits, and with noise that went through it."""
+    lag = analog_filters(problem.prior.table)[f.signal]
+    (p,) = lag.parameters
+    own = Nuisance(effect=lag.name, values={p.name: f.time_constant}, spread={p.name: 1.0})
+    prior = replace(problem.prior, nuisance=(*problem.prior.nuisance, own))
+    return replace(
+        problem, prior=prior, noise={**problem.noise, f.signal: replace(problem.noise[f.signal], reflection=(f.share,))}
+    )
+
+
+def undone(problem: Problem, signal: str, time_constant: float) -> Problem:
+    """The problem with the signal as it was before a digital filter, and with the noise that it had there."""
+    runs, whole = (
+        tuple(r.unfiltered(signal, time_constant) if r.signal(signal).size else r for r in of)
+        for of in (problem.runs, problem.whole)
+    )
+    filters = {**problem.filters, signal: time_constant}
+    noise = noise_before_filters(replace(problem, filters={signal: time_constant}), problem.noise)
+    return replace(problem, runs=runs, whole=whole, noise=noise, filters=filters)
+
+
+def share_kept(problem: Problem, signal: str, time_constant: float) -> float:
+    """phi of a filter."""
+    step = float(np.median([r.sample_time for r in problem.runs if r.signal(signal).size]))
+    return float(np.exp(-step / time_constant))
