@@ -51,6 +51,24 @@ def test_spikes_among_such_peaks_are_found() -> None:
     assert set(np.flatnonzero(SPIKES.flags(_recording(current=current), "current"))) == set(at)
 
 
+def test_a_dropout_on_a_steep_flank_is_found_by_the_value_that_others_have() -> None:
+    current = _peaks(0.02)
+    flank = 501 + int(np.argmax(np.diff(current)[500:]))
+    current[flank] = 0.5 * (current[flank - 1] + current[flank + 1])
+    assert not SPIKES.flags(_recording(current=current - current[flank]), "current")[flank]
+    dropped = current - current[flank]
+    dropped[[600, 900]] = 0.0
+    assert set(np.flatnonzero(SPIKES.flags(_recording(current=dropped), "current"))) == {flank, 600, 900}
+
+
+def test_a_value_that_is_a_spikes_once_and_often_a_measurement_is_no_spike() -> None:
+    speed = np.rint(20.0 * np.sin(TIME))
+    speed[1000] = 0.0
+    flags = SPIKES.flags(_recording(speed=speed), "speed")
+    assert flags[1000]
+    assert np.sum(speed[~flags] == 0.0) > 20
+
+
 def test_the_first_and_the_last_sample_beside_it_may_be_all_that_there_is() -> None:
     speed = 100.0 * np.sin(TIME) + 0.05 * np.random.default_rng(1).standard_normal(TIME.size)
     speed[[1, -2]] = 300.0

@@ -56,7 +56,18 @@ def _among(x: Array, after_steps: Flags) -> Flags:
         found |= _alone(mirrored, must_be_beyond, together)[1:-1]
         known = np.flatnonzero(~found)
         bridged = np.interp(np.arange(x.size), known, x[known])
+    found |= _alike(x, found)
     return found if found.mean() <= RARE else np.zeros(x.size, dtype=bool)
+
+
+def _alike(x: Array, found: Flags) -> Flags:
+    """Samples (n,) with the very value of spikes, a 0 or the end of a range, where most that have it are spikes.
+
+    On a steep flank a dropout lies between its neighbours.
+    """
+    values, of = np.unique(x, return_inverse=True)
+    spikes = np.bincount(of, weights=found, minlength=values.size)
+    return np.asarray((spikes >= 0.5 * np.bincount(of, minlength=values.size))[of], dtype=np.bool_)
 
 
 def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
