@@ -99,6 +99,17 @@ def test_a_spike_in_a_value_that_is_held_is_found_and_what_follows_it_is_held_to
     assert set(measured) == set(range(0, TIME.size, 5))
 
 
+def test_spikes_of_a_value_that_is_held_are_counted_by_rows_not_by_updates() -> None:
+    """One row in a hundred is 3 % of the updates of a speed that is held for three rows."""
+    rng = np.random.default_rng(2)
+    speed = np.repeat(100.0 * np.sin(TIME[::4]) + 0.1 * rng.standard_normal(TIME[::4].size), 4)
+    at = np.arange(50, TIME.size, 100)
+    speed[at] = 300.0
+    (found,), findings = inspected([_recording(speed=speed)])
+    assert [f.count for f in findings if f.kind == "spikes"] == [at.size]
+    assert found.missing["speed"][at].all()
+
+
 def _flagged(file: Path) -> tuple[Recording, dict[str, Array]]:
     model = read_model(file.parent / "model.toml")
     run = read_recording(file, layout=model.recording)

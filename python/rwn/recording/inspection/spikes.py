@@ -14,7 +14,7 @@ from rwn.recording.signals import MEASURED
 Array = NDArray[np.float64]
 
 LEVEL = 0.01  # chance that one is found in Gaussian noise, in all samples together
-RARE = 0.02  # most of the samples that are called spikes: a signal that jumps more often does so by itself
+RARE = 0.02  # most of the rows that are called spikes: a signal that jumps more often does so by itself
 BESIDE = 0.25  # most that a signal may move beside a spike, in units of the jump
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
 FEWEST = 8  # samples among which one is found
@@ -42,7 +42,7 @@ def _spikes(recording: Recording, signal: str) -> Flags:
     after_steps = np.maximum.reduceat(_after_steps(recording), since)[: measured.size]
     flags = np.zeros(missing.size, dtype=bool)
     flags[measured] = _among(np.asarray(recording.signals[signal])[measured], after_steps)
-    return flags
+    return flags if flags.mean() <= RARE else np.zeros(missing.size, dtype=bool)
 
 
 def _among(x: Array, after_steps: Flags) -> Flags:
@@ -56,8 +56,7 @@ def _among(x: Array, after_steps: Flags) -> Flags:
         found |= _alone(mirrored, must_be_beyond, together)[1:-1]
         known = np.flatnonzero(~found)
         bridged = np.interp(np.arange(x.size), known, x[known])
-    found |= _alike(x, found)
-    return found if found.mean() <= RARE else np.zeros(x.size, dtype=bool)
+    return found | _alike(x, found)
 
 
 def _alike(x: Array, found: Flags) -> Flags:
