@@ -9,12 +9,14 @@ import pytest
 from scipy.signal import lfilter
 
 import rwn
+from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intersample import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
 from rwn.fit.likelihood import DECISIVE, log_likelihood
 from rwn.fit.nominal import nominal_of
-from rwn.fit.residuals import accuracy_lost
+from rwn.fit.residuals import loss_gained
+from rwn.fit.sensor_filter import losses_beside
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 
@@ -71,6 +73,27 @@ def test_a_filter_is_told_from_thinned_rows_beside_what_was_found_under_these() 
     assert likeliest_with_filters(bare, explained, "thirds")[0] == "held"
 
 
+def test_a_latency_is_found_beneath_a_filter_that_hides_it() -> None:
+    """Of the filtered speed a held voltage is likelier; once the filter is undone, it no longer is."""
+    rng, fine, kept = np.random.default_rng(3), 8, 0.8
+    time = 1e-3 / fine * np.arange(3000 * fine)
+    voltage = np.repeat(np.repeat(rng.uniform(-3.0, 3.0, 60), 50), fine)
+    every = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    taken = fine * np.arange(3000) + np.append(0, rng.integers(0, 3, 2999))
+    made = {s: x[taken] for s, x in rwn.simulate(MODEL, every).signals.items() if s in ("speed", "current")}
+    noisy = {s: x + 0.01 * np.std(x) * rng.standard_normal(x.size) for s, x in made.items()}
+    noisy["speed"] = lfilter([1.0 - kept], [1.0, -kept], noisy["speed"])
+    run = rwn.Recording(name="run", time=time[taken], signals={"voltage": voltage[taken], **noisy})
+    bare, nominal = nominal_of([run], stating(MODEL, "held"))
+    assert likeliest(bare, nominal) == "held"
+    filtered = SensorFilter(signal="speed", share=kept, time_constant=-1e-3 / np.log(kept), digital=True)
+    for known in ((), (filtered,)):
+        found, filters = likeliest_with_filters(bare, nominal, "held", known)
+        assert found == "latency"
+        (of_speed,) = (f for f in filters if f.signal == "speed")
+        assert of_speed.time_constant == pytest.approx(filtered.time_constant, rel=0.05)
+
+
 def test_a_law_that_the_free_run_refuses_is_not_taken() -> None:
     """The steps of the voltage reach the speed's cable: what is new in a row goes with the voltage of that row."""
     rng, time = np.random.default_rng(5), 1e-3 * np.arange(3000)
@@ -87,7 +110,7 @@ def test_a_law_that_the_free_run_refuses_is_not_taken() -> None:
     assert likeliest(problem, held) == "held"
 
 
-def test_accuracy_lost_is_none_between_the_same_and_changes_sign_with_the_order() -> None:
+def test_a_loss_gained_is_none_between_the_same_and_changes_sign_with_the_order() -> None:
     time = 1e-3 * np.arange(3000)
     voltage = np.random.default_rng(7).uniform(-3.0, 3.0, time.size)
     bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
@@ -96,9 +119,10 @@ def test_accuracy_lost_is_none_between_the_same_and_changes_sign_with_the_order(
     problem, held = nominal_of([_kept(whole, slice(None, None, 2))], stating(MODEL, "held"))
     halves = replace(problem, runs=tuple(r.with_intersample("halves") for r in problem.runs))
     other = refit(held, halves)
-    assert accuracy_lost(problem, held, problem, held) == 0.0
-    assert accuracy_lost(problem, held, halves, other) < -3.0  # every second row was kept
-    assert accuracy_lost(halves, other, problem, held) == -accuracy_lost(problem, held, halves, other)
+    as_held, as_halves = losses_beside(problem, held, ()), losses_beside(halves, other, ())
+    assert loss_gained(as_held, as_held) == 0.0
+    assert loss_gained(as_held, as_halves) < -3.0  # every second row was kept
+    assert loss_gained(as_halves, as_held) == -loss_gained(as_held, as_halves)
 
 
 def test_lost_rows_are_bridged_where_the_voltage_went_on_moving() -> None:

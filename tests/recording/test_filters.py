@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 import rwn
 from rwn.model.files import write_model
@@ -27,6 +28,15 @@ def test_a_filtered_signal_is_put_back_as_it_was() -> None:
     assert made.signals["speed"] == pytest.approx(RUN.signals["speed"], abs=1e-12)
     assert unfiltered(RUN, {}) is RUN
     assert unfiltered(RUN, {"current": 1e-3}) is RUN
+
+
+def test_a_program_filters_sample_by_sample_however_late_each_is() -> None:
+    rng = np.random.default_rng(1)
+    time = 1e-3 * (np.arange(600) + rng.uniform(0.0, 0.25, 600))
+    speed, kept = rng.standard_normal(600), np.exp(-1.0 / 2.0)
+    shown = lfilter([1.0 - kept], [1.0, -kept], speed, zi=[kept * speed[0]])[0]
+    made = unfiltered(rwn.Recording(name="run", time=time, signals={"voltage": speed, "speed": shown}), {"speed": 2e-3})
+    assert made.signals["speed"] == pytest.approx(speed, abs=0.02)  # as well as the clock is known from its rows
 
 
 def test_what_follows_a_missing_sample_is_missing() -> None:

@@ -58,6 +58,20 @@ def test_rows_beside_the_ticks_of_a_clock_show_the_voltage_of_the_last_tick() ->
     assert right < 0.2 * held
 
 
+def test_rows_taken_some_time_after_each_tick_show_the_voltage_of_their_own() -> None:
+    rng = np.random.default_rng(4)
+    ticks = np.delete(np.arange(2000), [700])
+    voltage = rng.uniform(-1.0, 1.0, 2000)
+    late = rng.uniform(0.0, 0.25, ticks.size)
+    acting = INTERSAMPLE["latency"].applied(1e-3 * (ticks + late - late[0]), voltage[ticks])
+    assert acting is not None
+    assert np.flatnonzero(acting.spread).tolist() == [700]
+    known = np.delete(np.arange(2000), [700])
+    assert acting.values[known].tolist() == voltage[known].tolist()
+    assert acting.instants[1:] == pytest.approx(1e-3 * (np.arange(1, 2000) - late[0]), abs=2e-5)
+    assert INTERSAMPLE["latency"].applied(1e-3 * ticks, voltage[ticks]) is None
+
+
 def test_without_gaps_or_jitter_a_clock_says_what_rows_say() -> None:
     voltage = np.sin(20.0 * TIME)
     for law in ("bridged", "ticks"):

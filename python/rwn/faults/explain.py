@@ -93,7 +93,7 @@ def explained(
             break
         still, again, filters = asked
         best = None if faults else ranking.fits[0].fit
-        as_acted = _as_acted(powered(recordings, still, model), again, best)
+        as_acted = _as_acted(powered(recordings, still, model), again, best, filters)
         faults, ranking = resolved(as_acted, again, filters=filters, say=say, effort=effort)
     for wrong in contradicted(ranking):
         free, as_acted = without_declared(again, wrong), _as_acted(powered(recordings, still, model), again)
@@ -117,10 +117,12 @@ def _asked_again(
     if stated is model or (stated.recording.intersample == HELD and ranking.left.at_the_floor):
         return _Measured(still, stated, known)
     bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
-    law, filters = likeliest_with_filters(bare, best, stated.recording.intersample)
+    law, filters = likeliest_with_filters(bare, best, stated.recording.intersample, known)
     return _Measured(still, stating(stated, law), known if law == stated.recording.intersample else filters)
 
 
-def _as_acted(recordings: Sequence[Recording], model: Model, best: Fit | None = None) -> list[Recording]:
+def _as_acted(
+    recordings: Sequence[Recording], model: Model, best: Fit | None = None, filters: Sequence[SensorFilter] = ()
+) -> list[Recording]:
     """The recordings with their input as it acted under the best explanation so far; None: the nominal model."""
-    return without_unknown(with_unrecorded_input(recordings, model, best), model)
+    return without_unknown(with_unrecorded_input(recordings, model, best, filters=filters), model)

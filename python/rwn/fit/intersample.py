@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from statistics import NormalDist
 
 import numpy as np
@@ -11,12 +12,13 @@ from numpy.typing import NDArray
 
 from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit, refit
+from rwn.fit.known_filters import filtered
 from rwn.fit.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import LEVEL, accuracy_lost, statistics
-from rwn.fit.sensor_filter import filters_and_likelihood, refitted_beside
+from rwn.fit.residuals import LEVEL, loss_gained, statistics
+from rwn.fit.sensor_filter import filters_and_likelihood, losses_beside, refitted_beside
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
@@ -55,40 +57,50 @@ def likeliest(problem: Problem, this: Fit) -> str:
 
 
 def likeliest_with_filters(
-    problem: Problem, explanation: Fit, stated: str
+    problem: Problem, explanation: Fit, stated: str, known: Sequence[SensorFilter] = ()
 ) -> tuple[str, tuple[SensorFilter, ...]]:
     """The law under which what is left beside an explanation is likeliest, with the filters that show under it.
 
     What a filter of a sensor leaves looks as if rows had been left out, and the other way round, so the two are judged
-    together. Filters are looked for under the law that is `stated`, under "held" and under the likeliest without any.
+    together. Filters are looked for under the law that is `stated`, under "held", under the likeliest without any and
+    under the likeliest with those that are `known`.
 
     Args:
         problem: the recordings as prepared, without filters of their sensors.
         explanation: found under whatever law and filters.
         stated: the law under which it was found.
+        known: the filters under which it was found.
     """
     candidates = _candidates(problem)
-    fits = side_by_side(lambda p: _explained(explanation, p), candidates.values())
-    refitted = dict(zip(candidates, fits, strict=True))
-    bare = {law: log_posterior(*refitted[law]) for law in candidates}
-    asked = {HELD, max(bare, key=lambda law: bare[law]), *({stated} & set(bare))}
+    refitted = _all_explained(explanation, candidates)
+    asked = {HELD, _first(refitted), *({stated} & set(candidates))}
+    if known:
+        asked.add(_first(_all_explained(explanation, {law: filtered(p, known) for law, p in candidates.items()})))
     if len(asked) == 1:
         return HELD, ()
     found = {law: filters_and_likelihood(*refitted[law]) for law in sorted(asked)}
-    law = _chosen(refitted, {law: likelihood for law, (_, likelihood) in found.items()})
-    return law, found[law][0]
+    filters = {law: of_law for law, (of_law, _) in found.items()}
+    law = _chosen(refitted, {law: likelihood for law, (_, likelihood) in found.items()}, filters)
+    return law, filters[law]
 
 
-def _chosen(refitted: Mapping[str, tuple[Problem, Fit]], scores: Mapping[str, float]) -> str:
+def _chosen(
+    refitted: Mapping[str, tuple[Problem, Fit]], scores: Mapping[str, float],
+    filters: Mapping[str, Sequence[SensorFilter]] | None = None,
+) -> str:  # fmt: skip
     """The likeliest law, "held" where none is decisively so; of one that no times show, by what is left is worth.
 
-    One that simulates the recordings certainly worse than a held input is neither.
+    One that simulates the recordings certainly worse than a held input, each beside its `filters`, is neither.
     """
-    held, as_held = refitted[HELD]
+    held, _ = refitted[HELD]
+
+    @cache
+    def loss(law: str) -> Array:
+        problem, this = refitted[law]
+        return losses_beside(replace(problem, noise=held.noise), this, (filters or {}).get(law, ()))
 
     def lost(law: str) -> float:
-        problem, this = refitted[law]
-        return accuracy_lost(held, as_held, replace(problem, noise=held.noise), this)
+        return loss_gained(loss(HELD), loss(law))
 
     believable = [law for law in scores if law == HELD or lost(law) < CERTAINLY]
     shown = [law for law in believable if INTERSAMPLE[law].shown and scores[law] > scores[HELD] + DECISIVE]
@@ -96,6 +108,16 @@ def _chosen(refitted: Mapping[str, tuple[Problem, Fit]], scores: Mapping[str, fl
     others = [law for law in believable if not INTERSAMPLE[law].shown]
     decisive = [law for law in others if is_decisive(scores[law] - scores[usual], statistics(*refitted[law]))]
     return max(decisive, key=lambda law: scores[law], default=usual)
+
+
+def _all_explained(explanation: Fit, under: Mapping[str, Problem]) -> dict[str, tuple[Problem, Fit]]:
+    found = side_by_side(lambda p: _explained(explanation, p), under.values())
+    return dict(zip(under, found, strict=True))
+
+
+def _first(refitted: Mapping[str, tuple[Problem, Fit]]) -> str:
+    """The law under which an explanation is likeliest."""
+    return max(refitted, key=lambda law: log_posterior(*refitted[law]))
 
 
 def _explained(explanation: Fit, problem: Problem) -> tuple[Problem, Fit]:

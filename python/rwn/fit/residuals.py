@@ -141,20 +141,12 @@ def variance(problem: Problem, this: Fit) -> float:
     return left if left < RAN_AWAY else np.inf
 
 
-def accuracy_lost(problem: Problem, this: Fit, other: Problem, that: Fit) -> float:
-    """How certainly `that` simulates the recordings worse than `this`, in deviations; 0 where both do it alike.
-
-    Diebold, Mariano (1995): the mean difference of squared weighted errors over its own deviation, which counts how
-    long differences last. `other`: the same recordings under the same noise.
-    """
-    return loss_gained(
-        losses(problem, problem.residuals(this.vector, this.active)),
-        losses(other, other.residuals(that.vector, that.active)),
-    )
-
-
 def loss_gained(before: Array, after: Array) -> float:
-    """The same of the losses of every sample (n,)."""
+    """How certainly a simulation of losses (n,) `after` is worse than one of those `before`, in deviations.
+
+    0 where both do it alike. Diebold, Mariano (1995): the mean difference of squared weighted errors over its own
+    deviation, which counts how long differences last.
+    """
     difference = after - before
     spread = float(np.std(difference)) * np.sqrt(correlation_time(difference) / difference.size)
     return float(np.mean(difference)) / spread if spread > 0.0 else 0.0

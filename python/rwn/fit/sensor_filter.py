@@ -188,16 +188,20 @@ def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFi
 
 def _accuracy_lost(problem: Problem, this: Fit, f: SensorFilter) -> float:
     """How much worse an explanation simulates the signals as they were recorded with a filter, in deviations."""
+    before = losses(problem, problem.residuals(this.vector, this.active))
+    return loss_gained(before, losses_beside(problem, this, [f]))
+
+
+def losses_beside(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) -> Array:
+    """`losses` (n,) of an explanation refitted beside filters, in the signals as they were recorded."""
     from scipy.signal import lfilter  # late: the command line starts without it
 
-    on = filtered(problem, [f])
+    on = filtered(problem, filters)
     that = _refitted(this, on)
     left = [dict(of_a_run) for of_a_run in on.residuals(that.vector, that.active)]
-    for of_a_run in left:
-        if f.digital and f.signal in of_a_run:
-            of_a_run[f.signal] = lfilter([1.0 - f.share], [1.0, -f.share], np.nan_to_num(of_a_run[f.signal]))
-    before = losses(problem, problem.residuals(this.vector, this.active))
-    return loss_gained(before, losses(problem, left))
+    for of_a_run, f in ((r, f) for r in left for f in filters if f.digital and f.signal in r):
+        of_a_run[f.signal] = lfilter([1.0 - f.share], [1.0, -f.share], np.nan_to_num(of_a_run[f.signal]))
+    return losses(problem, left)
 
 
 def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter:

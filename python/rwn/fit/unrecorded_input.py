@@ -15,7 +15,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit
+from rwn.fit.known_filters import filtered
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.fit.sensor_filter import refitted_beside
@@ -43,11 +45,13 @@ LEAST_LEFT = 0.01  # of the noise of a signal: less is rounding
 
 
 def with_unrecorded_input(
-    recordings: Sequence[Recording], model: Model, explanation: Fit | None = None
-) -> list[Recording]:
+    recordings: Sequence[Recording], model: Model, explanation: Fit | None = None, *,
+    filters: Sequence[SensorFilter] = (),
+) -> list[Recording]:  # fmt: skip
     """The recordings with their input as it acted by the model's law and the motion.
 
     `explanation`: of the motion, refitted; None: the nominal model, under which an input that acts late, say, is bent.
+    `filters`: of the sensors, beside it.
 
     Raises InputError where a recording does not fit the model.
     """
@@ -60,6 +64,7 @@ def with_unrecorded_input(
     for _ in range(ROUNDS):
         problem, this = nominal_of(made, model)
         if explanation is not None:
+            problem = filtered(problem, filters)
             (this,) = refitted_beside([explanation], problem)
         left = problem.residuals(this.vector, this.active)
         for k, (run, given) in enumerate(zip(problem.runs, applied, strict=True)):

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.recording.clock import clock_of
 from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -31,7 +32,7 @@ def unfiltered(recording: Recording, filters: Mapping[str, float]) -> Recording:
 
 
 def before_filter(time: Array, shown: Array, time_constant: float) -> Array:
-    """The samples (n,) at `time` (n,) [s] from what y += (1 - exp(-dt / tau)) (x - y) made of them."""
+    """The samples (n,) at `time` (n,) [s] from what y += (1 - exp(-T / tau)) (x - y) made of them."""
     kept = _kept(time, time_constant)
     return np.concatenate([shown[:1], (shown[1:] - kept * shown[:-1]) / (1.0 - kept)])
 
@@ -51,5 +52,11 @@ def after_missing(missing: Flags) -> Flags:
 
 
 def _kept(time: Array, time_constant: float) -> Array:
-    """Share of what the filter shows that is still in its next sample, (n - 1,)."""
-    return np.exp(-np.diff(time) / time_constant)
+    """Share of what the filter shows that is still in its next sample, (n - 1,).
+
+    A program filters sample by sample, however late each is taken: what counts is the ticks of its clock.
+    """
+    if time.size < 2:
+        return np.zeros(0)
+    clock = clock_of(time)
+    return np.asarray(np.exp(-clock.period * np.diff(clock.ticks) / time_constant))

@@ -161,6 +161,18 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
     return PiecewiseInput(instants=instants[late], values=mixed[late], spread=spread[late])
 
 
+def _before_rows(time: Array, values: Array) -> PiecewiseInput | None:
+    """It changed at ticks that the rows were taken after, the promptest at once: each shows that of its own."""
+    clock = _clock_beside(time)
+    if clock is None:
+        return None
+    ticks = np.arange(clock.ticks[-1] + 1)
+    shown, spread = _shown_at(ticks, clock.ticks, values)
+    instants = clock.start + clock.period * (ticks + np.min(clock.off))
+    instants[0] = time[0]
+    return PiecewiseInput(instants=instants, values=shown, spread=spread)
+
+
 def _last_ticks(clock: Clock, values: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """The tick before each row, and whether it may as well be the one before that, (n,) each.
 
@@ -266,6 +278,11 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
     "line": IntersampleLaw(applied=_linear, words="it moved on a line from row to row"),
     "ticks": IntersampleLaw(
         applied=_at_ticks, shown=True, words="it changed at the ticks of a clock beside which the rows were taken"
+    ),
+    "latency": IntersampleLaw(
+        applied=_before_rows,
+        shown=True,
+        words="it changed at the ticks of a clock, and each row was taken some time after its own",
     ),
     "interpolated": IntersampleLaw(
         applied=partial(_at_ticks, begin=0.0),
