@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cache
 from statistics import NormalDist
 
 import numpy as np
@@ -17,7 +16,7 @@ from rwn.fit.likelihood import DECISIVE, is_decisive, log_likelihood, log_poster
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import LEVEL, loss_gained, statistics
+from rwn.fit.residuals import LEVEL, loss_gained, statistics, variance
 from rwn.fit.sensor_filter import filters_and_likelihood, losses_beside, refitted_beside
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
@@ -48,7 +47,7 @@ def likeliest(problem: Problem, this: Fit) -> str:
 
     What is new in an error may go with the input by another way than through the drive: a controller answers the noise
     of a row by the input of that row, a cable picks its steps up. A law that foretells this is likelier for no physics,
-    so one that simulates the recordings certainly worse, from their input alone, is not taken.
+    so one that simulates the recordings certainly worse than another, from their input alone, is not taken.
     """
     candidates = _candidates(problem)
     fits = side_by_side(lambda p: refit(this, p, iterations=ITERATIONS), candidates.values())
@@ -62,8 +61,8 @@ def likeliest_with_filters(
     """The law under which what is left beside an explanation is likeliest, with the filters that show under it.
 
     What a filter of a sensor leaves looks as if rows had been left out, and the other way round, so the two are judged
-    together. Filters are looked for under the law that is `stated`, under "held", under the likeliest without any and
-    under the likeliest with those that are `known`.
+    together. Filters are looked for under the law that is `stated`, under "held", under the likeliest and the most
+    accurate without any, and under those two with those that are `known`.
 
     Args:
         problem: the recordings as prepared, without filters of their sensors.
@@ -73,9 +72,9 @@ def likeliest_with_filters(
     """
     candidates = _candidates(problem)
     refitted = _all_explained(explanation, candidates)
-    asked = {HELD, _first(refitted), *({stated} & set(candidates))}
+    asked = {HELD, *_leading(refitted), *({stated} & set(candidates))}
     if known:
-        asked.add(_first(_all_explained(explanation, {law: filtered(p, known) for law, p in candidates.items()})))
+        asked |= _leading(_all_explained(explanation, {law: filtered(p, known) for law, p in candidates.items()}))
     if len(asked) == 1:
         return HELD, ()
     found = {law: filters_and_likelihood(*refitted[law]) for law in sorted(asked)}
@@ -90,19 +89,13 @@ def _chosen(
 ) -> str:  # fmt: skip
     """The likeliest law, "held" where none is decisively so; of one that no times show, by what is left is worth.
 
-    One that simulates the recordings certainly worse than a held input, each beside its `filters`, is neither.
+    One that simulates the recordings certainly worse than another, each beside its `filters`, is neither.
     """
     held, _ = refitted[HELD]
-
-    @cache
-    def loss(law: str) -> Array:
-        problem, this = refitted[law]
-        return losses_beside(replace(problem, noise=held.noise), this, (filters or {}).get(law, ()))
-
-    def lost(law: str) -> float:
-        return loss_gained(loss(HELD), loss(law))
-
-    believable = [law for law in scores if law == HELD or lost(law) < CERTAINLY]
+    under = {law: (replace(problem, noise=held.noise), this) for law, (problem, this) in refitted.items()}
+    loss = {law: losses_beside(*under[law], (filters or {}).get(law, ())) for law in scores}
+    best = min(loss, key=lambda law: float(np.mean(loss[law])))
+    believable = [law for law in scores if law == HELD or loss_gained(loss[best], loss[law]) < CERTAINLY]
     shown = [law for law in believable if INTERSAMPLE[law].shown and scores[law] > scores[HELD] + DECISIVE]
     usual = max(shown, key=lambda law: scores[law], default=HELD)
     others = [law for law in believable if not INTERSAMPLE[law].shown]
@@ -115,9 +108,15 @@ def _all_explained(explanation: Fit, under: Mapping[str, Problem]) -> dict[str, 
     return dict(zip(under, found, strict=True))
 
 
-def _first(refitted: Mapping[str, tuple[Problem, Fit]]) -> str:
-    """The law under which an explanation is likeliest."""
-    return max(refitted, key=lambda law: log_posterior(*refitted[law]))
+def _leading(refitted: Mapping[str, tuple[Problem, Fit]]) -> set[str]:
+    """The law under which an explanation is likeliest, and that under which it errs least."""
+    noise = refitted[HELD][0].noise
+
+    def error(law: str) -> float:
+        problem, this = refitted[law]
+        return variance(replace(problem, noise=noise), this)
+
+    return {max(refitted, key=lambda law: log_posterior(*refitted[law])), min(refitted, key=error)}
 
 
 def _explained(explanation: Fit, problem: Problem) -> tuple[Problem, Fit]:
