@@ -63,6 +63,19 @@ def test_an_explanation_with_a_delay_moves_a_late_enable() -> None:
     assert retimed([moved], recordings, MODEL, problem, delayed) == (moved,)
 
 
+def test_a_fit_that_bent_the_position_to_a_wrong_instant_does_not_keep_it_there() -> None:
+    """The shaft stood at the 0 that was recorded; a fit with power from 2 ms too late on begins it elsewhere."""
+    recording = _run(STEPS, 130)
+    acting = np.where(np.arange(STEPS.size) < 130, 0.0, STEPS)
+    turned = rwn.simulate(Model(kind="dc", parameters=MOTOR), replace(recording, signals={"voltage": acting}))
+    counts = np.rint(turned.signals["position"] / 1e-3) * 1e-3
+    recordings = [replace(recording, signals={**recording.signals, "position": counts})]
+    wrong = LateEnable(place=0, recording="run", samples=132, time=0.132)
+    problem = prepare(powered(recordings, [wrong], MODEL), MODEL)
+    (moved,) = retimed([wrong], recordings, MODEL, problem, fit_nominal(problem))
+    assert moved.time == pytest.approx(0.130, abs=5e-4)  # of 1 ms rows; the bent motor is still in it
+
+
 def test_noise_that_is_not_white_ends_no_standstill() -> None:
     recording = _run(STEPS, 400)
     rng, noise = np.random.default_rng(3), np.zeros(STEPS.size)

@@ -13,6 +13,7 @@ from operator import attrgetter
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.faults.enabling import ITERATIONS, Beginning, powered_from, run_powered_from, since_start
 from rwn.faults.standstill import FEWEST, first_moved
 from rwn.fit.fit import Fit, fit, fit_nominal, refit
 from rwn.fit.hypothesis import hypothesis
@@ -31,10 +32,6 @@ from rwn.recording.recording import Recording, beginnings
 from rwn.simulate.run import Run, run_of
 
 Array = NDArray[np.float64]
-
-TRIED = 64  # instants of enabling that are compared at a time
-ITERATIONS = 8  # of a fit that begins near its end
-INSTANT_TOLERANCE = 0.01  # accuracy of the instant of enabling, in times between rows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +60,7 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
     still = [_standing_samples(r, model) for r in recordings]
     if model.drive.coefficients or not any(still):
         return ()
-    without = [_powered_from(_since_start(r)[k], r, model) for r, k in zip(recordings, still, strict=True)]
+    without = [powered_from(since_start(r)[k], r, model) for r, k in zip(recordings, still, strict=True)]
     problem, nominal = nominal_of(without, model)
     found = _enabled_late(recordings, model, problem, nominal, problem.runs)
     return _worthwhile(found, recordings, model) if found else ()
@@ -100,7 +97,7 @@ def _enabled_late(
 def powered(recordings: Sequence[Recording], found: Sequence[LateEnable], model: Model) -> list[Recording]:
     """The recordings with no input where they had no power."""
     times = {late.place: late.time for late in found}
-    return [_powered_from(times.get(k, 0.0), r, model) for k, r in enumerate(recordings)]
+    return [powered_from(times.get(k, 0.0), r, model) for k, r in enumerate(recordings)]
 
 
 def needed(
@@ -119,16 +116,26 @@ def retimed(
 ) -> tuple[LateEnable, ...]:
     """Each at the time that an explanation asks for, where the recordings are far likelier with that.
 
-    What was missing when it was found, such as a delay, moves it. `problem`: of `powered` recordings.
+    What was missing when it was found, such as a delay, moves it. Errors count as what is left with that time is worth:
+    a wrong one leaves a position off for good. `problem`: of `powered` recordings.
     """
-    enough, made = 2.0 * worth(problem, this) * DECISIVE, []
+    made = []
     for late in found:
         recording = recordings[late.place]
         beginning = _beginning(problem, this, recording, model, problem.whole[late.place])
         time = beginning.enabling_time()
-        better = beginning.error(late.time) - beginning.error(time) > enough
+        gained = beginning.error(late.time) - beginning.error(time)
+        better = gained > 2.0 * DECISIVE and gained > 2.0 * DECISIVE * _worth_from(time, late, beginning, problem, this)
         made.append(_enabled_at(time, late.place, recording) if better else late)
     return tuple(late for late in made if late.samples >= FEWEST)
+
+
+def _worth_from(time: float, late: LateEnable, beginning: Beginning, problem: Problem, this: Fit) -> float:
+    """What errors are worth where an explanation is refitted with the power of a recording from a time [s] on."""
+    on = run_powered_from(time, beginning.run)
+    changed = replace(problem.whole[late.place], input=on.input, applied_input=on.applied_input)
+    whole = replace(problem, runs=(*problem.whole[: late.place], changed, *problem.whole[late.place + 1 :]))
+    return worth(whole, refit(this, whole, iterations=ITERATIONS))
 
 
 def _standing_samples(recording: Recording, model: Model) -> int:
@@ -189,44 +196,12 @@ def _best_held(problem: Problem, waits: Sequence[float]) -> Fit:
 def _waiting_time(recording: Recording, late: LateEnable, model: Model) -> float:
     """From the first input to the power [s]."""
     begins = np.argmax(np.asarray(recording.signals[model.drive.input]) != 0.0)
-    return float(max(late.time - _since_start(recording)[begins], 0.0))
-
-
-def _since_start(recording: Recording) -> Array:
-    """Time [s] of each sample after the first, (n + 1,): the last is the end of the last one's step."""
-    time = recording.time - recording.time[0]
-    return np.append(time, 2.0 * time[-1] - time[-2])
+    return float(max(late.time - since_start(recording)[begins], 0.0))
 
 
 def _enabled_at(time: float, place: int, recording: Recording) -> LateEnable:
-    before = int(np.searchsorted(_since_start(recording)[:-1], time))
+    before = int(np.searchsorted(since_start(recording)[:-1], time))
     return LateEnable(place=place, recording=recording.name, samples=before, time=time)
-
-
-def _powered_from(time: float, recording: Recording, model: Model) -> Recording:
-    """The recording with no input before a time [s]; in the step in which it comes the input acts for a part."""
-    if time == 0.0:
-        return recording
-    given = _acting(_since_start(recording), time) * np.asarray(recording.signals[model.drive.input])
-    return replace(recording, signals={**recording.signals, model.drive.input: given})
-
-
-def _run_powered_from(time: float, run: Run) -> Run:
-    """The same of a recording as it is simulated."""
-    if time == 0.0:
-        return run
-    steps, acted = np.append(run.time, 2.0 * run.time[-1] - run.time[-2]), run.applied_input
-    if acted is not None:
-        between = np.append(acted.instants, max(steps[-1], acted.instants[-1]))
-        acted = replace(acted, values=_acting(between, time) * acted.values)
-    return replace(run, input=_acting(steps, time) * run.input, applied_input=acted, input_before=0.0)
-
-
-def _acting(steps: Array, time: float) -> Array:
-    """The part (n,) of each step between `steps` (n + 1,) [s] in which there is power, from a time [s] on."""
-    lengths = np.diff(steps)
-    parts = np.divide(steps[1:] - time, lengths, out=np.where(steps[1:] > time, 1.0, 0.0), where=lengths > 0.0)
-    return np.asarray(np.clip(parts, 0.0, 1.0))
 
 
 def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
@@ -252,49 +227,12 @@ def _moves(problem: Problem, this: Fit, run: Run, unmoved: Mapping[str, Array]) 
 
 
 def _stands_about_zero(run: Run, samples: int) -> bool:
-    """Whether the speed of the samples that stand still is 0 within their noise, be the first of them as it may."""
-    still = run.signal("speed")[:samples]
-    return bool(still.size and abs(np.mean(still)) <= CERTAIN * np.std(still))
+    """Whether the speed of the samples that stand still is 0 within their noise, whatever the first."""
+    return bool((still := run.signal("speed")[:samples]).size and abs(np.mean(still)) <= CERTAIN * np.std(still))
 
 
-def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> _Beginning:
-    run = replace(run_of(recording, model), own=beside.own, levels=beside.levels)
-    return _Beginning(problem, this, recording, run, _standing_samples(recording, model))
-
-
-@dataclass(frozen=True)
-class _Beginning:
-    """A recording until twice the time that it stood still, and a fit that would move under its input."""
-
-    problem: Problem
-    this: Fit
-    recording: Recording
-    run: Run  # the same as it is simulated, with power from the first sample on
-    samples: int  # that stand still
-
-    def error(self, time: float) -> float:
-        """Weighted squared error of the fit with power from a time [s] on."""
-        return self._with_power_from(time).error(self.this.vector, self.this.active)
-
-    def cost(self, time: float) -> float:
-        """The same, fitted to this alone, with priors."""
-        return refit(self.this, self._with_power_from(time), iterations=ITERATIONS).cost
-
-    def _with_power_from(self, time: float) -> Problem:
-        return replace(self.problem, runs=(_run_powered_from(time, self.run).until(2 * self.samples),))
-
-    def enabling_time(self) -> float:
-        """When power came [s]: where the fit errs least."""
-        from scipy.optimize import minimize_scalar  # late: the command line starts without it
-
-        times, low, high = _since_start(self.recording), 0, self.samples
-        while True:
-            tried = np.unique(np.linspace(low, high, TRIED).astype(int))
-            best = int(np.argmin([self.error(float(times[k])) for k in tried]))
-            low, high = int(tried[max(best - 1, 0)]), int(tried[min(best + 1, tried.size - 1)])
-            if high - low <= 2:
-                break
-        around = (float(times[low]), float(times[high]))
-        exact = {"xatol": INSTANT_TOLERANCE * (around[1] - around[0])}
-        found = minimize_scalar(self.error, bounds=around, method="bounded", options=exact)
-        return min((float(times[tried[best]]), float(found.x)), key=self.error)
+def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> Beginning:
+    run = replace(run_of(recording, model), levels=beside.levels)
+    if run.in_motion or run.angle_unknown:  # else it says where it stands, and a fit may have bent that
+        run = replace(run, own=beside.own)
+    return Beginning(problem, this, recording, run, _standing_samples(recording, model))
