@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -95,10 +97,20 @@ def test_derivatives_by_a_level_are_those_of_the_simulation() -> None:
 def test_a_level_is_behind_all_parameters_and_unknown_of_one_recording_alone() -> None:
     problem = prepare(_recordings(FACTORS[:2]), MODEL)
     problem = with_levels(problem, friction(problem))
-    places = [place for run in problem.runs for place, _ in run.levels]
-    assert places == [_core.parameter_count(), _core.parameter_count() + 1]
+    places = [_core.parameter_count(), _core.parameter_count() + 1]
+    assert [[place for place, _, _ in run.levels] for run in problem.runs] == [places, places]
     assert all(own.spread == SPREAD for own in problem.prior.of_runs if own.level)
     assert problem.on([problem.whole[0]]).runs[0].levels == problem.whole[0].levels
+
+
+def test_the_mean_of_all_is_the_parameters_and_no_levels() -> None:
+    """Where all friction is 2.4 times the data sheet's, that is said of the friction and not of every file."""
+    low = replace(MODEL, parameters={**MOTOR, **{name: MOTOR[name] / 2.4 for name in FRICTION}})
+    problem, _ = weighted_by_nominal(prepare(_recordings((0.96, 1.04)), low))
+    this = fit_nominal(with_levels(problem, friction(problem)))
+    assert sum(this.levels.values()) == pytest.approx(0.0, abs=1e-6)
+    for name in FRICTION:
+        assert this.motor[name] == pytest.approx(MOTOR[name], rel=0.03)
 
 
 def test_a_lone_recording_has_no_level() -> None:

@@ -53,7 +53,11 @@ def can_differ(problem: Problem, level: Level) -> bool:
 
 
 def with_levels(problem: Problem, level: Level) -> Problem:
-    """The problem with a level of a quantity for each recording among what is unknown."""
+    """The problem with a level of a quantity for each recording among what is unknown.
+
+    A recording has the quantity times its own level over their geometric mean: the mean is the parameter's, which the
+    data sheet knows, and no level's.
+    """
     first = _core.parameter_count() + len(problem.prior.of_runs)
     names = dict.fromkeys(run.name for run in problem.whole)
     own = [
@@ -62,10 +66,13 @@ def with_levels(problem: Problem, level: Level) -> Problem:
         )
         for k, name in enumerate(names)
     ]
-    places = {name: (u.place, level.parameters) for name, u in zip(names, own, strict=True)}
+    shares = {
+        name: tuple((u.place, (u.name == level.of(name)) - 1.0 / len(own), level.parameters) for u in own)
+        for name in names
+    }
 
     def placed(runs: Sequence[Run]) -> tuple[Run, ...]:
-        return tuple(replace(run, levels=(*run.levels, places[run.name])) for run in runs)
+        return tuple(replace(run, levels=(*run.levels, *shares[run.name])) for run in runs)
 
     prior = replace(problem.prior, of_runs=(*problem.prior.of_runs, *own))
     return replace(problem, runs=placed(problem.runs), whole=placed(problem.whole), prior=prior)

@@ -119,32 +119,33 @@ class Problem:
         """Normal equations (p, p), (p,) of one run, of what is unknown of it alone at its place in `by`."""
         core, begun = _core.parameter_count(), self.started(run, vector, active)
         adds_to, scales = dict(run.own), self._scaled(run, vector, active)
-        here = [scales.get(k, (adds_to.get(k, k),)) for k in by]  # what is unknown of other runs changes nothing here
+        # what is unknown of other runs changes nothing here
+        here = [scales[k][1] if k in scales else (adds_to.get(k, k),) for k in by]
         wanted = sorted({p for parameters in here for p in parameters if p < core})
         found = self.normal_at(run, begun, active, wanted)
         if (wanted == list(by) and not scales) or not (found.finite and np.isfinite(found.curvature).all()):
             return found
         column = {k: j for j, k in enumerate(wanted)}
         factor = np.ones(core)
-        for place, parameters in scales.items():
-            factor[list(parameters)] *= np.exp(vector[place])
+        for place, (part, parameters) in scales.items():
+            factor[list(parameters)] *= np.exp(part * vector[place])
         chosen = np.zeros((len(wanted), len(by)))
         for j, (k, parameters) in enumerate(zip(by, here, strict=True)):
             for p in parameters:
                 if p in column:
-                    chosen[column[p], j] = begun[p] if k in scales else factor[p]
+                    chosen[column[p], j] = scales[k][0] * begun[p] if k in scales else factor[p]
         return replace(
             found, gradient=chosen.T @ found.gradient, curvature=chosen.T @ found.curvature @ chosen
         )
 
-    def _scaled(self, run: Run, vector: Array, active: Sequence[int]) -> dict[int, tuple[int, ...]]:
-        """The levels of a run: place of each, with the parameters among those it scales that act."""
+    def _scaled(self, run: Run, vector: Array, active: Sequence[int]) -> dict[int, tuple[float, tuple[int, ...]]]:
+        """The levels of a run: place of each, with its part, and the parameters among those it scales that act."""
         if not run.levels:
             return {}
         switched = (e for e in self.prior.table.values() if e.index in active)
         acting = {e.first + k for e in switched for k in range(len(e.parameters))} | set(range(len(motor_parameters())))
-        known = [(place, parameters) for place, parameters in run.levels if place < vector.size]
-        return {place: tuple(p for p in parameters if p in acting) for place, parameters in known}
+        known = [level for level in run.levels if level[0] < vector.size]
+        return {place: (part, tuple(p for p in parameters if p in acting)) for place, part, parameters in known}
 
     def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations (p, p), (p,) of one run whose start is part of `vector` (all,)."""

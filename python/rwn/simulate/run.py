@@ -49,7 +49,7 @@ class Run:
     in_motion: bool = False  # it does not start at rest
     told_by: int = 0  # first samples that told so; 0: it was stated, or it starts at rest
     own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
-    levels: tuple[tuple[int, tuple[int, ...]], ...] = ()  # the same: logarithm of a factor, parameters that it scales
+    levels: tuple[tuple[int, float, tuple[int, ...]], ...] = ()  # place, its part in the logarithm of a factor, on what
     input_before: float = 0.0
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
     interpolated: InterpolatedRows | None = None  # its rows, where the signals are samples that these lay between

@@ -70,9 +70,9 @@ class Simulator:
         for place, parameter in run.own:
             if place < vector.size:  # else it was fitted to recordings of which nothing was unknown
                 own[parameter] += vector[place]
-        for place, parameters in run.levels:
+        for place, part, parameters in run.levels:
             if place < vector.size:
-                own[list(parameters)] *= np.exp(vector[place])
+                own[list(parameters)] *= np.exp(part * vector[place])
         for name, value in zip(STATE, run.start, strict=True):
             own[motor_index(name)] += value
         return own
