@@ -15,13 +15,16 @@ from numpy.typing import NDArray
 
 from rwn.faults.fault import MOTION, SHIFT, Fault, Removes, without
 from rwn.faults.scale import gears
-from rwn.fit.fit import Fit, fit_nominal, refit
-from rwn.fit.known_filters import noise_before_filters
+from rwn.fit.filter_colour import SensorFilter
+from rwn.fit.fit import Fit, fit, fit_nominal, refit
+from rwn.fit.hypothesis import hypothesis
+from rwn.fit.known_filters import filtered, noise_before_filters
 from rwn.fit.noise import with_noise_of
 from rwn.fit.part import screening_part
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import variance
+from rwn.fit.sensor_filter import refitted_beside
 from rwn.model.model import Model
 from rwn.model.recordings import LONGEST_SHIFT
 from rwn.name.ranking import Ranking
@@ -138,6 +141,37 @@ def refined(
     on = undone(best)
     finer = variance(on, refit(base, on)) - 1.0
     return (best, finer) if finer < left else (suspect.fault, left)
+
+
+def shift_instead(
+    recordings: Sequence[Recording], model: Model, filters: Sequence[SensorFilter], ranking: Ranking
+) -> Fault | None:
+    """A channel that comes late by whole samples, where that fits no worse than the lag of its sensor that was named.
+
+    Filters of other channels, and physics, hide such a shift from a look at the nominal model. `filters`: of the
+    sensors, under which the ranking was found.
+    """
+    best, lagging = ranking.fits[0].fit, filtered(prepare(recordings, model), filters)
+    sensors = [name for name in best.added if lagging.prior.table[name].site == "sensor"]
+    if not sensors or not lagging.drive.winding or any("current" not in r.signals for r in recordings):
+        return None
+    (this,) = refitted_beside([best], lagging)
+    lagging = with_noise_of(lagging, this)
+    left = variance(lagging, this)
+    found: dict[Fault, float] = {}
+    for name in sensors:
+        others = tuple(other for other in best.added if other != name)
+        bare = hypothesis(lagging.prior, others, lagging.scales, best.starts(others), best.motor)
+        begun = Fit(hypothesis=bare, minimum=replace(this.minimum, values=bare.start))
+        for fault in _shifts(recordings, lagging, begun):
+            undone = replace(filtered(prepare(without(recordings, fault), model), filters), noise=lagging.noise)
+            found[fault] = variance(undone, fit(undone, bare))
+    if not found or min(found.values()) > left:
+        return None
+    fault = min(found, key=lambda f: found[f])
+    nothing = variance(lagging, fit_nominal(lagging))
+    shares = (1.0 - (found[fault] - 1.0) / max(total - 1.0, found[fault] - 1.0, 1e-300) for total in (nothing, left))
+    return replace(fault, removes=Removes(*shares))
 
 
 def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
-from rwn.faults.fault import Fault, without_all
+from rwn.faults.delay import shift_instead
+from rwn.faults.fault import Fault, without, without_all
 from rwn.faults.late_enable import LateEnable, needed, powered, retimed
 from rwn.faults.resolve import resolved
 from rwn.faults.uneven_files import uneven_files
@@ -85,7 +86,8 @@ def explained(
     """
     on, still = powered(recordings, late, model), tuple(late)
     again = with_intersample(on, model)
-    faults, ranking = resolved(_as_acted(on, again), again, say=say, effort=effort)
+    as_acted = _as_acted(on, again)
+    faults, ranking = resolved(as_acted, again, say=say, effort=effort)
     filters: tuple[SensorFilter, ...] = ()
     for _ in range(ASKED_AGAIN):
         asked = _asked_again(recordings, model, still, again, faults, ranking)
@@ -95,6 +97,11 @@ def explained(
         best = None if faults else ranking.fits[0].fit
         as_acted = _as_acted(powered(recordings, still, model), again, best, filters)
         faults, ranking = resolved(as_acted, again, filters=filters, say=say, effort=effort)
+    late_channel = None if faults else shift_instead(as_acted, again, _filters(ranking, again), ranking)
+    if late_channel:
+        right = without(as_acted, late_channel)
+        others, ranking = resolved(right, again, filters=_filters(ranking, again), say=say, effort=effort)
+        faults = [late_channel, *others]
     for wrong in contradicted(ranking):
         free, as_acted = without_declared(again, wrong), _as_acted(powered(recordings, still, model), again)
         others, freed = resolved(as_acted, free, filters=filters, say=say, effort=effort)
@@ -113,12 +120,17 @@ def _asked_again(
     best = ranking.fits[0].fit
     still = needed(late, recordings, stated, ranking.problem, best)
     still = retimed(still, recordings, stated, ranking.problem, best)
-    known = tuple(f for f in known_filters(ranking.problem) if f.signal not in stated.recording.filters)
+    known = _filters(ranking, stated)
     if stated is model or (stated.recording.intersample == HELD and ranking.left.at_the_floor):
         return _Measured(still, stated, known)
     bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
     law, filters = likeliest_with_filters(bare, best, stated.recording.intersample, known)
     return _Measured(still, stating(stated, law), known if law == stated.recording.intersample else filters)
+
+
+def _filters(ranking: Ranking, stated: Model) -> tuple[SensorFilter, ...]:
+    """The filters under which a ranking was found, but for those that the model states."""
+    return tuple(f for f in known_filters(ranking.problem) if f.signal not in stated.recording.filters)
 
 
 def _as_acted(

@@ -1,0 +1,66 @@
+"""A channel that is late where a filter of another one hides it from a look at the nominal model."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+import rwn
+from rwn.faults.delay import shift_instead
+from rwn.fit.filter_colour import SensorFilter
+from rwn.fit.known_filters import filtered
+from rwn.fit.preparation import prepare
+from rwn.model.model import Model
+from rwn.name.forward import rank
+
+DEMO = Path(rwn.__file__).parent / "demo"
+KEPT = 0.5  # by the filter of the current
+
+
+@pytest.fixture(scope="module")
+def model() -> Model:
+    return rwn.read_model(DEMO / "model.toml")
+
+
+def _recording(model: Model, *, late: int, lag: float) -> rwn.Recording:
+    """A run of the model itself: its speed so many rows late, or behind its sensor's lag; its current filtered."""
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    recording = recording.beginning(len(recording) // 2)
+    rng = np.random.default_rng(1)
+    effects = {"speed-sensor-lag": {"time_constant": lag}} if lag else {}
+    out = rwn.simulate(replace(model, effects=effects), recording).signals
+    noisy = {s: out[s] + 0.01 * out[s].std() * rng.standard_normal(out[s].size) for s in ("current", "speed")}
+    speed = np.concatenate([np.full(late, noisy["speed"][0]), noisy["speed"][: noisy["speed"].size - late]])
+    signals = {
+        "voltage": recording.signals["voltage"],
+        "current": lfilter([1.0 - KEPT], [1.0, -KEPT], noisy["current"]),
+        "speed": speed,
+    }
+    return rwn.Recording(name="run", time=recording.time, signals=signals)
+
+
+def _silent(what: str, done: float) -> None:
+    """As a progress."""
+
+
+@pytest.mark.parametrize(("late", "lag"), [(2, 0.0), (0, 4e-3)])
+def test_a_speed_is_late_where_that_fits_as_well_as_the_law_of_its_sensor(model: Model, late: int, lag: float) -> None:
+    recordings = [_recording(model, late=late, lag=lag)]
+    step = float(np.median(np.diff(recordings[0].time)))
+    known = [SensorFilter(signal="current", share=KEPT, time_constant=-step / np.log(KEPT), digital=True)]
+    problem = filtered(prepare(recordings, model), known)
+    names = ["speed-moving-average", "speed-sensor-lag"]
+    ranking = rank(problem, progress=_silent, names=names, at_once=1)
+    assert ranking.fits[0].added[0] in names
+    fault = shift_instead(recordings, model, known, ranking)
+    if late:
+        assert fault is not None
+        assert (fault.signals[0], fault.delay) == ("speed", late)
+        assert fault.removes is not None
+        assert fault.removes.share > 0.9
+    else:
+        assert fault is None
