@@ -116,6 +116,24 @@ def test_the_deadline_ends_it_without_a_finding(only: Callable[..., list[Tried]]
     assert quick.cut
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("target", "code"), [(_reads, 0), (_raises, 1)])
+def test_the_command_fails_where_something_is_found(
+    target: fuzz.Target, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "csv").mkdir()
+    (tmp_path / "csv" / "a").write_text("a" * 50)
+    monkeypatch.setattr(fuzz, "CORPUS", tmp_path)
+    monkeypatch.setattr(fuzz, "TARGETS", {"csv": target})
+    monkeypatch.setattr(fuzz_corpus, "KEPT", tmp_path / "kept")
+    monkeypatch.setattr(sys, "argv", ["fuzz_corpus", "every", "--seconds", "1"])
+    fuzz_corpus._corpus.cache_clear()
+    assert fuzz_corpus.main() == code
+    assert ("too short" in capsys.readouterr().out) == bool(code)
+    assert (tmp_path / "kept").exists() == bool(code)
+    fuzz_corpus._corpus.cache_clear()
+
+
 def test_inputs_are_the_same_in_every_run() -> None:
     before = [altered("csv", number) for number in range(20)]
     fuzz_corpus._corpus.cache_clear()

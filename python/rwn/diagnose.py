@@ -16,7 +16,6 @@ from rwn.errors import InputError
 from rwn.faults.explain import Explained, explained
 from rwn.faults.fault import without_all
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
-from rwn.fit.declared import check_declared
 from rwn.fit.nominal import check_it_runs
 from rwn.fit.preparation import prepare
 from rwn.model.files import model_of
@@ -29,6 +28,7 @@ from rwn.recording.inspection.overlap import overlaps
 from rwn.recording.recording import Recording
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
+from rwn.simulate.declared import check_declared
 from rwn.simulate.run import Run, judging_run, measured_alike
 
 LEAST_EFFORT, MOST_EFFORT = 0.1, 1000.0
@@ -76,7 +76,7 @@ def diagnose(
     recordings, findings = inspected(fitted)
     heldout, unseen_findings = inspected(judged)
     if model.effects:
-        check_declared(prepare(recordings, model), model)
+        check_declared(model, [prepare(recordings, model).scales])
     with thread_pool(jobs or os.cpu_count() or 1):
         late = late_enables(recordings, model)
         case = _decided(recordings, heldout, model, late, seed=seed, effort=effort, say=say)

@@ -9,9 +9,10 @@ import pytest
 
 import rwn
 from rwn.errors import InputError
-from rwn.fit.declared import check_declared
 from rwn.fit.preparation import prepare
 from rwn.model.vocabulary import table
+from rwn.simulate.declared import check_declared
+from rwn.simulate.scales import LEAST
 
 MOTOR = rwn.Model(
     kind="dc",
@@ -51,22 +52,33 @@ def test_a_value_that_no_such_drive_has_is_refused(ask: object, effect: str, val
 def test_a_weak_run_of_the_same_drive_does_not_refuse_what_a_strong_one_shows() -> None:
     """Half the stall torque at 6 V, declared, and a run of 0.3 V: ten times the torque of that run."""
     model = replace(MOTOR, effects={"coulomb-friction": {"coulomb_torque": 0.5 * STALL}})
-    check_declared(prepare([_run(0.3)], model), model)
+    check_declared(model, [prepare([_run(0.3)], model).scales])
+
+
+def test_a_run_without_current_does_not_refuse_friction() -> None:
+    """Coasting: what slows the shaft is measured by a torque that nothing drives."""
+    coasting = rwn.Recording(name="run", time=TIME, signals={"torque": 0.0 * TIME, "speed": 100.0 - 100.0 * TIME})
+    axis = rwn.Model(
+        kind="axis", parameters={"inertia": 3e-4, "viscous_friction": 0.0}, uncertainty={"inertia": 0.05},
+        effects={"coulomb-friction": {"coulomb_torque": 0.03}},
+    )  # fmt: skip
+    assert prepare([coasting], axis).scales["torque"] == LEAST
+    check_declared(axis, [prepare([coasting], axis).scales])
 
 
 @pytest.mark.parametrize("value", [-1e9, 1e9])
 def test_a_phase_is_not_bounded(value: float) -> None:
     cogging = {"amplitude": 0.01, "periods_per_rev": 7.0, "phase": value}
     model = replace(MOTOR, effects={"cogging-torque": cogging})
-    check_declared(prepare([_run()], model), model)
+    check_declared(model, [prepare([_run()], model).scales])
 
 
 @pytest.mark.parametrize(("current", "refused"), [(1e-6, False), (0.1, False), (1e12, True), (1e-12, True)])
 def test_what_makes_a_law_sharp_is_a_number_of_that_drive(current: float, refused: bool) -> None:
     model = replace(MOTOR, effects={"brush-voltage-drop": {"voltage_drop": 0.3, "transition_current": current}})
-    problem = prepare([_run()], model)
+    scales = prepare([_run()], model).scales
     if refused:
         with pytest.raises(InputError, match="transition_current is 1e"):
-            check_declared(problem, model)
+            check_declared(model, [scales])
     else:
-        check_declared(problem, model)
+        check_declared(model, [scales])

@@ -41,6 +41,17 @@ def test_arrays_in_a_zip_of_a_later_version_are_refused(tmp_path: Path) -> None:
         read_recording(tmp_path / "a.npz")
 
 
+def test_a_unit_of_tdms_that_is_a_number_is_refused(tmp_path: Path) -> None:
+    """Found by fuzzing: a property may be of any type."""
+    nptdms = pytest.importorskip("nptdms")
+    with nptdms.TdmsWriter(tmp_path / "a.tdms") as writer:
+        for name, unit in (("time", "s"), ("voltage", "V"), ("speed", 5)):
+            channel = nptdms.ChannelObject("Bench", name, np.arange(40.0), properties={"unit_string": unit})
+            writer.write_segment([channel])
+    with pytest.raises(InputError, match=r"a\.tdms, column 'speed': unknown unit '5'; .*; fix: "):
+        read_recording(tmp_path / "a.tdms")
+
+
 NESTED = {"x": np.arange(40.0), "s": {"a": {"b": np.arange(5)}, "c": "text", "d": np.array([[1, "y"]], dtype=object)}}
 
 

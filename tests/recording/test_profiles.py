@@ -8,6 +8,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 import pytest
+import scipy.io
 
 from rwn import cli
 from rwn.errors import InputError
@@ -78,6 +79,19 @@ def test_a_profile_names_signals_units_and_its_source(name: str) -> None:
         assert signal in COLUMNS
         assert column.names
         assert column.unit is None or is_unit(column.unit)
+
+
+@pytest.mark.parametrize("ending", [".npz", ".mat"])
+def test_names_of_a_profile_are_found_in_any_letters_and_behind_a_dot(ending: str, tmp_path: Path) -> None:
+    """What is found by its profile is read, not only listed."""
+    path = tmp_path / f"run{ending}"
+    columns = {"Timestamp": TIME, "Velocity": SPEED / TURN, "q_v": VOLTAGE, "other": TIME}
+    if ending == ".mat":
+        scipy.io.savemat(path, columns)
+    else:
+        np.savez(path, **columns, **{"log.position": ANGLE / TURN})
+    signals = ("voltage", "speed") if ending == ".mat" else ("voltage", "speed", "position")
+    _as_meant(read_recording(path, layout=Layout(profile="moteus")), signals)
 
 
 def test_two_axes_in_an_export_are_asked_for(tmp_path: Path) -> None:

@@ -22,6 +22,18 @@ def _names(content: dict[str, Any], names: tuple[str, ...] | None = None) -> lis
     return list(nested_table("x", {**content, "n": 1.0}, names or (*content, "n"), ()).units)
 
 
+class _Unit:
+    """As pint's, in the attributes of an xarray.Dataset."""
+
+    def __str__(self) -> str:
+        return "rad/s"
+
+
+def test_a_unit_that_is_an_object_is_what_it_is_written_as() -> None:
+    made = table_of("x", {"speed": ROWS, "time": ROWS}, {"speed": _Unit()}, {"speed"})
+    assert made.units == {"speed": "rad/s", "time": None}
+
+
 @pytest.mark.parametrize(
     ("values", "seconds"),
     [

@@ -32,6 +32,17 @@ def test_it_is_short_to_look_at(made: Callable[[], Diagnosis]) -> None:
     assert found._repr_html_().count("<p>") == 1
 
 
+def test_its_curves_are_short_to_look_at() -> None:
+    curves = made_up.found().curves
+    shown = [repr(plot) for plot in curves]
+    assert all(words.startswith(f"<Plot {plot.slot} '") for words, plot in zip(shown, curves, strict=True))
+    assert len(set(shown)) == len(shown)
+    for trace in (trace for plot in curves for trace in plot.traces):
+        assert f"'{trace.name}' ({trace.role}): {trace.x.size} points" in repr(trace)
+        shown.append(repr(trace))
+    assert max(map(len, shown)) < 150
+
+
 def test_its_html_is_escaped() -> None:
     effect = replace(made_up.found().effects[0], name="<script>")
     assert "<script>" not in replace(made_up.found(), effects=(effect,))._repr_html_()

@@ -12,12 +12,13 @@ from pathlib import Path
 
 import pytest
 
+from command_line import Run
 from rwn.errors import InputError
 from rwn.studies.thesis import cli as thesis
 from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.grade import load_answers
 from rwn.studies.trials.said import said_in, timing_of
-from rwn.studies.trials.seal import ANSWERS, HASH
+from rwn.studies.trials.seal import ANSWERS, HASH, seal
 from rwn.studies.trials.trial_files import read_speed
 
 
@@ -48,6 +49,25 @@ def test_a_truncated_seal_with_its_hash_is_named(cut: int, tmp_path: Path) -> No
     (tmp_path / HASH).write_text(f"{hashlib.sha256(packed).hexdigest()}  {ANSWERS}\n")
     with pytest.raises(InputError, match=ANSWERS):
         load_answers(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [(None, "this file is missing"), (b"", "this is empty"), (b" \n", "this is empty"), (b"\xff", "this cannot be")],
+)
+def test_a_hash_that_is_no_hash_is_named_itself(
+    content: bytes | None, what: str, run: Run, tmp_path: Path
+) -> None:
+    seal(tmp_path, {"answers": {"a": {}}})
+    (tmp_path / HASH).unlink()
+    if content is not None:
+        (tmp_path / HASH).write_bytes(content)
+    code, out, said = run("trials", "score", str(tmp_path))
+    (line,) = said.splitlines()
+    assert (code, out) == (2, "")
+    assert line.startswith(f"rwn: {tmp_path / HASH}: {what}")
+    assert "; expected " in line
+    assert "; fix: " in line
 
 
 def test_a_page_without_matplotlib_is_refused_before_the_experiments(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -111,6 +111,7 @@ def _models() -> Iterator[Case]:
         "twice": MODEL + MODEL, "uncertainty of nothing": MODEL + "speed = 0.1\n", "uncertainty -1": MODEL.replace("0.1\n", "-1\n", 1),
         "unknown table": MODEL + "[motors]\nx = 1\n", "unknown effect": MODEL + "[effects.frictoin]\nx = 1\n",
         "effect of no value": MODEL + "[effects.coulomb-friction]\n", "effect -1": MODEL + "[effects.coulomb-friction]\ncoulomb_torque = -1\n",
+        "effect of 1e9 N m": MODEL + "[effects.constant-load]\ntorque = 1e9\n",
         "profile": MODEL + '[recording]\nprofile = "x"\n', "decimate 0": MODEL + "[recording]\ndecimate = 0\n",
         "sample time -1": MODEL + "[recording]\nsample_time = -1\n", "from after to": MODEL + "[recording]\nfrom = 2\nto = 1\n",
         "scale 0": MODEL + '[recording]\ncolumns.speed = { source = "speed", scale = 0 }\n',

@@ -21,14 +21,21 @@ ROWS = 80  # of the recordings that are simulated
 Target = Callable[[bytes], None]
 
 
+def _written(name: str, data: bytes) -> Path:
+    """A new file: one that is emptied first ext4 brings to the disk at once, which takes longer than the input."""
+    path = _FOLDER / name
+    path.unlink(missing_ok=True)
+    path.write_bytes(data)
+    return path
+
+
 def _reads(ending: str) -> Target:
     def read(data: bytes) -> None:
         from rwn.errors import InputError
         from rwn.recording.columns import Layout
         from rwn.recording.recording import read_recording
 
-        path = _FOLDER / f"x{ending}"
-        path.write_bytes(data)
+        path = _written(f"x{ending}", data)
         part = "#slow-forward" if ending == ".json" else ""
         for layout in (Layout(), Layout(sample_time=1e-3, profile="moteus")):
             with suppress(InputError):
@@ -67,7 +74,7 @@ def diagnosis(data: bytes) -> None:
     from rwn.errors import InputError
     from rwn.report.diagnosis import Diagnosis
 
-    (_FOLDER / "diagnosis.json").write_bytes(data)
+    _written("diagnosis.json", data)
     with suppress(InputError):
         Diagnosis.load(_FOLDER)
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rwn.fit.declared import check_declared
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
 from rwn.fit.intersample import with_intersample
@@ -23,6 +22,7 @@ from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit
 from rwn.recording.inspection import Finding, inspected
+from rwn.simulate.declared import check_declared
 from rwn.values import table_of_rows
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     given = recordings_to_fit(recordings, model)
     runs, findings = inspected(given)
     if model.effects:
-        check_declared(prepare(runs, model), model)
+        check_declared(model, [prepare(runs, model).scales])
     model = with_intersample(runs, model)
     problem = prepare(runs, model)
     this = fit_nominal(problem)

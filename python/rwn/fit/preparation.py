@@ -16,13 +16,13 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.noise import noise_of
 from rwn.fit.prior import Prior, RunUnknown
 from rwn.fit.problem import Problem
-from rwn.fit.scales import scales
 from rwn.fit.transfer_function import TransferFunctionProblem, first_guesses
 from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.recording.recording import Recording
 from rwn.simulate.run import Run, run_of
+from rwn.simulate.scales import scales
 from rwn.simulate.simulator import Simulator
 
 Array = NDArray[np.float64]

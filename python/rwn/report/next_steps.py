@@ -41,7 +41,7 @@ def _missing(found: DiagnosisData) -> Iterator[str]:
 
 
 def _use_it(with_what: str) -> Iterator[str]:
-    command = "rwn simulate corrected.toml --input run.csv --out simulated.csv"
+    command = "rwn simulate corrected.toml --input RECORDING.csv --out simulated.csv"
     yield f"corrected.toml holds the model with {with_what}: `{command}`"
 
 

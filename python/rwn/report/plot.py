@@ -16,7 +16,7 @@ Use = Literal["fit", "heldout"]
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trace(Values):
     """One line (or cloud) of a plot; `low`/`high` shade a band around it; NaN breaks the line.
 
@@ -41,6 +41,9 @@ class Trace(Values):
             if values is not None and values.shape != self.x.shape:
                 raise ValueError(f"trace '{self.name}': {name} has {values.size} values, x has {self.x.size}")
 
+    def __repr__(self) -> str:
+        return f"<Trace '{self.name}' ({self.role}): {self.x.size} points>"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Mark:
@@ -51,7 +54,7 @@ class Mark:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Plot:
     """One picture in SI units; the report picks prefixes. `slot` says where it belongs.
 
@@ -73,3 +76,7 @@ class Plot:
     use: Use | None = None  # what the recording served for
     zoom: tuple[float, float] | None = None
     shown: tuple[float, float] | None = None
+
+    def __repr__(self) -> str:
+        of = f" of {self.recording}" if self.recording else ""
+        return f"<Plot {self.slot} '{self.title}'{of}: {len(self.traces)} trace{'s' * (len(self.traces) != 1)}>"

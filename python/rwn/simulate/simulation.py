@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.errors import InputError
+from rwn.model.checks import LARGEST
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
@@ -20,9 +21,11 @@ from rwn.recording.delays import delayed
 from rwn.recording.filters import as_filtered
 from rwn.recording.recording import table_of_signals
 from rwn.recording.signals import MEASURED
+from rwn.simulate.declared import check_declared
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import Run, run_of
+from rwn.simulate.scales import scales_of_input
 from rwn.simulate.simulator import Simulator
 from rwn.values import Values
 
@@ -30,6 +33,11 @@ if TYPE_CHECKING:
     import pandas
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+BEYOND = (
+    f"A signal passes {LARGEST:g} in SI, which no drive does: look for an effect or a parameter that is far too large, "
+    "or an unstable model."
+)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -67,7 +75,7 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
     used beyond these. Only the angle at which a shaft in motion begins, where no position tells it and the model has
     an effect of the angle, is the one that fits the recording best.
 
-    Raises InputError where the model has no values to simulate with.
+    Raises InputError where the model has no values to simulate with, or effects of a size that no such drive has.
     """
     model = model_of(model)
     (recording,) = read_recordings([recording], model, compared=False)
@@ -78,6 +86,10 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
         )  # fmt: skip
     run, simulator, vector = run_of(recording, model).following_nothing(), Simulator.of(model), model.vector
     active = [model.effect_table[name].index for name in model.effects]
+    known = scales_of_input(run, model.drive, simulator, vector) if active else []
+    if known:
+        told = f"under this input or {model.drive.usual_input(model.motor):.2g} {model.drive.input_unit}"
+        check_declared(model, known, told=told)
     if not model.drive.coefficients:
         vector = simulator.started(run, vector)
         if run.angle_unknown:
@@ -87,20 +99,26 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
         vector = nearest_state(simulator, run, vector, active)
     output = simulator.simulate(run, vector, active)
     shown = {name: output.signals[name] for name in MEASURED if name in model.drive.outputs}
-    finite = all(np.isfinite(values).all() for values in shown.values())  # a sensor's law may overflow by itself
-    status = output.status if finite or output.status != "ok" else "diverged"
+    usable = all(_believable(values).all() for values in shown.values())  # a sensor's law may overflow by itself
+    status = output.status if usable or output.status != "ok" else "diverged"
     return Simulation(
         time=recording.time,
         signals={name: _as_logged(name, run, _held(values), model.recording) for name, values in shown.items()},
         status=status,
-        advice=_core.simulation_advice(status),
+        advice=_core.simulation_advice(status) if status == output.status else BEYOND,
         linear=model.linear,
     )
 
 
+def _believable(values: Array) -> Flags:
+    """Where a signal (n,) is a number that a drive could show, and that can be read again from a file."""
+    found: Flags = np.abs(values) <= LARGEST
+    return found
+
+
 def _held(values: Array) -> Array:
-    """A signal (n,) held from where it is no number."""
-    bad = np.flatnonzero(~np.isfinite(values))
+    """A signal (n,) held from where it is no such number."""
+    bad = np.flatnonzero(~_believable(values))
     if not bad.size:
         return values
     first = int(bad[0])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from rwn.model.drives.drive import MECHANICAL_TERMS, MECHANICS, Drive, Numbers, OneNumber, nominal
+from rwn.model.drives.drive import MECHANICAL_TERMS, MECHANICS, USUAL_VOLTAGE, Drive, Numbers, OneNumber, nominal
 
 NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
 
@@ -29,6 +29,10 @@ class Winding(Drive):
     def back_emf(self, motor: Mapping[str, float], speed: Numbers) -> Numbers:
         """Ke w."""
         return motor["back_emf_constant"] * speed
+
+    def usual_input(self, motor: Mapping[str, float]) -> float:  # noqa: ARG002
+        """A voltage [V], to a factor of some hundred."""
+        return USUAL_VOLTAGE
 
     def heat(self, motor: Mapping[str, float], square: float) -> float:
         """R i^2."""

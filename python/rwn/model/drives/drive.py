@@ -15,6 +15,7 @@ from rwn.recording.signals import SIGNALS
 
 Numbers = TypeVar("Numbers", float, NDArray[np.float64])
 
+USUAL_VOLTAGE = 24.0
 SITES = frozenset({"torque", "load", "voltage", "flux", "actuator", "sensor"})
 
 
@@ -104,6 +105,10 @@ class Drive:
         Raises NotImplementedError where there is no winding.
         """
         raise NotImplementedError(f"a {self.kind} has no winding")
+
+    def usual_input(self, motor: Mapping[str, float]) -> float:
+        """An input such as a drive of this size is run with, to a factor of some hundred: 10 m/s^2, 1000 rad/s^2."""
+        return motor["inertia"] * (10.0 if self.linear else 1000.0)
 
     def heat(self, motor: Mapping[str, float], square: float) -> float:  # noqa: ARG002
         """Power [W] lost to heat at a mean square of the current [A^2]."""

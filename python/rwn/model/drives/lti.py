@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rwn.errors import InputError, unknown
-from rwn.model.drives.drive import Drive, NominalParameter
+from rwn.model.drives.drive import USUAL_VOLTAGE, Drive, NominalParameter
 
 MOST_ORDER = 20
 
@@ -23,6 +23,10 @@ class TransferFunction(Drive):
             *(_coefficient(f"b{k}", order - k, "rad/(V s)", f"numerator, s^{k}") for k in range(order)),
             *(_coefficient(f"a{k}", order - k, "", f"denominator, s^{k}") for k in range(order)),
         )
+
+    def usual_input(self, motor: Mapping[str, float]) -> float:  # noqa: ARG002
+        """A voltage [V], to a factor of some hundred."""
+        return USUAL_VOLTAGE
 
     def read(self, motor: Mapping[str, Any], *, where: str) -> tuple[dict[str, Any], int]:
         """The coefficients from numerator and denominator, highest power first; none where `order` stands alone.

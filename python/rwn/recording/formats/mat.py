@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import warnings
 import zlib
 from collections.abc import Callable, Collection
@@ -13,7 +12,7 @@ from typing import Any
 from rwn.errors import InputError
 from rwn.recording.formats.extra import library
 from rwn.recording.formats.mat_elements import check_elements
-from rwn.recording.formats.nested import nested_table
+from rwn.recording.formats.nested import nested_table, roots
 from rwn.recording.formats.table import MAX_SAMPLES, Table, too_long
 
 Shapes = dict[str, tuple[int, ...]]
@@ -28,15 +27,14 @@ def read_mat(path: Path, wanted: Collection[str] = ()) -> Table:
     """
     where = str(path)
     shapes, load = _opened(path)
-    roots = {re.split(r"[.({]", name)[0] for name in wanted} & set(shapes)
-    roots = set(shapes) if len(shapes) == 1 else roots
-    for root in sorted(roots):
-        if math.prod(shapes[root]) > MAX_SAMPLES:
-            raise too_long(where, math.prod(shapes[root]))
+    read = sorted(shapes if len(shapes) == 1 else roots(shapes, wanted))
+    for name in read:
+        if math.prod(shapes[name]) > MAX_SAMPLES:
+            raise too_long(where, math.prod(shapes[name]))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            content = load(sorted(roots)) if roots else {}
+            content = load(read) if read else {}
     except InputError:
         raise
     except Exception as error:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -34,6 +35,12 @@ def nested_table(where: str, content: Mapping[str, Any], names: Collection[str],
     table = table_of(where, {leaf.name: leaf.values for leaf in leaves}, {n: u for n, _, u in leaves}, wanted)
     unread: dict[str, str | None] = dict.fromkeys(name for name in names if name not in content)
     return Table(where=where, columns=table.columns, units={**unread, **table.units})
+
+
+def roots(names: Iterable[str], wanted: Collection[str]) -> list[str]:
+    """The variables of these that are wanted, or that something wanted may be nested in."""
+    outer = {re.split(r"[.({]", name)[0] for name in wanted}
+    return [name for name in names if name in wanted or name in outer]  # `wanted` knows more names than it lists
 
 
 def _leaves(name: str, value: Any, depth: int) -> Iterator[Leaf]:

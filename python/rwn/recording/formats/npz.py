@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection
 from pathlib import Path
 
@@ -10,7 +9,7 @@ import numpy as np
 
 from rwn.errors import InputError
 from rwn.recording.formats.frame import name_and_unit_of
-from rwn.recording.formats.nested import nested_table
+from rwn.recording.formats.nested import nested_table, roots
 from rwn.recording.formats.table import Table
 
 
@@ -25,8 +24,8 @@ def read_npz(path: Path, wanted: Collection[str] = ()) -> Table:
             if isinstance(loaded, np.ndarray):
                 return nested_table(str(path), {path.stem: loaded}, (path.stem,), wanted)
             names = {key: name_and_unit_of(key) for key in loaded.files}
-            roots = {re.split(r"[.({]", name)[0] for name in wanted} | set(wanted)
-            content = {name: loaded[key] for key, (name, _) in names.items() if name in roots}
+            read = roots((name for name, _ in names.values()), wanted)
+            content = {name: loaded[key] for key, (name, _) in names.items() if name in read}
     except (InputError, OSError):
         raise
     except Exception as error:  # numpy and zipfile raise many kinds for what is none

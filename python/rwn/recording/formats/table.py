@@ -28,11 +28,15 @@ class Table:
 
 
 def table_of(
-    where: str, arrays: Mapping[str, Any], units: Mapping[str, str | None], wanted: Collection[str]
+    where: str, arrays: Mapping[str, Any], units: Mapping[str, Any], wanted: Collection[str]
 ) -> Table:
-    """The `wanted` ones of named arrays as a table. Raises InputError where one is no vector of real numbers."""
+    """The `wanted` ones of named arrays as a table; a unit may be an object that is written as one (that of pint is).
+
+    Raises InputError where one is no vector of real numbers.
+    """
     columns = {name: vector(where, name, arrays[name]) for name in arrays if name in wanted}
-    return Table(where=where, columns=columns, units={name: units.get(name) for name in arrays})
+    said = {name: None if units.get(name) is None else str(units[name]) for name in arrays}
+    return Table(where=where, columns=columns, units=said)
 
 
 def vector(where: str, name: str, values: Any) -> NDArray[np.float64]:

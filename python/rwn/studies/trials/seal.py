@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rwn.errors import InputError
+from rwn.studies.trials.damaged import reading
 from rwn.studies.whole_file import write_whole
 
 ANSWERS = "answers.sealed"
@@ -30,14 +31,30 @@ def seal(folder: Path, content: dict[str, Any]) -> str:
 
 
 def unseal(folder: Path) -> dict[str, Any]:
-    """Opens the answers; raises SealBrokenError if they do not have the hash written beside them."""
+    """Opens the answers; raises SealBrokenError if they do not have the hash written beside them, or none is there."""
     packed = (folder / ANSWERS).read_bytes()
-    promised = (folder / HASH).read_text(encoding="utf-8").split()[0]
+    promised = _promised(folder / HASH)
     found = hashlib.sha256(packed).hexdigest()
     if found != promised:
         raise SealBrokenError(
-            f"{folder / ANSWERS} has SHA-256 {found}, {HASH} promises {promised}: "
-            "the answers or the hash were changed; make the trials again from their seed"
+            f"the SHA-256 is {found}",
+            where=folder / ANSWERS,
+            expected=f"{promised}, as {HASH} promises",
+            fix="copy both files again, or make the trials again from their seed",
         )
     content: dict[str, Any] = json.loads(gzip.decompress(packed))
     return content
+
+
+def _promised(path: Path) -> str:
+    """The hash that was written when the trials were made."""
+    with reading(path):
+        words = path.read_text(encoding="utf-8").split() if path.exists() else []
+    if not words:
+        raise SealBrokenError(
+            f"this {'is empty' if path.exists() else 'file is missing'}, so that nothing shows the answers unchanged",
+            where=path,
+            expected=f"the SHA-256 of {ANSWERS}, which rwn trials make wrote there and printed",
+            fix="copy it again, or write the printed SHA-256 there",
+        )
+    return words[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +11,12 @@ from numpy.typing import NDArray
 from rwn.model.drives.drive import Drive
 from rwn.model.vocabulary import motor_values
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import Simulator
 
 Array = NDArray[np.float64]
+
+LEAST = 1e-12  # in place of a quantity that recordings do not show, or that a drive does not have
+RATES = ((1e-6, 1e-3), (1.0, 1e6))  # time step and duration [s] of the fastest and the longest recording
 
 
 def scales(
@@ -24,20 +29,38 @@ def scales(
     current = max(_peak(_best(r, o, "current")) for r, o in zip(runs, outputs, strict=True))
     speed = max(_peak(_best(r, o, "speed")) for r, o in zip(runs, outputs, strict=True))
     torque = drive.driving_torque(known, current, given)
-    speed = max(speed, 1e-12)
+    speed = max(speed, LEAST)
     duration = max(float(r.time[-1] - r.time[0]) for r in runs)
     squares = [np.mean(_best(r, o, "current") ** 2) for r, o in zip(runs, outputs, strict=True)]
-    loss = max(drive.heat(known, float(np.max(squares))), 1e-12)
+    loss = max(drive.heat(known, float(np.max(squares))), LEAST)
     return {
-        "torque": max(torque, 1e-12),
+        "torque": max(torque, LEAST),
         "speed": speed,
-        "voltage": max(given, 1e-12),
-        "current": max(current, 1e-12),
+        "voltage": max(given, LEAST),
+        "current": max(current, LEAST),
         "inertia": known["inertia"],
         "time_step": step,
         "duration": duration,
         "loss": loss,
     }
+
+
+def scales_of_input(run: Run, drive: Drive, simulator: Simulator, vector: Array) -> list[dict[str, float]]:
+    """The scales that the input of a run shows through the motor alone, and those of a usual input at any rate.
+
+    `vector`: parameters (all,). A run that is simulated may be much weaker, briefer or denser than those that its model
+    was fitted to. None of a motor that runs away.
+    """
+    usual = np.full(run.input.size, drive.usual_input(motor_values(vector)))
+    nothing = np.empty(0)
+    driven = replace(run, input=usual, applied_input=None, current=nothing, speed=nothing, position=nothing)
+    found = []
+    for one in (run, driven):
+        output = simulator.simulate(one, vector, [])
+        if output.status == "ok":
+            found.append(scales(drive, vector, [one], [output.signals]))
+            found += [{**found[-1], "time_step": step, "duration": duration} for step, duration in RATES]
+    return found
 
 
 def _best(run: Run, output: dict[str, Array], signal: str) -> Array:

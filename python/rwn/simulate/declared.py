@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from rwn.errors import InputError
-from rwn.fit.problem import Problem
 from rwn.model.model import Model
+from rwn.simulate.scales import LEAST
 
 # Beyond a bound of the table. Bounds are measured by what recordings show, and another run of the same drive may be
 # ten times slower or weaker; a slip of a unit is a factor of 1000.
@@ -12,10 +14,14 @@ SLACK = 100.0
 SHARP = 1e6  # the same of what makes a law sharper, which may be as sharp as one likes but is a number of that drive
 
 
-def check_declared(problem: Problem, model: Model) -> None:
-    """Raises InputError where a parameter lies far beyond bounds that are relative to what the recordings show.
+def check_declared(
+    model: Model, known: Sequence[Mapping[str, float]], *, told: str = "as the recordings show it"
+) -> None:
+    """Raises InputError where a parameter lies far beyond bounds that are relative to the size of the drive.
 
-    Not judged: phases, what a user's own effect searches, and 0: it is off.
+    `known`: the scales (`rwn.simulate.scales`) by which that is measured; within the bounds of one is enough. `told`:
+    what measured it. Not judged: phases, what a user's own effect searches, 0: it is off, and what is measured by a
+    quantity that is not shown, as the current of an axis.
     """
     for name, values in model.effects.items():
         effect = model.effect_table[name]
@@ -23,15 +29,18 @@ def check_declared(problem: Problem, model: Model) -> None:
             value = values.get(p.name, 0.0)
             if effect.own or p.cyclic or p.natural or not p.scale.powers or not value:
                 continue
-            unit = p.scale.of(problem.scales)
+            units = [p.scale.of(shown) for shown in known if all(shown[q] > LEAST for q in p.scale.powers)]
+            if not units:
+                continue
             slack = SHARP if p.idealised else SLACK
-            lower = p.lower * unit * (slack if p.lower < 0.0 else 1.0 / slack)
-            upper = slack * max(p.upper * unit, problem.prior.motor.get(p.replaces, 0.0) if p.replaces else 0.0)
+            lower = min(p.lower * unit for unit in units) * (slack if p.lower < 0.0 else 1.0 / slack)
+            replaced = model.motor.get(p.replaces, 0.0) if p.replaces else 0.0
+            upper = slack * max(replaced, *(p.upper * unit for unit in units))
             if not lower <= value <= upper:
                 raise InputError(
                     f"{p.name} is {value:g} {p.unit}",
                     where=f"{model.source or 'model'}, [effects.{name}]",
                     expected=f"{lower:.2g} to {upper:.2g} {p.unit}: {slack:g} times {p.lower:g} to {p.upper:g} x "
-                    f"{p.scale.words} of the drive, as the recordings show it",
+                    f"{p.scale.words} of the drive, {told}",
                     fix=f"correct the value or its unit, or the unit of the recordings; see rwn effects {name}",
                 )
