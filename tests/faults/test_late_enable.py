@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
+from rwn.faults.fault import Fault, without
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered, retimed
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
@@ -74,6 +75,18 @@ def test_a_fit_that_bent_the_position_to_a_wrong_instant_does_not_keep_it_there(
     problem = prepare(powered(recordings, [wrong], MODEL), MODEL)
     (moved,) = retimed([wrong], recordings, MODEL, problem, fit_nominal(problem))
     assert moved.time == pytest.approx(0.130, abs=5e-4)  # of 1 ms rows; the bent motor is still in it
+
+
+def test_a_late_enable_is_timed_beneath_a_late_channel_that_cuts_the_recording() -> None:
+    recording = _run(STEPS, 130)
+    speed = np.concatenate([np.zeros(3), np.array(recording.signals["speed"])[:-3]])
+    recordings = [replace(recording, signals={**recording.signals, "speed": speed})]
+    shift = Fault(name="time-shift", signals=("speed",), meaning="3 samples late", delay=3, step=1e-3)
+    wrong = LateEnable(place=0, recording="run", samples=140, time=0.140)
+    problem = prepare(without(powered(recordings, [wrong], MODEL), shift), MODEL)
+    assert problem.whole[0].time.size == STEPS.size - 3
+    (moved,) = retimed([wrong], without(recordings, shift), MODEL, problem, fit_nominal(problem))
+    assert moved.time == pytest.approx(0.130, abs=1e-3)
 
 
 def test_noise_that_is_not_white_ends_no_standstill() -> None:

@@ -118,8 +118,9 @@ def _asked_again(
 ) -> _Measured:  # fmt: skip
     """How the recordings came about, as the best explanation that was found has it."""
     best = ranking.fits[0].fit
-    still = needed(late, recordings, stated, ranking.problem, best)
-    still = retimed(still, recordings, stated, ranking.problem, best)
+    right = without_all(recordings, faults)
+    still = needed(late, right, stated, ranking.problem, best)
+    still = retimed(still, right, stated, ranking.problem, best)
     known = _filters(ranking, stated)
     if stated is model or (stated.recording.intersample == HELD and ranking.left.at_the_floor):
         return _Measured(still, stated, known)
