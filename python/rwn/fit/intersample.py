@@ -16,8 +16,8 @@ from rwn.fit.likelihood import DECISIVE, is_decisive, log_likelihood, log_poster
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import LEVEL, loss_gained, statistics, variance
-from rwn.fit.sensor_filter import filters_and_likelihood, losses_beside, refitted_beside
+from rwn.fit.residuals import LEVEL, loss_gained, statistics
+from rwn.fit.sensor_filter import filters_and_likelihood, losses_beside, losses_of, refitted_beside
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
@@ -114,7 +114,7 @@ def _leading(refitted: Mapping[str, tuple[Problem, Fit]]) -> set[str]:
 
     def error(law: str) -> float:
         problem, this = refitted[law]
-        return variance(replace(problem, noise=noise), this)
+        return float(np.mean(losses_of(replace(problem, noise=noise), this)))
 
     return {max(refitted, key=lambda law: log_posterior(*refitted[law])), min(refitted, key=error)}
 

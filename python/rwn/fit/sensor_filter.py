@@ -188,20 +188,34 @@ def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFi
 
 def _accuracy_lost(problem: Problem, this: Fit, f: SensorFilter) -> float:
     """How much worse an explanation simulates the signals as they were recorded with a filter, in deviations."""
-    before = losses(problem, problem.residuals(this.vector, this.active))
-    return loss_gained(before, losses_beside(problem, this, [f]))
+    return loss_gained(losses_of(problem, this), losses_beside(problem, this, [f]))
 
 
 def losses_beside(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) -> Array:
-    """`losses` (n,) of an explanation refitted beside filters, in the signals as they were recorded."""
+    """`losses` (n,) of an explanation refitted beside filters, of the rows as they were recorded."""
+    on = filtered(problem, filters)
+    return losses(problem, _as_recorded(on, _refitted(this, on), filters))
+
+
+def losses_of(problem: Problem, this: Fit) -> Array:
+    """The same as it is, without filters; (n,)."""
+    return losses(problem, _as_recorded(problem, this, ()))
+
+
+def _as_recorded(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) -> list[dict[str, Array]]:
+    """Errors (n,) of each run, by signal, as a filter and the lines between samples show those that they are made of.
+
+    What was found of samples from such rows, or from before a filter, has the noise of these amplified.
+    """
     from scipy.signal import lfilter  # late: the command line starts without it
 
-    on = filtered(problem, filters)
-    that = _refitted(this, on)
-    left = [dict(of_a_run) for of_a_run in on.residuals(that.vector, that.active)]
-    for of_a_run, f in ((r, f) for r in left for f in filters if f.digital and f.signal in r):
-        of_a_run[f.signal] = lfilter([1.0 - f.share], [1.0, -f.share], np.nan_to_num(of_a_run[f.signal]))
-    return losses(problem, left)
+    left = [dict(of_a_run) for of_a_run in problem.residuals(this.vector, this.active)]
+    for run, of_a_run in zip(problem.runs, left, strict=True):
+        for f in (f for f in filters if f.digital and f.signal in of_a_run):
+            of_a_run[f.signal] = lfilter([1.0 - f.share], [1.0, -f.share], np.nan_to_num(of_a_run[f.signal]))
+        if run.interpolated is not None:
+            of_a_run.update({s: run.interpolated.shown(x) for s, x in of_a_run.items()})
+    return left
 
 
 def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter:
