@@ -16,7 +16,7 @@ from rwn.name.initial_guesses.guess import Guess
 from rwn.name.initial_guesses.guesses import initial_guesses
 from rwn.name.initial_guesses.initial_angle import aligned, free_to_turn, without_phases
 
-KEPT_UNFITTED = 4  # starts of a kind that get an iteration: the best of all is among them in 99 % (docs/method-details)
+KEPT_UNFITTED = 8  # starts of a kind that get an iteration: the best of all is among six in 99 % (docs/method-details)
 KEPT_OF_AN_ORDER = 2  # starts kept of each order of a periodic effect
 SAME_END = 1.0  # two starts have reached the same minimum within this squared distance, in units of its variance
 REDUCED_INERTIA = 1.0 / 3.0  # of the inertia, in a start beside which a delay or a lag may take the place of the rest
