@@ -8,19 +8,14 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import MOTOR as MADE_UP
 from rwn.errors import InputError
 from rwn.fit.preparation import prepare
 from rwn.model.vocabulary import table
 from rwn.simulate.declared import check_declared
 from rwn.simulate.scales import LEAST
 
-MOTOR = rwn.Model(
-    kind="dc",
-    parameters={
-        "resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 3e-4,
-        "viscous_friction": 7e-5,
-    },
-)  # fmt: skip
+MOTOR = rwn.Model(kind="dc", parameters=MADE_UP)
 TIME = np.arange(300) * 1e-3
 STALL = 0.1 * 6.0 / 0.8  # N m, the torque of the drive at 6 V
 

@@ -10,15 +10,10 @@ import pytest
 
 import rwn
 from command_line import MODEL, Run
+from made_up_motor import MOTOR as MADE_UP
 from rwn.errors import InputError
 
-MOTOR = rwn.Model(
-    kind="dc",
-    parameters={
-        "resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 3e-4,
-        "viscous_friction": 7e-5,
-    },
-)  # fmt: skip
+MOTOR = rwn.Model(kind="dc", parameters=MADE_UP)
 AXIS = rwn.Model(kind="axis", linear=True, parameters={"inertia": 95.0, "viscous_friction": 200.0})
 SERVO = rwn.Model(kind="axis", parameters={"inertia": 1e-4, "viscous_friction": 1e-4})
 SPRING = {"stiffness": 20.0, "damping": 1e-3, "load_inertia": 1e-4, "load_viscous_share": 0.5}

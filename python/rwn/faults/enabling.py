@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.fit import Fit, refit
+from rwn.fit.fit import NEAR_ITS_END, Fit, refit
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
@@ -16,7 +16,6 @@ from rwn.simulate.run import Run
 Array = NDArray[np.float64]
 
 TRIED = 64  # instants of enabling that are compared at a time
-ITERATIONS = 8  # of a fit that begins near its end
 INSTANT_TOLERANCE = 0.01  # accuracy of the instant of enabling, in times between rows
 
 
@@ -68,7 +67,7 @@ class Beginning:
 
     def cost(self, time: float) -> float:
         """The same, fitted to this alone, with priors."""
-        return refit(self.this, self._with_power_from(time), iterations=ITERATIONS).cost
+        return refit(self.this, self._with_power_from(time), iterations=NEAR_ITS_END).cost
 
     def _with_power_from(self, time: float) -> Problem:
         return replace(self.problem, runs=(run_powered_from(time, self.run).until(2 * self.samples),))

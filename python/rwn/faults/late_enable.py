@@ -13,9 +13,9 @@ from operator import attrgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.faults.enabling import ITERATIONS, Beginning, powered_from, run_powered_from, since_start
+from rwn.faults.enabling import Beginning, powered_from, run_powered_from, since_start
 from rwn.faults.standstill import FEWEST, first_moved
-from rwn.fit.fit import Fit, fit, fit_nominal, refit
+from rwn.fit.fit import NEAR_ITS_END, Fit, fit, fit_nominal, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.likelihood import DECISIVE
 from rwn.fit.nominal import nominal_of
@@ -135,7 +135,7 @@ def _worth_from(time: float, late: LateEnable, beginning: Beginning, problem: Pr
     on = run_powered_from(time, beginning.run)
     changed = replace(problem.whole[late.place], input=on.input, applied_input=on.applied_input)
     whole = replace(problem, runs=(*problem.whole[: late.place], changed, *problem.whole[late.place + 1 :]))
-    return worth(whole, refit(this, whole, iterations=ITERATIONS))
+    return worth(whole, refit(this, whole, iterations=NEAR_ITS_END))
 
 
 def _standing_samples(recording: Recording, model: Model) -> int:

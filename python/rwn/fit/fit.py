@@ -21,6 +21,7 @@ MEASURED = 0.1  # part of every run that is simulated to learn what a step of a 
 IDLE = 1e-9  # strength, relative to its upper limit, that is none
 LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 TO_THE_END = 60  # iterations of a fit that is to converge; most of them are never needed
+NEAR_ITS_END = 8  # iterations of a fit that begins where a like one ended
 BRIEFLY = 1  # iterations of a fit that is far from the best
 FAR_BEHIND = 4.0  # cost in units of the best's, above which a fit is repeated briefly
 KEPT = 12  # fits that are worth repeating under other conditions

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.filter_colour import SensorFilter
-from rwn.fit.fit import Fit, refit
+from rwn.fit.fit import NEAR_ITS_END, Fit, refit
 from rwn.fit.known_filters import filtered
 from rwn.fit.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
 from rwn.fit.noise import with_noise_of
@@ -29,7 +29,6 @@ Array = NDArray[np.float64]
 
 CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations of the loss of a law that the free run certainly refuses
 MOST_OFF = 0.5  # share of the rows of a signal that may be unknown: with more, little of it is left to be compared
-ITERATIONS = 8  # of a fit that begins near its end
 
 
 def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
@@ -50,7 +49,7 @@ def likeliest(problem: Problem, this: Fit) -> str:
     so one that simulates the recordings certainly worse than another, from their input alone, is not taken.
     """
     candidates = _candidates(problem)
-    fits = side_by_side(lambda p: refit(this, p, iterations=ITERATIONS), candidates.values())
+    fits = side_by_side(lambda p: refit(this, p, iterations=NEAR_ITS_END), candidates.values())
     refitted = dict(zip(candidates, zip(candidates.values(), fits, strict=True), strict=True))
     return _chosen(refitted, {law: log_likelihood(*refitted[law]) for law in candidates})
 
@@ -123,7 +122,7 @@ def _explained(explanation: Fit, problem: Problem) -> tuple[Problem, Fit]:
     """The problem weighted by what an explanation leaves of it, and the explanation fitted to that."""
     (this,) = refitted_beside([explanation], problem)
     problem = with_noise_of(problem, this)
-    return problem, refit(this, problem, iterations=ITERATIONS)
+    return problem, refit(this, problem, iterations=NEAR_ITS_END)
 
 
 def _candidates(problem: Problem) -> dict[str, Problem]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.budget import one_stage, shares_by_rank
 from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
-from rwn.fit.fit import Fit, fit
+from rwn.fit.fit import NEAR_ITS_END, Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.known_filters import filtered, share_kept, undone
 from rwn.fit.likelihood import log_posterior
@@ -27,7 +27,6 @@ from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
 
-ITERATIONS = 8  # of a fit that begins near its end
 SHARES = 24  # values of phi that are compared: at few rows a time constant the right one is told to a few per cent
 DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
 LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
@@ -170,7 +169,7 @@ def _refitted(this: Fit, problem: Problem) -> Fit:
     starts = {name: this.values_of(name) for name in this.added}
     motor = this.motor if this.farthest_move < BELIEVABLE else None
     begun = hypothesis(problem.prior, this.added, problem.scales, starts, motor)
-    return fit(problem, begun, max_iterations=ITERATIONS)
+    return fit(problem, begun, max_iterations=NEAR_ITS_END)
 
 
 def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter | None:
