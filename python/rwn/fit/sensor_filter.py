@@ -17,7 +17,7 @@ from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, i
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.known_filters import filtered, share_kept, undone
-from rwn.fit.likelihood import log_posterior
+from rwn.fit.likelihood import is_decisive, log_posterior
 from rwn.fit.part import screening_part
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
@@ -177,12 +177,17 @@ def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFi
 
     By BIC: a filter has a time constant more. An autoregression may have been any other filtered, so that where much is
     missing, or where the input is noisy, a filter gains or loses by what that happens to be; one under which the
-    recordings are not simulated better is none.
+    recordings are not simulated better is none. A digital one, which sees nothing between the rows, is decisively
+    likelier than one that filters all the time, or it is taken for that: what drives log is filtered at a faster rate.
     """
-    kinds = [replace(seen, digital=False), _digital(problem, this, seen)]
-    scores = {f: _likelihood(problem, this, [f]) for f in kinds if _accuracy_lost(problem, this, f) < 0.0}
+    analog, digital = replace(seen, digital=False), _digital(problem, this, seen)
+    scores = {f: _likelihood(problem, this, [f]) for f in (analog, digital) if _accuracy_lost(problem, this, f) < 0.0}
     without = _likelihood(problem, this, [])
-    return max((f for f in scores if scores[f] > without), key=lambda f: scores[f], default=None)
+    likely = {f: score for f, score in scores.items() if score > without}
+    if len(likely) == 2:
+        on = filtered(problem, [digital])
+        return digital if is_decisive(likely[digital] - likely[analog], statistics(on, _refitted(this, on))) else analog
+    return next(iter(likely), None)
 
 
 def _accuracy_lost(problem: Problem, this: Fit, f: SensorFilter) -> float:
