@@ -63,6 +63,14 @@ def test_a_sensor_with_a_lag_of_its_own_is_no_filter_of_samples() -> None:
     assert found.time_constant == pytest.approx(-STEP / np.log(0.6), rel=0.35)
 
 
+@pytest.mark.parametrize(("step", "digital"), [(2e-4, False), (5e-4, True)])
+def test_a_filter_that_may_have_filtered_between_the_rows_is_taken_for_one_that_did(step: float, digital: bool) -> None:
+    """The digital one is likelier by e^5 at 0.2 ms, by e^46 at 0.5 ms: only there do the rows tell it."""
+    problem, nominal = weighted_by_nominal(_problem(0.5, 1000, step=step))
+    (found,) = sensor_filters(problem, nominal)
+    assert found.digital == digital
+
+
 def test_a_spring_that_was_found_in_place_of_a_filter_does_not_hide_it() -> None:
     """At few rows a time constant a second mass beside a lag of the sensor does what the filter did."""
     step = 5e-3
