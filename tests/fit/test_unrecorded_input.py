@@ -14,7 +14,7 @@ from rwn.fit.intersample import stating
 from rwn.fit.nominal import nominal_of
 from rwn.fit.unrecorded_input import _farthest, with_unrecorded_input
 from rwn.model.model import Model
-from rwn.recording.intersample import PiecewiseInput
+from rwn.recording.intersample import INTERSAMPLE, PiecewiseInput
 
 MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
          "viscous_friction": 2e-5}  # fmt: skip
@@ -84,6 +84,23 @@ def test_as_many_unknown_values_as_samples_do_not_pass_for_less_noise(rough: flo
     assert all(found[s] > 0.75 * level[s] for s in level)
     if not rough:  # else most of what the current shows may be either
         assert found == pytest.approx(level, rel=0.25)
+
+
+def test_neighbours_are_one_unknown_only_where_as_little_is_known_of_both(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the sample before a step a row was lost, and the one after it may be shown by a row or not."""
+    rng, time, step = np.random.default_rng(5), STEP * np.arange(400), 201
+    voltage = np.where(np.arange(400) < step, -0.5, 2.5)
+    bare = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    speed = rwn.simulate(Model(kind="dc", parameters=MOTOR), bare).signals["speed"] + 0.05 * rng.standard_normal(400)
+    values, spread = voltage.copy(), np.zeros(400)
+    values[step], spread[step - 1 : step + 1] = -0.2, (0.005, 0.6)
+    given = PiecewiseInput(instants=time, values=values, spread=spread)
+    law = replace(INTERSAMPLE["bridged"], applied=lambda _time, _values: given)
+    monkeypatch.setitem(INTERSAMPLE, "bridged", law)
+    run = replace(bare, signals={"voltage": voltage, "speed": speed})
+    (found,) = with_unrecorded_input([run], stating(MODEL, "bridged"))
+    assert found.applied_input is not None
+    assert found.applied_input.values[step - 1 : step + 1] == pytest.approx([-0.5, 2.5], abs=0.6)  # the prior holds it back
 
 
 def test_a_value_that_leans_to_one_neighbour_may_yet_be_the_other() -> None:

@@ -80,9 +80,10 @@ def _inferred(
     from scipy.signal import lfilter  # late: the command line starts without it
     from scipy.sparse import diags_array
 
-    unknown = given.spread > 0.0  # neighbours that no row shows are one unknown
-    first = np.flatnonzero(unknown & ~np.concatenate([[False], unknown[:-1]]))
-    after = np.flatnonzero(~unknown & np.concatenate([[False], unknown[:-1]]))
+    unknown = given.spread > 0.0
+    another = np.concatenate([[True], np.diff(given.spread) != 0.0])  # neighbours that are known as little are one
+    first = np.flatnonzero(unknown & another)
+    after = np.flatnonzero(another & np.concatenate([[False], unknown[:-1]]))
     ends = np.append(given.instants[after], run.time[-1])[: first.size]
     assumed = given if run.applied_input is None else run.applied_input
     before = (assumed.values - given.values)[first]  # what the errors are corrected by already
