@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
@@ -15,8 +15,11 @@ from rwn.faults.uneven_files import uneven_files
 from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit
 from rwn.fit.intersample import likeliest_with_filters, stating, with_intersample, without_unknown
-from rwn.fit.known_filters import known_filters, stating_filters
+from rwn.fit.known_filters import filtered, known_filters, stating_filters
+from rwn.fit.likelihood import is_decisive, log_posterior
 from rwn.fit.preparation import prepare
+from rwn.fit.residuals import statistics
+from rwn.fit.sensor_filter import refitted_beside
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.name.forward import Progress
@@ -91,11 +94,11 @@ def explained(
     filters: tuple[SensorFilter, ...] = ()
     for _ in range(ASKED_AGAIN):
         asked = _asked_again(recordings, model, still, again, faults, ranking)
-        if (asked.late, asked.model) == (still, again):
-            break
-        still, again, filters = asked
         best = None if faults else ranking.fits[0].fit
-        as_acted = _as_acted(powered(recordings, still, model), again, best, filters)
+        acted = _as_acted(powered(recordings, asked.late, model), asked.model, best, asked.filters)
+        if (asked.late, asked.model) == (still, again) and not _tells_more(acted, as_acted, asked, ranking):
+            break
+        as_acted, (still, again, filters) = acted, asked
         faults, ranking = resolved(as_acted, again, filters=filters, say=say, effort=effort)
     late_channel = None if faults else shift_instead(as_acted, again, _filters(ranking, again), ranking)
     if late_channel:
@@ -103,7 +106,7 @@ def explained(
         others, ranking = resolved(right, again, filters=_filters(ranking, again), say=say, effort=effort)
         faults = [late_channel, *others]
     for wrong in contradicted(ranking):
-        free, as_acted = without_declared(again, wrong), _as_acted(powered(recordings, still, model), again)
+        free = without_declared(again, wrong)
         others, freed = resolved(as_acted, free, filters=filters, say=say, effort=effort)
         if confirmed(freed, ranking, again, wrong):
             faults, ranking = others, freed
@@ -127,6 +130,22 @@ def _asked_again(
     bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
     law, filters = likeliest_with_filters(bare, best, stated.recording.intersample, known)
     return _Measured(still, stating(stated, law), known if law == stated.recording.intersample else filters)
+
+
+def _tells_more(
+    acted: Sequence[Recording], before: Sequence[Recording], found: _Measured, ranking: Ranking
+) -> bool:  # fmt: skip
+    """Whether the recordings are decisively likelier by the best explanation with an input that was inferred beside it.
+
+    `before`: with the input as inferred beside another explanation, under which it was found.
+    """
+    inferred = any(r.applied_input is not None and r.applied_input.spread.any() for r in acted)
+    if not inferred or ranking.left.at_the_floor:
+        return False
+    given, other = (filtered(prepare(of, found.model), found.filters) for of in (before, acted))
+    other = replace(other, noise=given.noise)
+    old, new = (refitted_beside([ranking.fits[0].fit], problem)[0] for problem in (given, other))
+    return is_decisive(log_posterior(other, new) - log_posterior(given, old), statistics(other, new))
 
 
 def _filters(ranking: Ranking, stated: Model) -> tuple[SensorFilter, ...]:
