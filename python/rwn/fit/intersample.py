@@ -88,13 +88,20 @@ def _chosen(
 ) -> str:  # fmt: skip
     """The likeliest law, "held" where none is decisively so; of one that no times show, by what is left is worth.
 
-    One that simulates the recordings certainly worse than another, each beside its `filters`, is neither.
+    One that simulates the recordings certainly worse than another, each beside its `filters`, is neither. Against one
+    that the times show, one that no times show does not count: while physics is missing, an input that acts sooner or
+    later makes up for some of it.
     """
     held, _ = refitted[HELD]
     under = {law: (replace(problem, noise=held.noise), this) for law, (problem, this) in refitted.items()}
     loss = {law: losses_beside(*under[law], (filters or {}).get(law, ())) for law in scores}
-    best = min(loss, key=lambda law: float(np.mean(loss[law])))
-    believable = [law for law in scores if law == HELD or loss_gained(loss[best], loss[law]) < CERTAINLY]
+
+    def is_believable(law: str) -> bool:
+        against = [other for other in scores if INTERSAMPLE[other].shown or not INTERSAMPLE[law].shown]
+        best = min(against, key=lambda other: float(np.mean(loss[other])))
+        return loss_gained(loss[best], loss[law]) < CERTAINLY
+
+    believable = [law for law in scores if law == HELD or is_believable(law)]
     shown = [law for law in believable if INTERSAMPLE[law].shown and scores[law] > scores[HELD] + DECISIVE]
     usual = max(shown, key=lambda law: scores[law], default=HELD)
     others = [law for law in believable if not INTERSAMPLE[law].shown]
