@@ -19,7 +19,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import MISSPECIFIED, MOST_COLOURED, Statistics, statistics, statistics_of
 from rwn.model.model import Model
 from rwn.name.backward import with_simpler
-from rwn.name.forward import _beside, _diverse, rank
+from rwn.name.forward import _beside, _diverse, _is_worth_it, rank
 from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import NO_PAIRS
 from rwn.name.screening import screen
@@ -46,6 +46,16 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(fit_with: FitWith, name: st
         values = this.minimum.values.copy()
         values[k] = at * getattr(this.hypothesis.unknowns[k], limit)
         assert replace(this, minimum=replace(this.minimum, values=values)).limits_met == met
+
+
+@pytest.mark.parametrize(("cost", "worth_it"), [(0.7, True), (0.9, False)])
+def test_a_further_effect_counts_by_all_that_it_costs_less(fit_with: FitWith, cost: float, worth_it: bool) -> None:
+    """Also where most of the cost is that of a data sheet which is far off, and little of it misfit."""
+    best = fit_with("coulomb-friction")
+    best = replace(best, minimum=replace(best.minimum, cost=1e6))
+    more = replace(best, minimum=replace(best.minimum, cost=1e6 * cost))
+    assert _is_worth_it([more], best) is worth_it
+    assert not _is_worth_it([], best)
 
 
 def test_the_ends_of_a_difference_are_not_compared(problem: Problem) -> None:

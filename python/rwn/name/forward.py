@@ -36,7 +36,7 @@ from rwn.simulate.run import windowed
 Progress = Callable[[str, float], None]
 
 MOST_EFFECTS = 3  # most effects in one explanation
-WORTH = 0.2  # smallest share of the remaining misfit that a further effect has to remove
+WORTH = 0.2  # smallest share of the cost, misfit and data sheet together, that a further effect has to remove
 FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free run follows the motion
 LARGEST_NRMSE = 0.2  # rms error of a signal, as a share of its spread, up to which a free run follows the motion
 PATIENCE = 4  # factor on the iterations in short windows: the first steps of a fit are short where the misfit is large
@@ -116,7 +116,7 @@ def _grown(
     `pairs` are known already. `begun`: what the meter of the search had counted when it began.
     """
     problem = alone.problem
-    _, left = _best_of(problem, [alone.nominal, *fits])
+    best, left = _best_of(problem, [alone.nominal, *fits])
     bases = _diverse([f for f in fits if adds(f, problem)])
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     for size in range(2, at_once + 1):
@@ -128,8 +128,7 @@ def _grown(
         found = _beside(problem, bases, wanted, fits, known)
         more, pairs = found.fits, found if size == 2 else pairs
         cut_short = size if found.cut_short else 0
-        gained = left.variance - min(f.cost for f in more) / left.count if more else 0.0
-        complete = gained < WORTH * left.variance
+        complete = not _is_worth_it(more, best)
         if complete:
             break
         fits, paired = [*fits, *more], True
@@ -137,6 +136,11 @@ def _grown(
         bases = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2]
         complete = left.at_the_floor or _at_its_floor(problem, best)
     return _Grown(fits, pairs, paired, complete, cut_short)
+
+
+def _is_worth_it(more: Sequence[Fit], best: Fit) -> bool:
+    """Whether one of `more` costs so much less than what was `best`, by misfit and data sheet together."""
+    return any(f.cost <= (1.0 - WORTH) * best.cost for f in more)
 
 
 def _measured(as_prepared: Problem, problem: Problem, best: Fit, at_once: int) -> Problem | None:
