@@ -17,7 +17,7 @@ from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, i
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.known_filters import filtered, share_kept, undone
-from rwn.fit.likelihood import is_decisive, log_posterior
+from rwn.fit.likelihood import DECISIVE, log_posterior
 from rwn.fit.part import screening_part
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
@@ -179,6 +179,7 @@ def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFi
     missing, or where the input is noisy, a filter gains or loses by what that happens to be; one under which the
     recordings are not simulated better is none. A digital one, which sees nothing between the rows, is decisively
     likelier than one that filters all the time, or it is taken for that: what drives log is filtered at a faster rate.
+    Both leave what is missing, so that the samples count that are independent of each other.
     """
     analog, digital = replace(seen, digital=False), _digital(problem, this, seen)
     scores = {f: _likelihood(problem, this, [f]) for f in (analog, digital) if _accuracy_lost(problem, this, f) < 0.0}
@@ -186,7 +187,9 @@ def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFi
     likely = {f: score for f, score in scores.items() if score > without}
     if len(likely) == 2:
         on = filtered(problem, [digital])
-        return digital if is_decisive(likely[digital] - likely[analog], statistics(on, _refitted(this, on))) else analog
+        left = statistics(on, _refitted(this, on))
+        gained = (likely[digital] - likely[analog]) * left.effective / max(left.count, 1)
+        return digital if gained > DECISIVE else analog
     return next(iter(likely), None)
 
 
