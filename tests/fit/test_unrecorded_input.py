@@ -109,6 +109,6 @@ def test_a_value_that_leans_to_one_neighbour_may_yet_be_the_other() -> None:
     given = PiecewiseInput(
         instants=STEP * np.arange(4.0), values=np.array([6.0, -1.0, -2.0, -2.0]), spread=np.array([0.0, 2.0, 0.0, 0.0])
     )
-    low, high = _farthest(given, np.array([1]), np.array([2]))
+    low, high = _farthest(given, np.array([1]))
     assert low == pytest.approx(-2.0 * np.sqrt(3.0))
     assert high == pytest.approx(7.0)

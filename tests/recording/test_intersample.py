@@ -109,3 +109,20 @@ def test_a_step_between_two_rows_is_anywhere_between_them_and_nothing_beside_it(
     assert np.flatnonzero(acted.spread > 1e-12).tolist() == [7]
     assert acted.values == pytest.approx([1.0] * 7 + [2.0] + [3.0] * 7)
     assert acted.spread[7] == pytest.approx(2.0 / np.sqrt(12.0))
+
+
+def test_a_sample_that_may_be_either_neighbours_is_an_unknown_by_itself() -> None:
+    """Rows beside a clock, a tenth of them lost, under a voltage that is turned now and then."""
+    rng = np.random.default_rng(0)
+    ticks = np.flatnonzero(rng.random(400) < 0.9)
+    time = 1e-3 * (ticks + 0.02 * rng.standard_normal(ticks.size))
+    voltage = np.where(rng.random(400) < 0.5, 1.0, -1.0)
+    found = INTERSAMPLE["ticks"].applied(time - time[0], voltage[ticks])
+    assert found is not None
+    assert found.gaps is not None
+    unknown = found.spread > 0.0
+    mixed = unknown & (found.gaps < 0)
+    together = unknown[1:] & unknown[:-1] & (np.diff(found.gaps) == 0)
+    assert mixed.any()
+    assert together.any()
+    assert not np.any(together & (mixed[1:] | mixed[:-1]))

@@ -94,9 +94,12 @@ def explained(
     filters: tuple[SensorFilter, ...] = ()
     for _ in range(ASKED_AGAIN):
         asked = _asked_again(recordings, model, still, again, faults, ranking)
+        alike = (asked.late, asked.model) == (still, again)
+        if alike and (faults or ranking.left.at_the_floor):
+            break
         best = None if faults else ranking.fits[0].fit
         acted = _as_acted(powered(recordings, asked.late, model), asked.model, best, asked.filters)
-        if (asked.late, asked.model) == (still, again) and not _tells_more(acted, as_acted, asked, ranking):
+        if alike and not _tells_more(acted, as_acted, asked, ranking):
             break
         as_acted, (still, again, filters) = acted, asked
         faults, ranking = resolved(as_acted, again, filters=filters, say=say, effort=effort)
@@ -139,11 +142,10 @@ def _tells_more(
 
     `before`: with the input as inferred beside another explanation, under which it was found.
     """
-    inferred = any(r.applied_input is not None and r.applied_input.spread.any() for r in acted)
-    if not inferred or ranking.left.at_the_floor:
+    if not any(r.applied_input is not None and r.applied_input.spread.any() for r in acted):
         return False
-    given, other = (filtered(prepare(of, found.model), found.filters) for of in (before, acted))
-    other = replace(other, noise=given.noise)
+    problems = (filtered(prepare(of, found.model), found.filters) for of in (before, acted))
+    given, other = (replace(problem, noise=ranking.problem.noise) for problem in problems)
     old, new = (refitted_beside([ranking.fits[0].fit], problem)[0] for problem in (given, other))
     return is_decisive(log_posterior(other, new) - log_posterior(given, old), statistics(other, new))
 

@@ -43,12 +43,13 @@ def log_likelihood(problem: Problem, this: Fit) -> float:
 
     An autoregression is over even steps: errors of uneven rows are those of the samples that these would lie between,
     and the noise of a row, where it was not interpolated, is larger there the farther it lies from its tick.
+    What an input that was inferred from the errors has taken of their noise is no likelihood.
     """
     residuals = problem.residuals(this.vector, this.active)
     likelihood = 0.0
     for signal in dict.fromkeys(s for left in residuals for s in left):
         pairs = [(r, left[signal]) for r, left in zip(problem.runs, residuals, strict=True) if signal in left]
-        even = [_evenly(r, signal, left) for r, left in pairs]
+        even = [_evenly(r, signal, left / r.noise_left(signal)) for r, left in pairs]
         windows = [np.lib.stride_tricks.sliding_window_view(x, ORDER + 1) for x, _ in even if x.size > ORDER]
         if windows:
             joined = np.concatenate(windows)

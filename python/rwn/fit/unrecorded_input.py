@@ -81,9 +81,10 @@ def _inferred(
     from scipy.sparse import diags_array
 
     unknown = given.spread > 0.0
-    another = np.concatenate([[True], np.diff(given.spread) != 0.0])  # neighbours that are known as little are one
-    first = np.flatnonzero(unknown & another)
-    after = np.flatnonzero(another & np.concatenate([[False], unknown[:-1]]))
+    one = unknown[1:] & unknown[:-1] & (np.diff(given.gaps) == 0 if given.gaps is not None else False)
+    begins = np.concatenate([[True], ~one])
+    first = np.flatnonzero(unknown & begins)
+    after = np.flatnonzero(begins & np.concatenate([[False], unknown[:-1]]))
     ends = np.append(given.instants[after], run.time[-1])[: first.size]
     assumed = given if run.applied_input is None else run.applied_input
     before = (assumed.values - given.values)[first]  # what the errors are corrected by already
@@ -106,21 +107,22 @@ def _inferred(
     rng = np.random.default_rng(0)
     both = {s: np.stack([e / levels[s], rng.standard_normal(e.size)], axis=1) for s, e in errors.items()}
     told = _told(responses, both, share * given.spread[first])
-    low, high = _farthest(given, first, after)
+    low, high = _farthest(given, first)
     values = given.values.copy()
     values[unknown] += np.clip(told[:, 0], low, high)[np.searchsorted(first, np.flatnonzero(unknown), side="right") - 1]
     noise = {s: (noises[:, 1], responses[s] @ told[:, 1]) for s, noises in both.items()}
     return replace(given, values=values, noise_left={s: _share_left(*each) for s, each in noise.items()})
 
 
-def _farthest(given: PiecewiseInput, first: NDArray[np.intp], after: NDArray[np.intp]) -> tuple[Array, Array]:
+def _farthest(given: PiecewiseInput, first: NDArray[np.intp]) -> tuple[Array, Array]:
     """The least and the most (m,) that unknown values, which begin at `first` (m,), may move by.
 
-    They reach to the known value on either side (`after`: the places (m,) of those that follow), and as far as the
-    input may lie off the line between these.
+    They reach to the nearest known value on either side, and as far as the input may lie off the line between these.
     """
-    off, last = np.sqrt(3.0) * given.spread[first], given.values.size - 1
-    beside = np.stack([np.maximum(first - 1, 0), np.append(after, last)[: first.size]])
+    off = np.sqrt(3.0) * given.spread[first]
+    known = np.concatenate([[0], np.flatnonzero(given.spread == 0.0), [given.values.size - 1]])
+    place = np.searchsorted(known[1:-1], first)  # of the next one that is known
+    beside = np.stack([known[place], known[place + 1]])
     way = given.values[beside] - given.values[first]
     return np.minimum(way.min(axis=0), -off), np.maximum(way.max(axis=0), off)
 

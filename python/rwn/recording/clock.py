@@ -18,6 +18,7 @@ FARTHEST = 0.3  # relative distance from the median step beyond which most steps
 PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows
 AS_WELL = 1.0 / float(np.sinc(0.5 / PER_CYCLE))  # agreement at a period over that at the nearest that is tried
 ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
+ROUNDING = 1e-6  # of times as numbers, relatively
 REMEMBERED = 16  # clocks kept, of a few recordings and parts of them: a search asks for each thousands of times
 
 
@@ -102,3 +103,14 @@ def _agreeing(time: Array, period: float, reach: float) -> tuple[float, float, f
     best = int(np.argmax(np.abs(sums)))
     period = period / (1.0 + float(shifts[best]))
     return abs(sums[best]), period, float(time[0]) + period * float(np.angle(sums[best])) / (2.0 * np.pi)
+
+
+def written_to(time: Array) -> float:
+    """The step [s] that times (n,) are whole multiples of, as few digits make them; 0: none."""
+    steps = np.unique(np.diff(time))
+    apart = np.diff(steps)
+    apart = apart[apart > ROUNDING * steps[-1]]
+    if not apart.size:
+        return 0.0
+    step = float(np.min(apart))
+    return step if np.max(np.abs(time / step - np.rint(time / step))) < ROUNDING * time.size else 0.0

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import unknown
-from rwn.recording.clock import Clock, clock_of
+from rwn.recording.clock import Clock, clock_of, written_to
 from rwn.recording.interpolated import InterpolatedRows, interpolated_rows
 from rwn.recording.noise import noise_from_differences
 from rwn.values import Values
@@ -24,7 +24,6 @@ Array = NDArray[np.float64]
 
 JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
 CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
-ROUNDING = 1e-6  # of times as numbers, relatively
 FINE = 8  # parts of a sample that are as good as a line
 
 AUTO = "auto"  # as the recordings show
@@ -36,20 +35,23 @@ class PiecewiseInput(Values):
     """An input as it acted: from `instants` (m,) [s] it had `values` (m,), each known but for `spread` (m,).
 
     What no row shows lies off the line between its neighbours, as far as the way through them bends: it may be anywhere
-    in that, of which 1/sqrt(12) is the standard deviation. `noise_left`: the share of the noise of a signal
+    in that, of which 1/sqrt(12) is the standard deviation. `gaps`: neighbours that are not known lie off it together
+    where their numbers (m,) are the same; None: each by itself. `noise_left`: the share of the noise of a signal
     that is left in its errors where the values were inferred from these.
     """
 
     instants: Array
     values: Array
     spread: Array
+    gaps: NDArray[np.int64] | None = None
     noise_left: Mapping[str, float] = field(default_factory=dict)
 
     def since(self, begin: float) -> PiecewiseInput:
         """The same of a recording that begins at `begin` [s], in its time."""
         first = max(int(np.searchsorted(self.instants, begin, side="right")) - 1, 0)
         instants = np.maximum(self.instants[first:], begin) - begin
-        return replace(self, instants=instants, values=self.values[first:], spread=self.spread[first:])
+        gaps = None if self.gaps is None else self.gaps[first:]
+        return replace(self, instants=instants, values=self.values[first:], spread=self.spread[first:], gaps=gaps)
 
 
 def _own_samples(time: Array) -> None:
@@ -113,23 +115,12 @@ def between_ticks(time: Array) -> InterpolatedRows | None:
 
 def rounded(time: Array) -> InterpolatedRows | None:
     """Rows at times (n,) that are rounded from the ticks of a clock, as the samples at these; None: they are not."""
-    clock, step = _clock_beside(time), _written_to(time)
+    clock, step = _clock_beside(time), written_to(time)
     if clock is None or np.ptp(clock.off) - 2.0 * CLEAR * np.max(clock.accuracy) > step / clock.period:
         return None
     nothing = np.zeros(time.size)
     ticks = np.asarray(clock.period * clock.ticks)
     return InterpolatedRows(rows=time - time[0], ticks=ticks, before=nothing, after=nothing, cut=nothing > 0.0)
-
-
-def _written_to(time: Array) -> float:
-    """The step [s] that times (n,) are whole multiples of, as few digits make them; 0: none."""
-    steps = np.unique(np.diff(time))
-    apart = np.diff(steps)
-    apart = apart[apart > ROUNDING * steps[-1]]
-    if not apart.size:
-        return 0.0
-    step = float(np.min(apart))
-    return step if np.max(np.abs(time / step - np.rint(time / step))) < ROUNDING * time.size else 0.0
 
 
 def _held_from_ticks(time: Array, values: Array) -> PiecewiseInput | None:
@@ -155,10 +146,11 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
     ticks = np.arange(last[0], last[-1] + 1)
     after, before = (_shown_at(ticks, np.where(unclear, clock.ticks - k, last), values) for k in (0, 1))
     mixed, spread = _mixed(_chance_after(clock, unclear, ticks), after, before)
+    gaps = np.where(after[0] == before[0], _gaps(ticks, last), -1 - ticks)  # one that may be another is by itself
     instants = begin + clock.period * ticks
     instants[0] = first_time
     late = np.concatenate([[True], instants[1:] > first_time])
-    return PiecewiseInput(instants=instants[late], values=mixed[late], spread=spread[late])
+    return PiecewiseInput(instants=instants[late], values=mixed[late], spread=spread[late], gaps=gaps[late])
 
 
 def _before_rows(time: Array, values: Array) -> PiecewiseInput | None:
@@ -170,7 +162,12 @@ def _before_rows(time: Array, values: Array) -> PiecewiseInput | None:
     shown, spread = _shown_at(ticks, clock.ticks, values)
     instants = clock.start + clock.period * (ticks + np.min(clock.off))
     instants[0] = time[0]
-    return PiecewiseInput(instants=instants, values=shown, spread=spread)
+    return PiecewiseInput(instants=instants, values=shown, spread=spread, gaps=_gaps(ticks, clock.ticks))
+
+
+def _gaps(ticks: NDArray[np.int64], last: NDArray[np.int64]) -> NDArray[np.int64]:
+    """How many ticks that rows show, `last` (n,), are before each of `ticks` (m,)."""
+    return np.searchsorted(np.unique(last), ticks)
 
 
 def _last_ticks(clock: Clock, values: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
@@ -231,6 +228,7 @@ def _divided(
         instants=np.append(instants, time[-1]),
         values=np.append(np.where(done > 0.0, between(instants, time, values), values[row]), values[-1]),
         spread=np.append(np.where(done > 0.0, _off_the_line(time, values)[row], 0.0), 0.0),
+        gaps=np.append(row, time.size),
     )
 
 
