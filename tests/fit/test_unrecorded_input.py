@@ -86,7 +86,7 @@ def test_as_many_unknown_values_as_samples_do_not_pass_for_less_noise(rough: flo
         assert found == pytest.approx(level, rel=0.25)
 
 
-def test_neighbours_are_one_unknown_only_where_as_little_is_known_of_both(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_neighbours_of_different_gaps_are_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of the sample before a step a row was lost, and the one after it may be shown by a row or not."""
     rng, time, step = np.random.default_rng(5), STEP * np.arange(400), 201
     voltage = np.where(np.arange(400) < step, -0.5, 2.5)
@@ -94,7 +94,7 @@ def test_neighbours_are_one_unknown_only_where_as_little_is_known_of_both(monkey
     speed = rwn.simulate(Model(kind="dc", parameters=MOTOR), bare).signals["speed"] + 0.05 * rng.standard_normal(400)
     values, spread = voltage.copy(), np.zeros(400)
     values[step], spread[step - 1 : step + 1] = -0.2, (0.005, 0.6)
-    given = PiecewiseInput(instants=time, values=values, spread=spread)
+    given = PiecewiseInput(instants=time, values=values, spread=spread, gaps=np.arange(400))
     law = replace(INTERSAMPLE["bridged"], applied=lambda _time, _values: given)
     monkeypatch.setitem(INTERSAMPLE, "bridged", law)
     run = replace(bare, signals={"voltage": voltage, "speed": speed})

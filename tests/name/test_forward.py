@@ -18,10 +18,11 @@ from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import MISSPECIFIED, MOST_COLOURED, Statistics, statistics, statistics_of
 from rwn.model.model import Model
+from rwn.name import forward
 from rwn.name.backward import with_simpler
-from rwn.name.forward import _beside, _diverse, _is_worth_it, rank
+from rwn.name.forward import _beside, _diverse, _grown, rank
 from rwn.name.initial_guesses import spectra
-from rwn.name.ranking import NO_PAIRS
+from rwn.name.ranking import NO_PAIRS, Fits, Pairs
 from rwn.name.screening import screen
 from rwn.name.weights import weigh
 from rwn.recording.noise import Noise
@@ -48,14 +49,23 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(fit_with: FitWith, name: st
         assert replace(this, minimum=replace(this.minimum, values=values)).limits_met == met
 
 
-@pytest.mark.parametrize(("cost", "worth_it"), [(0.7, True), (0.9, False)])
-def test_a_further_effect_counts_by_all_that_it_costs_less(fit_with: FitWith, cost: float, worth_it: bool) -> None:
-    """Also where most of the cost is that of a data sheet which is far off, and little of it misfit."""
-    best = fit_with("coulomb-friction")
-    best = replace(best, minimum=replace(best.minimum, cost=1e6))
-    more = replace(best, minimum=replace(best.minimum, cost=1e6 * cost))
-    assert _is_worth_it([more], best) is worth_it
-    assert not _is_worth_it([], best)
+@pytest.mark.parametrize(("cost", "kept"), [(0.7, True), (0.9, False)])
+def test_a_further_effect_counts_by_all_that_it_costs_less(
+    problem: Problem, fit_with: FitWith, monkeypatch: pytest.MonkeyPatch, cost: float, kept: bool
+) -> None:
+    """Also where nearly all of the cost is that of a data sheet which is far off, and little of it misfit."""
+    sheet = 1e3 * fit_nominal(problem).cost
+    single, pair = (
+        replace(this, minimum=replace(this.minimum, cost=share * sheet))
+        for this, share in ((fit_with("unbalance"), 1.0), (fit_with("coulomb-friction"), cost))
+    )
+    monkeypatch.setattr(forward, "_beside", lambda *_: Pairs([pair], frozenset()))
+    nominal = replace(single, minimum=replace(single.minimum, cost=2.0 * sheet))
+    grown = _grown(
+        Fits(problem, nominal, [single]), [single], [], NO_PAIRS, at_once=2, begun=0, progress=_silent
+    )  # fmt: skip
+    assert grown.paired is kept
+    assert (pair in grown.fits) is kept
 
 
 def test_the_ends_of_a_difference_are_not_compared(problem: Problem) -> None:

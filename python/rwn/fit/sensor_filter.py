@@ -179,7 +179,7 @@ def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFi
     missing, or where the input is noisy, a filter gains or loses by what that happens to be; one under which the
     recordings are not simulated better is none. A digital one, which sees nothing between the rows, is decisively
     likelier than one that filters all the time, or it is taken for that: what drives log is filtered at a faster rate.
-    Both leave what is missing, so that the samples count that are independent of each other.
+    What is missing lasts and is left by both: the difference counts in as many samples as are independent.
     """
     analog, digital = replace(seen, digital=False), _digital(problem, this, seen)
     scores = {f: _likelihood(problem, this, [f]) for f in (analog, digital) if _accuracy_lost(problem, this, f) < 0.0}
