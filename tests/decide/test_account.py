@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import rwn
 from rwn.decide.account import account, remainder
+from rwn.decide.evidence import Validation
 from rwn.decide.other_law import curve_instead
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
@@ -51,3 +54,38 @@ def test_a_curve_in_the_place_of_a_law_says_no_more_of_its_state(ranking: Rankin
     nominal = ranking.nominal
     assert curve_instead(ranking.problem, friction, nominal, MODEL) > 0.99
     assert curve_instead(ranking.problem, mimic, nominal, MODEL) < 0.5
+
+
+@pytest.fixture(scope="module")
+def on_a_tie() -> tuple[rwn.Model, Ranking]:
+    """Friction of two levels, which the declared friction with a steady load explains as well."""
+    declared = replace(
+        MODEL, parameters={**MODEL.parameters, "coulomb_friction": 0.012},
+        uncertainty={**MODEL.uncertainty, "coulomb_friction": 0.5},
+    )  # fmt: skip
+    truth = replace(
+        MODEL, effects={"asymmetric-friction": {"coulomb_torque_plus": 0.016, "coulomb_torque_minus": 0.008}}
+    )
+    given = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
+    noise = np.random.default_rng(4)
+    found = rwn.simulate(truth, given).signals
+    measured = {s: found[s] + noise.normal(0.0, 0.01 * np.std(found[s]), given.time.size) for s in ("current", "speed")}
+    recording = rwn.Recording(
+        name="two levels", time=given.time, signals={"voltage": given.signals["voltage"], **measured}
+    )
+    names = ["coulomb-friction", "asymmetric-friction", "constant-load"]
+    return declared, rank(prepare([recording], declared), progress=lambda *_: None, names=names)
+
+
+def test_an_elaboration_is_compared_with_the_plain_law_and_not_with_its_rivals(
+    on_a_tie: tuple[rwn.Model, Ranking],
+) -> None:
+    model, ranking = on_a_tie
+    by = {r.added: r for r in ranking.fits}
+    elaborate, plain, rival = (by[n,] for n in ("asymmetric-friction", "coulomb-friction", "constant-load"))
+    assert elaborate.score == pytest.approx(rival.score, abs=0.1)
+    found = Validation(ranking, elaborate, [], model).evidence("asymmetric-friction", (), instead=plain)
+    assert found.odds == pytest.approx(elaborate.score - plain.score)
+    assert found.odds > 100.0
+    (acting,) = account(ranking, [], model).stated
+    assert {acting.name, *acting.rivals} == {"asymmetric-friction", "constant-load"}

@@ -30,9 +30,9 @@ def explained(
     compared = []
 
     def judge(this: Any) -> Any:
-        def evidence(name: str, rivals: Any, *, without: Any) -> Evidence:
+        def evidence(name: str, rivals: Any, *, instead: Any) -> Evidence:
             assert not rivals
-            compared.append((this.added, name, without))
+            compared.append((this.added, name, instead.added))
             return ADDS if name in adding else IDLE
 
         return SimpleNamespace(evidence=evidence)

@@ -35,7 +35,7 @@ def elaborated(ranking: Ranking, leading: RankedFit, validated: Callable[[Ranked
         (plain_name,) = plainer([name])
         plain = _explained(ranking, others, plain_name)
         while name != plain_name and plain is not None:
-            adds = calibration().probability(validation.evidence(name, (), without=plain.final))
+            adds = calibration().probability(validation.evidence(name, (), instead=plain))
             if adds > ACTS:
                 odds[name, plain_name] = (1.0 - adds) / adds
                 break

@@ -67,16 +67,17 @@ class Validation:
         self._seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(leading.final, half)), self._halves)
         self._heldout = [problem.on(heldout)] if heldout else []
 
-    def evidence(self, name: str, rivals: Collection[str], *, without: Fit | None = None) -> Evidence:
+    def evidence(self, name: str, rivals: Collection[str], *, instead: RankedFit | None = None) -> Evidence:
         """Features of one effect of the explanation.
 
         Args:
             name: of the effect.
             rivals: names that may act in its place.
-            without: the explanation that it is compared with; None is the same without the effect.
+            instead: the one explanation that it is compared with. None: the same without the effect, and for the odds
+                the best with neither it nor its rivals.
         """
         ranking, this = self._ranking, self._leading.final
-        less = _without(ranking, self._leading, name) if without is None else without
+        less = _without(ranking, self._leading, name) if instead is None else instead.final
         before = variances(ranking.weighted, less)
         others = self._halves[::-1]
         pairs = [(o, _refit(less, h), s.fit) for o, h, s in zip(others, self._halves, self._seen, strict=True)]
@@ -87,15 +88,17 @@ class Validation:
             share=_share(before, self._after, self._nothing, self._chance),
             unseen=float(np.mean(unseen)),
             part=_share(beside, self._after, beside, self._chance),
-            odds=self._odds({name, *rivals}),
+            odds=self._odds(instead or self._best_without({name, *rivals})),
             curve=curve_instead(ranking.problem, self._leading.fit, less, self._model),
         )
 
-    def _odds(self, names: set[str]) -> float:
-        """Against the best explanation with none of these names: by what was fitted, and by what was kept back."""
-        without = max((r for r in self._ranking.fits if not names & set(r.added)), key=lambda r: r.score)
-        found = self._leading.score - without.score
-        return found + sum(_predicted(judge, self._leading.final, without.final) for judge in self._heldout)
+    def _best_without(self, names: set[str]) -> RankedFit:
+        return max((r for r in self._ranking.fits if not names & set(r.added)), key=lambda r: r.score)
+
+    def _odds(self, other: RankedFit) -> float:
+        """Against another explanation: by what was fitted, and by what was kept back."""
+        found = self._leading.score - other.score
+        return found + sum(_predicted(judge, self._leading.final, other.final) for judge in self._heldout)
 
     @property
     def birge(self) -> float:
