@@ -18,10 +18,9 @@ from rwn.fit.known_filters import filtered
 from rwn.fit.levels import can_differ, friction, with_levels
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
-from rwn.fit.part import screening_part
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import Statistics, join, statistics, statistics_of
+from rwn.fit.residuals import Statistics, statistics
 from rwn.fit.secant import all_down_secants
 from rwn.fit.sensor_filter import refitted_beside, sensor_filters
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
@@ -29,17 +28,14 @@ from rwn.name.degenerate import adds
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Fits, Pairs, Ranking
 from rwn.name.screening import screen
+from rwn.name.shooting import has_lost_the_motion, in_free_run, in_windows, is_far_off
 from rwn.name.uneven import uneven_beside
 from rwn.name.weights import weigh
-from rwn.simulate.run import windowed
 
 Progress = Callable[[str, float], None]
 
 MOST_EFFECTS = 3  # most effects in one explanation
 WORTH = 0.2  # smallest share of the cost, misfit and data sheet together, that a further effect has to remove
-FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free run follows the motion
-LARGEST_NRMSE = 0.2  # rms error of a signal, as a share of its spread, up to which a free run follows the motion
-PATIENCE = 4  # factor on the iterations in short windows: the first steps of a fit are short where the misfit is large
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 
 
@@ -73,7 +69,7 @@ def rank(
     again = refitted_beside(known, problem)
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
-        problem, nominal, fits = _under_own_noise(problem, nominal, fits)
+        problem, nominal, fits, _ = _under_own_noise(problem, nominal, fits)
     measured = _measured(as_prepared, problem, min([nominal, *fits], key=lambda f: f.cost), at_once)
     if measured:  # otherwise than thought, beside whatever is missing
         renew(problem.work, begun)
@@ -117,7 +113,7 @@ def _grown(
     """
     problem = alone.problem
     best, left = _best_of(problem, [alone.nominal, *fits])
-    bases = _diverse([f for f in fits if adds(f, problem)])
+    bases, shot = _diverse([f for f in fits if adds(f, problem)]), alone.shot
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     for size in range(2, at_once + 1):
         if complete:
@@ -125,7 +121,7 @@ def _grown(
         known = pairs if size == 2 else NO_PAIRS
         renew(problem.work, begun)
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
-        found = _beside(problem, bases, wanted, fits, known)
+        found, shot = _beside_and_in_windows(alone, best, bases, wanted, fits, known, size=size, shot=shot)
         more, pairs = found.fits, found if size == 2 else pairs
         cut_short = size if found.cut_short else 0
         complete = not _is_worth_it(more, best)
@@ -136,6 +132,23 @@ def _grown(
         bases = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2]
         complete = left.at_the_floor or _at_its_floor(problem, best)
     return _Grown(fits, pairs, paired, complete, cut_short)
+
+
+def _beside_and_in_windows(
+    alone: Fits, best: Fit, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Pairs, *,
+    size: int, shot: Sequence[Fit],
+) -> tuple[Pairs, Sequence[Fit]]:  # fmt: skip
+    """What helps beside `bases`, and where free run is far off what is found in short windows: there first, once it
+    has lost the motion. With it all that was found in windows, `shot` before.
+    """
+    problem, lost, more = alone.problem, has_lost_the_motion(alone.problem, best), list[Fit]()
+    if lost:
+        more = in_windows(problem, alone.nominal, wanted, size, shot)
+    found = _beside(problem, bases, wanted, fits, known)
+    closest = min([best, *found.fits], key=lambda f: f.cost)
+    if not lost and affords_more(problem.work) and is_far_off(problem, closest):
+        more = in_windows(problem, alone.nominal, wanted, size, shot)
+    return found._replace(fits=distinct([*found.fits, *in_free_run(more, problem)])), [*shot, *more]
 
 
 def _is_worth_it(more: Sequence[Fit], best: Fit) -> bool:
@@ -175,9 +188,11 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
     if problem.drive.force:  # the rule on a machine axis: gravity, or an offset of the drive
         for offset in screen(problem, nominal, _offsets(problem)):
             fits = distinct([*fits, *screen(problem, offset, wanted)])
-    if affords_more(problem.work) and _far_off(problem, min([nominal, *fits], key=lambda f: f.cost)):
-        fits = distinct([*fits, *_by_windows(problem, nominal, wanted)])
-    return _under_own_noise(problem, nominal, fits)
+    shot: list[Fit] = []
+    if affords_more(problem.work) and has_lost_the_motion(problem, min([nominal, *fits], key=lambda f: f.cost)):
+        shot = in_windows(problem, nominal, wanted, 1)
+        fits = distinct([*fits, *in_free_run(shot, problem)])
+    return _under_own_noise(problem, nominal, fits)._replace(shot=shot)
 
 
 def _filters(problem: Problem, best: Fit) -> tuple[SensorFilter, ...]:
@@ -211,26 +226,6 @@ def _at_its_floor(problem: Problem, best: Fit) -> bool:
     own, best = with_priors_weighed(with_noise_of(problem, best), best)
     again = refit(best, own, share=one_stage(own.work))
     return statistics(own, again).at_the_floor
-
-
-def _far_off(problem: Problem, best: Fit) -> bool:
-    """Whether free run has lost the motion, so that its error no longer says where the fit should go."""
-    turning = all(r.angle.size and not r.restart_every for r in problem.runs)
-    if not turning or problem.drive.coefficients:
-        return False
-    errors = join(problem, problem.residuals(best.vector, best.active))
-    if statistics_of(errors).variance <= FAR_OFF:
-        return False
-    signals = join(problem, [{s: r.signal(s) for s in r.recorded} for r in problem.runs])
-    return any(np.sqrt(np.nanmean(errors[s] ** 2)) > LARGEST_NRMSE * np.nanstd(signals[s]) for s in errors)
-
-
-def _by_windows(problem: Problem, nominal: Fit, wanted: Sequence[str]) -> list[Fit]:
-    """Every effect fitted in short windows, each from the recorded motion, and from there in free run."""
-    windows = replace(problem, runs=tuple(map(windowed, screening_part(problem, nominal).runs)))
-    windows = with_noise_of(windows, refit(nominal, windows))
-    fits = screen(windows, refit(nominal, windows), wanted, patience=PATIENCE)
-    return refit_all(fits, problem)
 
 
 def _beside(

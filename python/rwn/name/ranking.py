@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,6 +18,7 @@ class Fits(NamedTuple):
     problem: Problem
     nominal: Fit
     fits: list[Fit]
+    shot: Sequence[Fit] = ()  # as fitted in short windows, where a free run has lost the motion
 
 
 class Pairs(NamedTuple):

@@ -1,0 +1,64 @@
+"""The search in short windows, each from the recorded motion, where a free run is far off (multiple shooting).
+
+There a free run's error does not say where a fit should go: a shaft that sticks and slips is soon elsewhere, whatever
+is missing. Explanations are built up in windows, effect by effect, and each is then fitted to the free run, by which
+alone they are judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rwn.fit.fit import Fit, best_few, refit, refit_all
+from rwn.fit.noise import with_noise_of
+from rwn.fit.part import screening_part
+from rwn.fit.problem import Problem
+from rwn.fit.residuals import join, statistics
+from rwn.name.screening import screen
+from rwn.simulate.run import windowed
+
+FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free run follows the motion
+LARGEST_NRMSE = 0.2  # rms error of a signal, as a share of its spread, up to which a free run follows the motion
+PATIENCE = 4  # factor on the iterations in short windows: the first steps of a fit are short where the misfit is large
+
+
+def is_far_off(problem: Problem, best: Fit) -> bool:
+    """Whether a free run is so far off that its fit may have ended elsewhere than where its error is least."""
+    turning = all(r.angle.size and not r.restart_every for r in problem.runs)
+    return turning and not problem.drive.coefficients and statistics(problem, best).variance > FAR_OFF
+
+
+def has_lost_the_motion(problem: Problem, best: Fit) -> bool:
+    """Whether it is off by more than what is seen of the motion at a glance."""
+    if not is_far_off(problem, best):
+        return False
+    errors = join(problem, problem.residuals(best.vector, best.active))
+    signals = join(problem, [{s: r.signal(s) for s in r.recorded} for r in problem.runs])
+    return any(np.sqrt(np.nanmean(errors[s] ** 2)) > LARGEST_NRMSE * np.nanstd(signals[s]) for s in errors)
+
+
+def in_windows(
+    problem: Problem, nominal: Fit, wanted: Sequence[str], size: int, known: Sequence[Fit] = ()
+) -> list[Fit]:
+    """Explanations by up to `size` effects fitted in short windows: every effect beside the best by one fewer.
+
+    `known`: those by fewer effects that were found so already, which are not found again.
+    """
+    windows = replace(problem, runs=tuple(map(windowed, screening_part(problem, nominal).runs)))
+    found: list[Fit] = []
+    for fewer in range(max((len(f.added) for f in known), default=0), size):
+        base = min((f for f in (nominal, *known, *found) if len(f.added) == fewer), key=lambda f: f.cost, default=None)
+        if base is None:
+            break
+        windows = with_noise_of(windows, refit(base, windows))
+        found += screen(windows, refit(base, windows), wanted, patience=PATIENCE)
+    return found
+
+
+def in_free_run(found: Sequence[Fit], problem: Problem) -> list[Fit]:
+    """The best by each number of effects, of what was found in windows, fitted to the free run."""
+    sizes = sorted({len(f.added) for f in found})
+    return [again for n in sizes for again in refit_all(best_few([f for f in found if len(f.added) == n]), problem)]
