@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 import rwn
+from rwn.faults.explain import _asked_again
 from rwn.faults.fault import Fault, without
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered, retimed
 from rwn.fit.fit import fit, fit_nominal
@@ -21,10 +25,12 @@ MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous
 STEPS = np.repeat(3.0 * np.random.default_rng(8).uniform(-1.0, 1.0, 60), 50)
 
 
-def _run(voltage: np.ndarray, off: int, *, friction: float = 0.0) -> rwn.Recording:
+def _run(
+    voltage: np.ndarray, off: int, *, friction: float = 0.0, effects: Mapping[str, Mapping[str, float]] | None = None
+) -> rwn.Recording:
     """Noisy speed of a drive whose power comes `off` samples after the recording begins."""
     time = 1e-3 * np.arange(voltage.size)
-    truth = Model(kind="dc", parameters=MOTOR, effects={"coulomb-friction": {"coulomb_torque": friction}})
+    truth = Model(kind="dc", parameters=MOTOR, effects=effects or {"coulomb-friction": {"coulomb_torque": friction}})
     acting = np.where(np.arange(voltage.size) < off, 0.0, voltage)
     speed = rwn.simulate(truth, rwn.Recording(name="run", time=time, signals={"voltage": acting})).signals["speed"]
     noisy = speed + 0.1 * np.random.default_rng(9).standard_normal(time.size)
@@ -227,3 +233,22 @@ def test_a_drive_that_never_got_power_stands_still_to_the_end() -> None:
     (late,) = late_enables(recordings, MODEL)
     assert late.place == 1
     assert late.samples > 0.9 * STEPS.size
+
+
+def test_what_bends_the_motion_that_follows_does_not_move_a_late_enable() -> None:
+    """Cogging that the nominal model lacks: to turn as far it would have to begin at another time."""
+    teeth = {"cogging-torque": {"amplitude": 0.05, "periods_per_rev": 7.0, "phase": 0.0}}
+    swinging = 3.0 * np.abs(np.sin(2.0 * np.pi * np.arange(3000) / 1500.0))
+    (late,) = late_enables([_run(swinging, 130, effects=teeth)], MODEL)
+    assert late.time == pytest.approx(0.130, abs=4e-4)
+
+
+def test_a_late_enable_that_the_nominal_model_did_not_show_is_found_beside_an_explanation() -> None:
+    recordings = [_run(STEPS, 0), _run(STEPS, 130)]
+    explanation: Any = SimpleNamespace(fit=fit_nominal(prepare(recordings[:1], MODEL)))
+    left: Any = SimpleNamespace(at_the_floor=False)
+    ranking: Any = SimpleNamespace(problem=prepare(recordings, MODEL), fits=[explanation], left=left)
+    (late,) = _asked_again(recordings, MODEL, (), MODEL, (), ranking).late
+    assert (late.place, late.samples) == (1, pytest.approx(130, abs=2))
+    known = LateEnable(place=1, recording="run", samples=130, time=0.130)
+    assert len(_asked_again(recordings, MODEL, (known,), MODEL, (), ranking).late) == 1

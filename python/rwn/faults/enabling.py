@@ -11,7 +11,7 @@ from rwn.fit.fit import NEAR_ITS_END, Fit, refit
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
-from rwn.simulate.run import Run
+from rwn.simulate.run import Run, windowed
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,11 @@ def _acting(steps: Array, time: float) -> Array:
 
 @dataclass(frozen=True)
 class Beginning:
-    """A recording until twice the time that it stood still, and a fit that would move under its input."""
+    """A recording until twice the time that it stood still, and a fit that would move under its input.
+
+    Simulated in short windows from the recorded motion: what is missing of the motion that follows says nothing of when
+    it began.
+    """
 
     problem: Problem
     this: Fit
@@ -70,7 +74,7 @@ class Beginning:
         return refit(self.this, self._with_power_from(time), iterations=NEAR_ITS_END).cost
 
     def _with_power_from(self, time: float) -> Problem:
-        return replace(self.problem, runs=(run_powered_from(time, self.run).until(2 * self.samples),))
+        return replace(self.problem, runs=(windowed(run_powered_from(time, self.run).until(2 * self.samples)),))
 
     def enabling_time(self) -> float:
         """When power came [s]: where the fit errs least."""

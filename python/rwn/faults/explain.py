@@ -9,7 +9,7 @@ from typing import NamedTuple
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.delay import shift_instead
 from rwn.faults.fault import Fault, without, without_all
-from rwn.faults.late_enable import LateEnable, needed, powered, retimed
+from rwn.faults.late_enable import LateEnable, late_under, powered
 from rwn.faults.resolve import resolved
 from rwn.faults.uneven_files import uneven_files
 from rwn.fit.filter_colour import SensorFilter
@@ -125,8 +125,7 @@ def _asked_again(
     """How the recordings came about, as the best explanation that was found has it."""
     best = ranking.fits[0].fit
     right = without_all(recordings, faults)
-    still = needed(late, right, stated, ranking.problem, best)
-    still = retimed(still, right, stated, ranking.problem, best)
+    still = late_under(late, right, stated, ranking.problem, best)
     known = _filters(ranking, stated)
     if stated is model or (stated.recording.intersample == HELD and ranking.left.at_the_floor):
         return _Measured(still, stated, known)

@@ -29,7 +29,7 @@ from rwn.name.observable import observable
 from rwn.name.screening import screen
 from rwn.recording.inspection import Finding
 from rwn.recording.recording import Recording, beginnings
-from rwn.simulate.run import Run, run_of
+from rwn.simulate.run import Run, run_of, windowed
 
 Array = NDArray[np.float64]
 
@@ -67,7 +67,7 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
 
 
 def late_beside(recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit) -> tuple[LateEnable, ...]:
-    """What stood still, of recordings that were not fitted, where an explanation `this` of others would have moved.
+    """What stood still where an explanation `this`, of these recordings or of others, would have moved.
 
     A friction that is a little more on that day holds a drive too: with a late enable the recording is far likelier
     also where the explanation is fitted to it alone.
@@ -98,6 +98,16 @@ def powered(recordings: Sequence[Recording], found: Sequence[LateEnable], model:
     """The recordings with no input where they had no power."""
     times = {late.place: late.time for late in found}
     return [powered_from(times.get(k, 0.0), r, model) for k, r in enumerate(recordings)]
+
+
+def late_under(
+    found: Sequence[LateEnable], recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit
+) -> tuple[LateEnable, ...]:
+    """Those of `found` that an explanation needs, at the times that it asks for, and what it alone shows."""
+    still = retimed(needed(found, recordings, model, problem, this), recordings, model, problem, this)
+    known = {late.place for late in still}
+    shown = (late for late in late_beside(recordings, model, problem, this) if late.place not in known)
+    return tuple(sorted((*still, *shown), key=attrgetter("place")))
 
 
 def needed(
@@ -156,10 +166,11 @@ def _worthwhile(
     that.
     """
     weighted, _ = nominal_of(beginnings(powered(recordings, found, model)), model)
+    weighted = _in_windows(weighted)
     waits = [_waiting_time(recordings[late.place], late, model) for late in found]
 
     def best(kept: Sequence[LateEnable]) -> Fit:
-        on = prepare(beginnings(powered(recordings, kept, model)), model)
+        on = _in_windows(prepare(beginnings(powered(recordings, kept, model)), model))
         return _best_held(replace(on, noise=weighted.noise, colour=weighted.colour), waits)
 
     this = best(found)
@@ -172,6 +183,11 @@ def _worthwhile(
             break
         found, this = tuple(late for late in found if late != least), others[least]
     return found
+
+
+def _in_windows(problem: Problem) -> Problem:
+    """In which a motion that another effect bends is not taken for one that began at another time."""
+    return replace(problem, runs=tuple(map(windowed, problem.runs)))
 
 
 def _best_held(problem: Problem, waits: Sequence[float]) -> Fit:

@@ -278,7 +278,12 @@ def measured_alike(runs: Sequence[Run], known: Sequence[Run]) -> list[Run]:
 
 
 def windowed(run: Run, length: int = WINDOW) -> Run:
-    """The same recording in windows of `length` samples, each starting from the smoothed recorded motion."""
+    """The same recording in windows of `length` samples, each starting from the smoothed recorded motion.
+
+    As it is where no motion was recorded, or it has windows already.
+    """
+    if not run.angle.size or run.restart_every:
+        return run
     speed, position = run.motion()[0], run.angle
     return replace(
         run,
