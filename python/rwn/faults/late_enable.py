@@ -29,7 +29,7 @@ from rwn.name.observable import observable
 from rwn.name.screening import screen
 from rwn.recording.inspection import Finding
 from rwn.recording.recording import Recording, beginnings
-from rwn.simulate.run import Run, run_of, windowed
+from rwn.simulate.run import Run, run_of
 
 Array = NDArray[np.float64]
 
@@ -66,8 +66,10 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
     return _worthwhile(found, recordings, model) if found else ()
 
 
-def late_beside(recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit) -> tuple[LateEnable, ...]:
-    """What stood still where an explanation `this`, of these recordings or of others, would have moved.
+def late_beside(
+    recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit, *, known: Sequence[LateEnable] = ()
+) -> tuple[LateEnable, ...]:
+    """What stood still where an explanation, of these recordings or of others, would have moved; not what is `known`.
 
     A friction that is a little more on that day holds a drive too: with a late enable the recording is far likelier
     also where the explanation is fitted to it alone.
@@ -75,17 +77,18 @@ def late_beside(recordings: Sequence[Recording], model: Model, problem: Problem,
     if model.drive.coefficients:
         return ()
     runs, enough = [run_of(r, model) for r in recordings], 2.0 * worth(problem, this) * DECISIVE
-    found = _enabled_late(recordings, model, problem, this, runs)
+    found = _enabled_late(recordings, model, problem, this, runs, known=known)
     each = {late: _beginning(problem, this, recordings[late.place], model, runs[late.place]) for late in found}
     return tuple(late for late, of in each.items() if of.cost(0.0) - of.cost(late.time) > enough)
 
 
 def _enabled_late(
-    recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit, runs: Sequence[Run]
-) -> tuple[LateEnable, ...]:
-    found = []
+    recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit, runs: Sequence[Run], *,
+    known: Sequence[LateEnable] = (),
+) -> tuple[LateEnable, ...]:  # fmt: skip
+    found, places = [], {late.place for late in known}
     for k, (recording, run) in enumerate(zip(recordings, runs, strict=True)):
-        samples = _standing_samples(recording, model)
+        samples = 0 if k in places else _standing_samples(recording, model)
         if samples and _would_move(problem, this, recording, model, run, samples):
             time = _beginning(problem, this, recording, model, run).enabling_time()
             late = _enabled_at(time, k, recording)
@@ -105,8 +108,7 @@ def late_under(
 ) -> tuple[LateEnable, ...]:
     """Those of `found` that an explanation needs, at the times that it asks for, and what it alone shows."""
     still = retimed(needed(found, recordings, model, problem, this), recordings, model, problem, this)
-    known = {late.place for late in still}
-    shown = (late for late in late_beside(recordings, model, problem, this) if late.place not in known)
+    shown = late_beside(recordings, model, problem, this, known=still)
     return tuple(sorted((*still, *shown), key=attrgetter("place")))
 
 
@@ -163,14 +165,13 @@ def _worthwhile(
 
     Each is a number of its own. With it and without, the same effects may act beside the nominal model; errors count as
     what the best leaves is worth while the drives stand still and begin to move: what is missing later says nothing of
-    that.
+    that, nor what bends the motion, in short windows from the recorded one.
     """
-    weighted, _ = nominal_of(beginnings(powered(recordings, found, model)), model)
-    weighted = _in_windows(weighted)
+    weighted = nominal_of(beginnings(powered(recordings, found, model)), model)[0].in_windows()
     waits = [_waiting_time(recordings[late.place], late, model) for late in found]
 
     def best(kept: Sequence[LateEnable]) -> Fit:
-        on = _in_windows(prepare(beginnings(powered(recordings, kept, model)), model))
+        on = prepare(beginnings(powered(recordings, kept, model)), model).in_windows()
         return _best_held(replace(on, noise=weighted.noise, colour=weighted.colour), waits)
 
     this = best(found)
@@ -183,11 +184,6 @@ def _worthwhile(
             break
         found, this = tuple(late for late in found if late != least), others[least]
     return found
-
-
-def _in_windows(problem: Problem) -> Problem:
-    """In which a motion that another effect bends is not taken for one that began at another time."""
-    return replace(problem, runs=tuple(map(windowed, problem.runs)))
 
 
 def _best_held(problem: Problem, waits: Sequence[float]) -> Fit:

@@ -18,7 +18,7 @@ from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
-from rwn.simulate.run import Run
+from rwn.simulate.run import Run, windowed
 from rwn.simulate.simulator import Output, Simulator
 
 Array = NDArray[np.float64]
@@ -62,6 +62,10 @@ class Problem:
     def in_free_run(self) -> Problem:
         """The same over whole recordings as they were recorded."""
         return replace(self, runs=self.whole)
+
+    def in_windows(self) -> Problem:
+        """The same in short windows, each from the recorded motion."""
+        return replace(self, runs=tuple(map(windowed, self.runs)))
 
     def on(self, runs: Sequence[Run]) -> Problem:
         """The same on other recordings, simulated from their input alone."""

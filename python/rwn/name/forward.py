@@ -25,10 +25,10 @@ from rwn.fit.secant import all_down_secants
 from rwn.fit.sensor_filter import refitted_beside, sensor_filters
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.degenerate import adds
+from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Fits, Pairs, Ranking
 from rwn.name.screening import screen
-from rwn.name.shooting import has_lost_the_motion, in_free_run, in_windows, is_far_off
 from rwn.name.uneven import uneven_beside
 from rwn.name.weights import weigh
 
@@ -113,7 +113,7 @@ def _grown(
     """
     problem = alone.problem
     best, left = _best_of(problem, [alone.nominal, *fits])
-    bases, shot = _diverse([f for f in fits if adds(f, problem)]), alone.shot
+    bases, windowed = _diverse([f for f in fits if adds(f, problem)]), alone.windowed
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     for size in range(2, at_once + 1):
         if complete:
@@ -121,7 +121,9 @@ def _grown(
         known = pairs if size == 2 else NO_PAIRS
         renew(problem.work, begun)
         progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
-        found, shot = _beside_and_in_windows(alone, best, bases, wanted, fits, known, size=size, shot=shot)
+        found, windowed = _beside_and_in_windows(
+            alone, best, bases, wanted, fits, known, size=size, windowed=windowed
+        )  # fmt: skip
         more, pairs = found.fits, found if size == 2 else pairs
         cut_short = size if found.cut_short else 0
         complete = not _is_worth_it(more, best)
@@ -136,19 +138,22 @@ def _grown(
 
 def _beside_and_in_windows(
     alone: Fits, best: Fit, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Pairs, *,
-    size: int, shot: Sequence[Fit],
+    size: int, windowed: Sequence[Fit],
 ) -> tuple[Pairs, Sequence[Fit]]:  # fmt: skip
-    """What helps beside `bases`, and where free run is far off what is found in short windows: there first, once it
-    has lost the motion. With it all that was found in windows, `shot` before.
+    """What helps beside `bases`, with what is found in short windows where a free run is far off.
+
+    In windows first once free run has lost the motion, since it finds nothing then and would use up what a search may
+    cost; else where free run has found nothing near. Returned with it is all that was found in windows, before too.
     """
-    problem, lost, more = alone.problem, has_lost_the_motion(alone.problem, best), list[Fit]()
+    problem, more = alone.problem, list[Fit]()
+    lost = has_lost_the_motion(problem, best)
     if lost:
-        more = in_windows(problem, alone.nominal, wanted, size, shot)
+        more = fitted_in_windows(problem, alone.nominal, wanted, size, windowed)
     found = _beside(problem, bases, wanted, fits, known)
     closest = min([best, *found.fits], key=lambda f: f.cost)
     if not lost and affords_more(problem.work) and is_far_off(problem, closest):
-        more = in_windows(problem, alone.nominal, wanted, size, shot)
-    return found._replace(fits=distinct([*found.fits, *in_free_run(more, problem)])), [*shot, *more]
+        more = fitted_in_windows(problem, alone.nominal, wanted, size, windowed)
+    return found._replace(fits=distinct([*found.fits, *fitted_to_free_run(more, problem)])), [*windowed, *more]
 
 
 def _is_worth_it(more: Sequence[Fit], best: Fit) -> bool:
@@ -188,11 +193,11 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
     if problem.drive.force:  # the rule on a machine axis: gravity, or an offset of the drive
         for offset in screen(problem, nominal, _offsets(problem)):
             fits = distinct([*fits, *screen(problem, offset, wanted)])
-    shot: list[Fit] = []
+    windowed: list[Fit] = []
     if affords_more(problem.work) and has_lost_the_motion(problem, min([nominal, *fits], key=lambda f: f.cost)):
-        shot = in_windows(problem, nominal, wanted, 1)
-        fits = distinct([*fits, *in_free_run(shot, problem)])
-    return _under_own_noise(problem, nominal, fits)._replace(shot=shot)
+        windowed = fitted_in_windows(problem, nominal, wanted, 1)
+        fits = distinct([*fits, *fitted_to_free_run(windowed, problem)])
+    return _under_own_noise(problem, nominal, fits)._replace(windowed=windowed)
 
 
 def _filters(problem: Problem, best: Fit) -> tuple[SensorFilter, ...]:

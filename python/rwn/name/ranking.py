@@ -18,11 +18,11 @@ class Fits(NamedTuple):
     problem: Problem
     nominal: Fit
     fits: list[Fit]
-    shot: Sequence[Fit] = ()  # as fitted in short windows, where a free run has lost the motion
+    windowed: Sequence[Fit] = ()  # as fitted in short windows, where a free run has lost the motion
 
 
 class Pairs(NamedTuple):
-    """Explanations with one effect more than those that they were built on."""
+    """Explanations with one effect more than those that they were built on, and by fewer that windows showed."""
 
     fits: list[Fit]
     tried: frozenset[tuple[tuple[str, ...], str]]  # what was added to what

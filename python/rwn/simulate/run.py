@@ -107,6 +107,11 @@ class Run:
         return INITIAL_POSITION in self.start_spread and not self.position.size
 
     @property
+    def can_restart(self) -> bool:
+        """Whether its motion was recorded and it is not in windows already."""
+        return bool(self.angle.size) and not self.restart_every
+
+    @property
     def followed(self) -> Array:
         """The position that angle-dependent effects follow; empty: the simulated one."""
         return self.angle if self.follows else _NONE
@@ -280,9 +285,9 @@ def measured_alike(runs: Sequence[Run], known: Sequence[Run]) -> list[Run]:
 def windowed(run: Run, length: int = WINDOW) -> Run:
     """The same recording in windows of `length` samples, each starting from the smoothed recorded motion.
 
-    As it is where no motion was recorded, or it has windows already.
+    As it is where that cannot be (`can_restart`).
     """
-    if not run.angle.size or run.restart_every:
+    if not run.can_restart:
         return run
     speed, position = run.motion()[0], run.angle
     return replace(

@@ -8,7 +8,6 @@ alone they are judged.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -18,7 +17,6 @@ from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import join, statistics
 from rwn.name.screening import screen
-from rwn.simulate.run import windowed
 
 FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free run follows the motion
 LARGEST_NRMSE = 0.2  # rms error of a signal, as a share of its spread, up to which a free run follows the motion
@@ -27,12 +25,12 @@ PATIENCE = 4  # factor on the iterations in short windows: the first steps of a 
 
 def is_far_off(problem: Problem, best: Fit) -> bool:
     """Whether a free run is so far off that its fit may have ended elsewhere than where its error is least."""
-    turning = all(r.angle.size and not r.restart_every for r in problem.runs)
-    return turning and not problem.drive.coefficients and statistics(problem, best).variance > FAR_OFF
+    in_one = all(r.can_restart for r in problem.runs)
+    return in_one and not problem.drive.coefficients and statistics(problem, best).variance > FAR_OFF
 
 
 def has_lost_the_motion(problem: Problem, best: Fit) -> bool:
-    """Whether it is off by more than what is seen of the motion at a glance."""
+    """Whether it is, and a signal errs by a share of its spread with which it no longer follows the motion."""
     if not is_far_off(problem, best):
         return False
     errors = join(problem, problem.residuals(best.vector, best.active))
@@ -40,15 +38,14 @@ def has_lost_the_motion(problem: Problem, best: Fit) -> bool:
     return any(np.sqrt(np.nanmean(errors[s] ** 2)) > LARGEST_NRMSE * np.nanstd(signals[s]) for s in errors)
 
 
-def in_windows(
+def fitted_in_windows(
     problem: Problem, nominal: Fit, wanted: Sequence[str], size: int, known: Sequence[Fit] = ()
 ) -> list[Fit]:
-    """Explanations by up to `size` effects fitted in short windows: every effect beside the best by one fewer.
+    """Explanations by up to `size` effects, fitted in short windows: every effect beside the best by one fewer.
 
-    `known`: those by fewer effects that were found so already, which are not found again.
+    `known`: those by fewer effects that were found so already; they are not among what is returned.
     """
-    windows = replace(problem, runs=tuple(map(windowed, screening_part(problem, nominal).runs)))
-    found: list[Fit] = []
+    windows, found = screening_part(problem, nominal).in_windows(), list[Fit]()
     for fewer in range(max((len(f.added) for f in known), default=0), size):
         base = min((f for f in (nominal, *known, *found) if len(f.added) == fewer), key=lambda f: f.cost, default=None)
         if base is None:
@@ -58,7 +55,7 @@ def in_windows(
     return found
 
 
-def in_free_run(found: Sequence[Fit], problem: Problem) -> list[Fit]:
+def fitted_to_free_run(found: Sequence[Fit], problem: Problem) -> list[Fit]:
     """The best by each number of effects, of what was found in windows, fitted to the free run."""
     sizes = sorted({len(f.added) for f in found})
     return [again for n in sizes for again in refit_all(best_few([f for f in found if len(f.added) == n]), problem)]
