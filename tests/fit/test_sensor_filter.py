@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
+from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.known_filters import filtered, known_filters
@@ -16,7 +17,8 @@ from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
-from rwn.fit.sensor_filter import refitted_beside, sensor_filters
+from rwn.fit.refitting import refitted_beside
+from rwn.fit.sensor_filter import filters_again, sensor_filters
 from rwn.model.model import Model
 from rwn.recording.filters import as_filtered
 
@@ -161,6 +163,23 @@ def test_explanations_by_several_effects_go_on_beside_a_filter() -> None:
         (again,) = refitted_beside([before], filtered(problem, sensor_filters(problem, plain)))
         assert again.added == ("coulomb-friction",)
         assert again.hypothesis.effects == (*measured, "coulomb-friction")
+
+
+def test_a_filter_that_was_told_beside_too_little_physics_is_told_anew() -> None:
+    """A friction that is missing makes the filter another one; beside the friction the right one is far likelier."""
+    problem = _problem(0.6, friction=4e-3)
+    right, wrong = (
+        SensorFilter(signal="speed", share=share, time_constant=-STEP / np.log(share), digital=True)
+        for share in (0.6, 0.4)
+    )
+    under = weighted_by_nominal(filtered(problem, [wrong]))[0]
+    rubbed = fit(under, hypothesis(problem.prior, ("coulomb-friction", "speed-sensor-lag"), problem.scales))
+    (found,) = filters_again(problem, rubbed, (wrong,))
+    assert found.digital
+    assert found.share == pytest.approx(0.6, abs=0.02)
+    under = weighted_by_nominal(filtered(problem, [right]))[0]
+    rubbed = fit(under, hypothesis(problem.prior, ("coulomb-friction",), problem.scales))
+    assert filters_again(problem, rubbed, (right,)) == (right,)
 
 
 def test_filters_of_two_signals_are_told_beside_a_late_input_and_a_start_from_rest() -> None:

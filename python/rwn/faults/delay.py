@@ -23,8 +23,8 @@ from rwn.fit.noise import with_noise_of
 from rwn.fit.part import screening_part
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.fit.refitting import refitted_beside
 from rwn.fit.residuals import variance
-from rwn.fit.sensor_filter import refitted_beside
 from rwn.model.model import Model
 from rwn.model.recordings import LONGEST_SHIFT
 from rwn.name.ranking import Ranking

@@ -18,8 +18,8 @@ from rwn.fit.intersample import likeliest_with_filters, stating, with_intersampl
 from rwn.fit.known_filters import filtered, known_filters, stating_filters
 from rwn.fit.likelihood import is_decisive, log_posterior
 from rwn.fit.preparation import prepare
+from rwn.fit.refitting import refitted_beside
 from rwn.fit.residuals import statistics
-from rwn.fit.sensor_filter import refitted_beside
 from rwn.fit.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.name.forward import Progress
@@ -94,7 +94,7 @@ def explained(
     filters: tuple[SensorFilter, ...] = ()
     for _ in range(ASKED_AGAIN):
         asked = _asked_again(recordings, model, still, again, faults, ranking)
-        alike = (asked.late, asked.model) == (still, again)
+        alike = asked == _Measured(still, again, _filters(ranking, again))
         if alike and (faults or ranking.left.at_the_floor):
             break
         best = None if faults else ranking.fits[0].fit
@@ -131,7 +131,7 @@ def _asked_again(
         return _Measured(still, stated, known)
     bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
     law, filters = likeliest_with_filters(bare, best, stated.recording.intersample, known)
-    return _Measured(still, stating(stated, law), known if law == stated.recording.intersample else filters)
+    return _Measured(still, stating(stated, law), filters)
 
 
 def _tells_more(

@@ -25,7 +25,6 @@ from rwn.faults.gear import gear_ratio
 from rwn.faults.scale import as_gear, wrong_scale
 from rwn.fit.budget import affords_more, meter
 from rwn.fit.filter_colour import SensorFilter
-from rwn.fit.known_filters import filtered
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import MOST_EFFECTS, Progress, rank
@@ -79,8 +78,8 @@ def resolved(
         of: Sequence[Recording], at_once: int = MOST_EFFECTS, *, names: Sequence[str] | None = None,
         after: Ranking | None = None,
     ) -> Ranking:  # fmt: skip
-        problem = filtered(prepare(of, model, work=meter(effort)), filters)
-        return rank(problem, progress=say, at_once=at_once, names=names, after=after)
+        problem = prepare(of, model, work=meter(effort))
+        return rank(problem, progress=say, at_once=at_once, names=names, after=after, filters=filters)
 
     if model.drive.coefficients:  # its gain is in no unit that could be doubted
         return [], ranking(recordings)

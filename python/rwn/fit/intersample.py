@@ -13,11 +13,11 @@ from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import NEAR_ITS_END, Fit, refit
 from rwn.fit.known_filters import filtered
 from rwn.fit.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
-from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
+from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import LEVEL, loss_gained, statistics
-from rwn.fit.sensor_filter import filters_and_likelihood, losses_beside, losses_of, refitted_beside
+from rwn.fit.sensor_filter import filters_and_likelihood, losses_beside, losses_of
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
@@ -75,8 +75,8 @@ def likeliest_with_filters(
     if known:
         asked |= _leading(_all_explained(explanation, {law: filtered(p, known) for law, p in candidates.items()}))
     if len(asked) == 1:
-        return HELD, ()
-    found = {law: filters_and_likelihood(*refitted[law]) for law in sorted(asked)}
+        return HELD, tuple(known)
+    found = {law: filters_and_likelihood(*refitted[law], known) for law in sorted(asked)}
     filters = {law: of_law for law, (of_law, _) in found.items()}
     law = _chosen(refitted, {law: likelihood for law, (_, likelihood) in found.items()}, filters)
     return law, filters[law]
@@ -110,7 +110,7 @@ def _chosen(
 
 
 def _all_explained(explanation: Fit, under: Mapping[str, Problem]) -> dict[str, tuple[Problem, Fit]]:
-    found = side_by_side(lambda p: _explained(explanation, p), under.values())
+    found = side_by_side(lambda p: under_own_noise(explanation, p), under.values())
     return dict(zip(under, found, strict=True))
 
 
@@ -123,13 +123,6 @@ def _leading(refitted: Mapping[str, tuple[Problem, Fit]]) -> set[str]:
         return float(np.mean(losses_of(replace(problem, noise=noise), this)))
 
     return {max(refitted, key=lambda law: log_posterior(*refitted[law])), min(refitted, key=error)}
-
-
-def _explained(explanation: Fit, problem: Problem) -> tuple[Problem, Fit]:
-    """The problem weighted by what an explanation leaves of it, and the explanation fitted to that."""
-    (this,) = refitted_beside([explanation], problem)
-    problem = with_noise_of(problem, this)
-    return problem, refit(this, problem, iterations=NEAR_ITS_END)
 
 
 def _candidates(problem: Problem) -> dict[str, Problem]:

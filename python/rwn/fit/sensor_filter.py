@@ -12,15 +12,16 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.budget import one_stage, shares_by_rank
+from rwn.fit.budget import one_stage
 from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.known_filters import filtered, share_kept, undone
-from rwn.fit.likelihood import DECISIVE, log_posterior
+from rwn.fit.likelihood import DECISIVE, is_decisive, log_posterior
 from rwn.fit.part import screening_part
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
+from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, losses, statistics
 from rwn.model.vocabulary import analog_filters
 from rwn.parallel import side_by_side
@@ -39,8 +40,19 @@ def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
     return filters_and_likelihood(problem, this)[0]
 
 
-def filters_and_likelihood(problem: Problem, this: Fit) -> tuple[tuple[SensorFilter, ...], float]:
-    """The same, and how likely the recordings are by the explanation that goes best with these (log, BIC)."""
+def filters_again(problem: Problem, explanation: Fit, known: Sequence[SensorFilter]) -> tuple[SensorFilter, ...]:
+    """The filters beside an explanation that was found under those that are `known`, which the problem is without."""
+    bare, this = under_own_noise(explanation, problem)
+    return filters_and_likelihood(bare, this, known)[0]
+
+
+def filters_and_likelihood(
+    problem: Problem, this: Fit, known: Sequence[SensorFilter] = ()
+) -> tuple[tuple[SensorFilter, ...], float]:
+    """The same, and how likely the recordings are by the explanation that goes best with these (log, BIC).
+
+    `known`: filters under which the explanation was found; they stay unless others are decisively likelier.
+    """
     residuals = problem.residuals(this.vector, this.active)
     seen = coloured_signals(problem, residuals)
     hidden = not seen or any(one.share >= MOST for one in seen)
@@ -48,10 +60,17 @@ def filters_and_likelihood(problem: Problem, this: Fit) -> tuple[tuple[SensorFil
         slow = _with_lags(problem, this)
         residuals = problem.residuals(slow.vector, slow.active)
         seen = coloured_signals(problem, residuals) or seen
+    seen = [*seen, *(replace(f, digital=False) for f in known if f.signal not in {s.signal for s in seen})]
     if not seen:
         return (), _likelihood(problem, this, ())
-    found = [_filters_beside(problem, base, seen, residuals) for base in _without_lags(problem, this)]
-    return max(found, key=lambda pair: pair[1])
+    found = [_filters_beside(problem, base, seen, residuals) for base in _bases(problem, this)]
+    likeliest = max(found, key=lambda pair: pair[1])
+    if known:
+        stays = _likelihood(problem, this, known)
+        on = filtered(problem, likeliest[0])
+        if not is_decisive(likeliest[1] - stays, statistics(on, _refitted(this, on))):
+            return tuple(known), stays
+    return likeliest
 
 
 def _filters_beside(
@@ -144,16 +163,16 @@ def _with_lags(problem: Problem, this: Fit) -> Fit:
     return fit(problem, begun, share=one_stage(problem.work))
 
 
-def _without_lags(problem: Problem, this: Fit) -> Iterator[Fit]:
-    """An explanation without lags of the sensors, without delays too, and the nominal model: all stand in for a filter.
+def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
+    """An explanation, without lags of the sensors, without delays too, and the nominal model.
 
-    At few samples per time constant a spring behind the motor does as well as a lag, and then a filter of samples is
-    never met beside the model that needs nothing else.
+    Any of them may stand in for a filter. At few samples per time constant a spring behind the motor does as well as a
+    lag, and then a filter of samples is never met beside the model that needs nothing else.
     """
     table = problem.prior.table
     without_lags = tuple(name for name in this.added if not table[name].filters)
     without_ends = tuple(name for name in without_lags if not table[name].at_an_end)
-    for kept in dict.fromkeys((without_lags, without_ends, ())):
+    for kept in dict.fromkeys((this.added, without_lags, without_ends, ())):
         if kept == this.added:
             yield this
             continue
@@ -250,18 +269,3 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter:
     around = [tried[[max(k - 1, 0), min(k + 1, SHARES - 1)]] for k in dips[np.argsort(scores[dips])][:DIPS]]
     _, logarithm = min(side_by_side(refined, around))
     return _of_time(problem, replace(seen, digital=True), float(np.exp(logarithm)))
-
-
-def refitted_beside(known: Sequence[Fit], problem: Problem) -> list[Fit]:
-    """Explanations refitted beside the filters that `problem` fits or that are undone, which are no part of them."""
-    undone = {lag.name for s, lag in analog_filters(problem.prior.table).items() if s in problem.filters}
-    measured = {n.effect for n in problem.prior.nuisance} | undone
-
-    def again(pair: tuple[Fit, float]) -> Fit:
-        this, share = pair
-        added = tuple(n for n in this.added if n not in measured)
-        starts = {n: this.values_of(n) for n in added}
-        return fit(problem, hypothesis(problem.prior, added, problem.scales, starts, this.motor), share=share)
-
-    shares = shares_by_rank(problem.work, [this.cost for this in known])
-    return side_by_side(again, list(zip(known, shares, strict=True)))

@@ -20,7 +20,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.known_filters import filtered
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
-from rwn.fit.sensor_filter import refitted_beside
+from rwn.fit.refitting import refitted_beside
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE, PiecewiseInput

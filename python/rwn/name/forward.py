@@ -14,22 +14,20 @@ from rwn.fit.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
 from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
-from rwn.fit.known_filters import filtered
-from rwn.fit.levels import can_differ, friction, with_levels
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
+from rwn.fit.refitting import refitted_beside
 from rwn.fit.residuals import Statistics, statistics
 from rwn.fit.secant import all_down_secants
-from rwn.fit.sensor_filter import refitted_beside, sensor_filters
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.degenerate import adds
+from rwn.name.measurement import Measurement
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Fits, Pairs, Ranking
 from rwn.name.screening import screen
-from rwn.name.uneven import uneven_beside
 from rwn.name.weights import weigh
 
 Progress = Callable[[str, float], None]
@@ -51,15 +49,25 @@ class _Grown(NamedTuple):
 
 def rank(
     problem: Problem, *, progress: Progress, names: Sequence[str] | None = None, at_once: int = MOST_EFFECTS,
-    after: Ranking | None = None, known: Sequence[Fit] = (),
+    after: Ranking | None = None, filters: Sequence[SensorFilter] = (),
 ) -> Ranking:  # fmt: skip
     """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most.
 
     `names`: of the effects that are tried; such a ranking is for comparison, simpler explanations than its best are
-    not. `after`: a ranking of the same recordings by fewer effects, or by some of them, to go on from. `known`:
-    explanations by several effects that were found under another measurement.
+    not. `after`: a ranking of the same recordings by fewer effects, or by some of them, to go on from. `filters`: of
+    the sensors, that are known; the problem is without them.
     """
-    as_prepared, begun = problem, problem.work.done
+    made = Measurement(as_prepared=problem, filters=tuple(filters))
+    return _ranked(made, progress=progress, names=names, at_once=at_once, after=after)
+
+
+def _ranked(
+    made: Measurement, *, progress: Progress, names: Sequence[str] | None = None, at_once: int = MOST_EFFECTS,
+    after: Ranking | None = None, known: Sequence[Fit] = (),
+) -> Ranking:  # fmt: skip
+    """The same. `known`: explanations by several effects that were found under another measurement."""
+    problem = made.problem
+    begun = problem.work.done
     wanted = [n for n in names or problem.prior.table if observable(n, problem)]
     alone = after.alone if after else _each_alone(problem, wanted, progress)
     problem, nominal, fits = alone.problem, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
@@ -70,21 +78,22 @@ def rank(
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
         problem, nominal, fits, _ = _under_own_noise(problem, nominal, fits)
-    measured = _measured(as_prepared, problem, min([nominal, *fits], key=lambda f: f.cost), at_once)
+    best = min([nominal, *fits], key=lambda f: f.cost)
+    measured = made.otherwise(problem, best, completely=at_once == MOST_EFFECTS)
     if measured:  # otherwise than thought, beside whatever is missing
         renew(problem.work, begun)
-        alone_again = rank(measured, progress=progress, at_once=1)
+        alone_again = _ranked(measured, progress=progress, at_once=1)
         if names is None and at_once == 1:
             return alone_again
         renew(problem.work, begun)
         several = [f for f in best_few(fits) if len(f.added) > 1]  # what a second search may not afford to find
-        return rank(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
+        return _ranked(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
     fits = with_simpler(problem, nominal, fits) if names is None else fits
     at_a_limit = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not f.limits_met and adds(f, problem)]
     best, left = _best_of(problem, [nominal, *fits])
     weighted, finals, counted = final_fits(problem, [nominal, *fits], left)
-    ranked = weigh([nominal, *fits], counted, rivals=len(wanted), prior=_prior(as_prepared), finals=finals)
+    ranked = weigh([nominal, *fits], counted, rivals=len(wanted), prior=_prior(problem), finals=finals)
     # disturbances are no account of what the nominal model lacks: it is shown as plainly fitted
     ranked = [r if r.added else replace(r, final=nominal) for r in ranked]
     return Ranking(
@@ -161,17 +170,6 @@ def _is_worth_it(more: Sequence[Fit], best: Fit) -> bool:
     return any(f.cost <= (1.0 - WORTH) * best.cost for f in more)
 
 
-def _measured(as_prepared: Problem, problem: Problem, best: Fit, at_once: int) -> Problem | None:
-    """The recordings with what the best explanation shows of how they were made; None: nothing that is not known."""
-    filters = _filters(problem, best)
-    if filters:
-        return filtered(as_prepared, filters)
-    level = friction(problem)
-    if at_once < MOST_EFFECTS or not can_differ(problem, level):
-        return None
-    return with_levels(as_prepared, level) if uneven_beside(problem, best, level).is_decisive else None
-
-
 def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:
     """The explanation that fits best, and what it leaves."""
     best = min(fits, key=lambda f: f.cost)
@@ -198,13 +196,6 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
         windowed = fitted_in_windows(problem, nominal, wanted, 1)
         fits = distinct([*fits, *fitted_to_free_run(windowed, problem)])
     return _under_own_noise(problem, nominal, fits)._replace(windowed=windowed)
-
-
-def _filters(problem: Problem, best: Fit) -> tuple[SensorFilter, ...]:
-    """Filters of the sensors that the noise shows which the best explanation leaves, where none is known yet."""
-    if problem.drive.coefficients or problem.prior.nuisance:
-        return ()
-    return sensor_filters(problem, best)
 
 
 def _made_of(this: Fit, wanted: Sequence[str]) -> bool:

@@ -1,0 +1,53 @@
+"""How recordings were made, as the best explanation of them shows it: filters of the sensors, friction by the file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from rwn.fit.filter_colour import SensorFilter
+from rwn.fit.fit import Fit
+from rwn.fit.known_filters import filtered
+from rwn.fit.levels import can_differ, friction, with_levels
+from rwn.fit.problem import Problem
+from rwn.fit.sensor_filter import filters_again, sensor_filters
+from rwn.name.uneven import uneven_beside
+
+CHANGES = 2  # times that filters which are known may be found to be others; each costs a search
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measurement:
+    """Recordings and what is known of how they were made."""
+
+    as_prepared: Problem  # without filters of the sensors
+    filters: tuple[SensorFilter, ...] = ()
+    changes: int = 0  # times that filters have turned out to be others
+
+    @property
+    def problem(self) -> Problem:
+        """What is to be explained."""
+        return filtered(self.as_prepared, self.filters)
+
+    def otherwise(self, problem: Problem, best: Fit, *, completely: bool) -> Measurement | None:
+        """The measurement that the best explanation of `problem` shows; None: this one.
+
+        `completely`: whether all is asked that several effects at once may show, not only what single ones do.
+        """
+        filters = self._filters(problem, best, completely)
+        if filters != self.filters:
+            return replace(self, filters=filters, changes=self.changes + bool(self.filters))
+        level = friction(problem)
+        if not completely or not can_differ(problem, level):
+            return None
+        uneven = uneven_beside(problem, best, level).is_decisive
+        return replace(self, as_prepared=with_levels(self.as_prepared, level)) if uneven else None
+
+    def _filters(self, problem: Problem, best: Fit, completely: bool) -> tuple[SensorFilter, ...]:
+        if problem.drive.coefficients:
+            return self.filters
+        if not self.filters:
+            return sensor_filters(problem, best)
+        if not completely or self.changes == CHANGES:
+            return self.filters
+        return filters_again(self.as_prepared, best, self.filters)
+

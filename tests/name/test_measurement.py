@@ -1,0 +1,72 @@
+"""How recordings were made is asked again of what was found."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.fit.filter_colour import SensorFilter
+from rwn.fit.fit import Fit, fit
+from rwn.fit.hypothesis import hypothesis
+from rwn.fit.nominal import weighted_by_nominal
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
+from rwn.model.model import Model
+from rwn.name.measurement import CHANGES, Measurement
+from rwn.recording.filters import as_filtered
+
+STEP, SHARE = 1e-3, 0.6
+MODEL = Model(
+    kind="dc",
+    parameters={"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
+                "inertia": 2e-5, "viscous_friction": 2e-5},
+    uncertainty={"inertia": 0.1, "viscous_friction": 0.1},
+)  # fmt: skip
+
+
+def _filter(share: float) -> SensorFilter:
+    return SensorFilter(signal="speed", share=share, time_constant=-STEP / float(np.log(share)), digital=True)
+
+
+@pytest.fixture(scope="module")
+def recorded() -> Problem:
+    """A drive with friction, whose speed and the noise of it went through a filter of samples."""
+    rng, time = np.random.default_rng(7), STEP * np.arange(4000)
+    voltage = np.repeat(3.0 * rng.uniform(-1.0, 1.0, 80), 50)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    real = replace(MODEL, effects={"coulomb-friction": {"coulomb_torque": 4e-3}})
+    speed = rwn.simulate(real, run).signals["speed"] + 0.2 * rng.standard_normal(time.size)
+    shown = as_filtered(time, speed, _filter(SHARE).time_constant)
+    return prepare([replace(run, signals={"voltage": voltage, "speed": shown})], MODEL)
+
+
+def _rubbed(made: Measurement) -> tuple[Problem, Fit]:
+    problem, _ = weighted_by_nominal(made.problem)
+    return problem, fit(problem, hypothesis(problem.prior, ("coulomb-friction",), problem.scales))
+
+
+def test_a_filter_that_is_not_known_is_asked_of_any_explanation(recorded: Problem) -> None:
+    made = Measurement(as_prepared=recorded)
+    found = made.otherwise(*_rubbed(made), completely=False)
+    assert found is not None
+    assert [f.signal for f in found.filters] == ["speed"]
+    assert found.changes == 0
+
+
+def test_a_known_filter_is_asked_again_of_a_complete_explanation(recorded: Problem) -> None:
+    made = Measurement(as_prepared=recorded, filters=(_filter(0.3),))
+    assert made.otherwise(*_rubbed(made), completely=False) is None
+    found = made.otherwise(*_rubbed(made), completely=True)
+    assert found is not None
+    (of_speed,) = found.filters
+    assert of_speed.share == pytest.approx(SHARE, abs=0.02)
+    assert found.changes == 1
+    assert found.otherwise(*_rubbed(found), completely=True) is None
+
+
+def test_filters_change_so_many_times_at_most(recorded: Problem) -> None:
+    made = Measurement(as_prepared=recorded, filters=(_filter(0.3),), changes=CHANGES)
+    assert made.otherwise(*_rubbed(made), completely=True) is None
