@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import rwn
 from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, fit_nominal
-from rwn.fit.levenberg_marquardt import FitStatus, Minimum
+from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.part import part
 from rwn.fit.preparation import prepare
@@ -17,7 +19,7 @@ from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name import screening
 from rwn.name.forward import _weighted_beforehand, rank
-from rwn.name.screening import FURTHER, MUCH_WORSE, _to_the_end, _unless_much_worse, screen
+from rwn.name.screening import FURTHER, MUCH_WORSE, _further, _to_the_end, _unless_much_worse, screen
 from rwn.name.starts import Attempt, Start, starts
 
 TRUE = {
@@ -96,59 +98,77 @@ def test_a_start_that_a_round_on_a_part_made_much_worse_goes_on_from_where_it_be
     assert _unless_much_worse([(after, before)], lagging) == [before if much_worse else after]
 
 
-ON_PART, ON_ALL = "part", "all"
-
-
 @pytest.mark.parametrize(
-    ("raced", "later", "known", "legs"),
+    ("came", "briefly", "known", "legs"),
     [
-        ((100.0, 30.0), {}, np.inf, [(ON_PART, FURTHER), (ON_ALL, TO_THE_END)]),
-        ((100.0, 90.0), {}, np.inf, [(ON_ALL, BRIEFLY)]),
-        ((1000.0, 400.0), {}, np.inf, [(ON_PART, FURTHER), (ON_ALL, TO_THE_END)]),
-        ((1000.0, 400.0), dict.fromkeys((ON_PART, ON_ALL), (400.0, 390.0)), np.inf,
-         [(ON_PART, FURTHER), (ON_ALL, BRIEFLY)]),
-        ((100.0, 90.0), {ON_ALL: (60.0, 30.0)}, np.inf, [(ON_ALL, BRIEFLY), (ON_ALL, TO_THE_END)]),
-        ((50.0, 30.0), {}, 2.0, [(ON_ALL, BRIEFLY)]),
+        ((100.0, 30.0), None, np.inf, [TO_THE_END]),
+        ((100.0, 90.0), None, np.inf, [BRIEFLY]),
+        ((1000.0, 400.0), None, np.inf, [TO_THE_END]),
+        ((100.0, 90.0), (60.0, 30.0), np.inf, [BRIEFLY, TO_THE_END]),
+        ((50.0, 30.0), None, 2.0, [BRIEFLY]),
     ],
-    ids=["near the best", "far behind", "far behind as yet, and falling", "fell no further", "not far behind on all",
-         "a better is known"],
+    ids=["near the best", "far behind", "far behind as yet, and falling", "not far behind on all", "a better is known"],
 )  # fmt: skip
-def test_a_race_goes_on_with_what_may_still_win(
-    lagging: Problem, monkeypatch: pytest.MonkeyPatch, raced: tuple[float, float],
-    later: dict[str, tuple[float, float]], known: float, legs: list[tuple[str, int]],
+def test_a_fit_goes_on_to_the_end_where_it_may_still_win(
+    lagging: Problem, monkeypatch: pytest.MonkeyPatch, came: tuple[float, float],
+    briefly: tuple[float, float] | None, known: float, legs: list[int],
 ) -> None:  # fmt: skip
-    """`raced`, `later`: first and last cost of another's legs, where the best has come to 10, as raced if not given."""
+    """`came`, `briefly`: first and last cost on the part, and of a brief leg on all if not `came`; the best has 10."""
     nominal = fit_nominal(lagging)
-    beginning = part(lagging, nominal, 100)
     best, other = (Start(name, 0.0, 0, nominal.hypothesis) for name in ("best", "other"))
-
-    def ended(minimum: Minimum) -> Fit:
-        return replace(nominal, minimum=minimum)
-
-    def done(cost: float) -> Fit:
-        return ended(replace(nominal.minimum, status=FitStatus.CONVERGED, cost=cost, first=20.0))
-
-    def under_way(costs: tuple[float, float]) -> Fit:
-        return ended(
-            replace(nominal.minimum, status=FitStatus.ITERATION_LIMIT, first=costs[0], cost=costs[1], iterations=1)
-        )
-
-    gone: list[tuple[str, int]] = []
+    gone: list[int] = []
 
     def attempt(start: Start, iterations: int, on: Problem, *, share: float) -> Attempt:
         assert share > 0.0
-        assert on is beginning or on is lagging
+        assert on is lagging
         if start is best:
-            return Attempt(start, done(10.0))
-        gone.append((ON_PART if on is beginning else ON_ALL, iterations))
-        if iterations == TO_THE_END:
-            return Attempt(start, done(raced[1]))
-        return Attempt(start, under_way(later.get(gone[-1][0], raced)))
+            return Attempt(start, _ended(nominal, (20.0, 10.0)))
+        gone.append(iterations)
+        ended = _ended if iterations == TO_THE_END else _under_way
+        return Attempt(start, ended(nominal, briefly or came))
 
     monkeypatch.setattr(screening, "_attempt", attempt)
-    attempts = [Attempt(best, done(10.0)), Attempt(other, under_way(raced))]
-    _to_the_end(lagging, attempts, beginning, best_here=known, best=known)
+    attempts = [Attempt(best, _ended(nominal, (20.0, 10.0))), Attempt(other, _under_way(nominal, came))]
+    _to_the_end(lagging, attempts, part(lagging, nominal, 100), best_here=known, best=known)
     assert gone == legs
+
+
+@pytest.mark.parametrize(("explained", "gone"), [(False, ["near", "far"]), (True, ["near"])])
+def test_until_one_leaves_but_noise_all_that_are_under_way_go_on_before_the_promising_are_chosen(
+    lagging: Problem, monkeypatch: pytest.MonkeyPatch, explained: bool, gone: list[str]
+) -> None:
+    nominal = fit_nominal(lagging)
+    best, near, far = (Start(name, 0.0, 0, nominal.hypothesis) for name in ("best", "near", "far"))
+    attempts = [
+        Attempt(best, _ended(nominal, (20.0, 10.0))),
+        Attempt(near, _under_way(nominal, (35.0, 30.0))),
+        Attempt(far, _under_way(nominal, (100.0, 90.0))),
+    ]
+    rounds: list[list[str]] = []
+
+    def go_on(these: Sequence[Start], *, iterations: int, **_: object) -> list[Attempt]:
+        assert iterations == FURTHER
+        rounds.append([s.name for s in these])
+        return [Attempt(s, _ended(nominal, (9.0, 8.0))) for s in these]
+
+    monkeypatch.setattr(screening, "_round", go_on)
+    monkeypatch.setattr(screening, "statistics", lambda *_: SimpleNamespace(at_the_floor=explained))
+    ends = _further(lagging, attempts, lagging, np.inf)
+    assert rounds == [gone]
+    assert [a.start for a in ends] == [best, near, far]
+    assert [a.cost for a in ends] == [10.0, 8.0, 90.0 if explained else 8.0]
+
+
+def _ended(this: Fit, costs: tuple[float, float]) -> Fit:
+    """A fit that converged, with first and last cost."""
+    first, cost = costs
+    return replace(this, minimum=replace(this.minimum, status=FitStatus.CONVERGED, first=first, cost=cost))
+
+
+def _under_way(this: Fit, costs: tuple[float, float]) -> Fit:
+    first, cost = costs
+    end = replace(this.minimum, status=FitStatus.ITERATION_LIMIT, first=first, cost=cost, iterations=1)
+    return replace(this, minimum=end)
 
 
 def test_the_next_leg_starts_where_the_last_one_ended_and_tries_nothing_again_that_was_refused(

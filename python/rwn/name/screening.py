@@ -34,7 +34,7 @@ from rwn.parallel import side_by_side
 
 RESOLUTION = 0.1  # changes of the cost below this decide nothing between explanations
 ITERATIONS = 4  # iterations of every start in the first round, which is made on the screening part
-FURTHER = 6  # further iterations of the promising starts in the first round
+FURTHER = 6  # iterations after these, before the promising ones are chosen
 FIRST_ROUND_SAMPLES = 2500  # of the first round of starts beside other effects; alone it is the screening part
 NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a non-smooth error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
@@ -55,8 +55,9 @@ def screen(
     first = _first_round(problem, base, [start for of_one in begun for start in of_one], keep, patience)
     attempts = _round(first, iterations=ITERATIONS * patience, on=on, problem=problem)
     here = base.cost if on is problem else refit(base, on).cost
-    attempts = distinct_ends(promising(best_of_each(attempts, keep, orders=keep), here), on.samples)
     best_here = best * here / base.cost if np.isfinite(best) else best
+    attempts = _further(problem, best_of_each(attempts, keep, orders=keep), on, best_here)
+    attempts = distinct_ends(promising(attempts, here), on.samples)
     near = _down_secants(attempts, on, here, best_here)
     ends = _given_up(problem, _to_the_end(problem, near, on, best_here=best_here, best=best))
     best_of: dict[tuple[str, ...], Fit] = {}
@@ -122,21 +123,29 @@ def _attempt(start: Start, iterations: int, on: Problem, *, share: float, roughl
     return Attempt(start.after(end), end)
 
 
+def _further(problem: Problem, attempts: Sequence[Attempt], on: Problem, best_here: float) -> list[Attempt]:
+    """Those that are under way, some iterations further: the first ones say little of where a fit ends.
+
+    Once one leaves but noise, those that are not far behind alone.
+    """
+    leading = min(attempts, key=lambda a: a.cost, default=None)
+    explained = leading is not None and statistics(on, leading.fit).at_the_floor
+    bar = far_behind(attempts, best_here)
+    again = [_under_way(a.fit) and (not explained or _goes_on(a.fit, bar)) for a in attempts]
+    begun = [a.start for a, yes in zip(attempts, again, strict=True) if yes]
+    ends = iter(_round(begun, iterations=FURTHER, on=on, problem=problem))
+    return [next(ends) if yes else a for a, yes in zip(attempts, again, strict=True)]
+
+
 def _to_the_end(
     problem: Problem, attempts: Sequence[Attempt], on: Problem, *, best_here: float, best: float
 ) -> list[Attempt]:
     """Every start fitted to all recordings, until it converges or, where it is far behind and gains little, briefly.
 
-    `attempts`: how far they came on the screening part `on`, where they go on for a while. `best_here`, `best`: the
-    least costs that are known on it and on all recordings.
+    `attempts`: how far they came on the screening part `on`. `best_here`, `best`: the least costs that are known on it
+    and on all recordings.
     """
     by_rank = partial(_by_rank, problem)
-    bar = far_behind(attempts, best_here)
-
-    def further(attempt: Attempt, share: float) -> Attempt:
-        return _attempt(attempt.start, FURTHER, on, share=share) if _goes_on(attempt.fit, bar) else attempt
-
-    attempts = by_rank(further, attempts)
     bar = far_behind(attempts, best_here)
 
     def on_all(attempt: Attempt, share: float) -> Attempt:
