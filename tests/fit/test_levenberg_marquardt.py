@@ -7,7 +7,9 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.levenberg_marquardt import DAMPING, FitStatus, Minimum, Normal, Unknown, minimise
+from rwn.fit.levenberg_marquardt import DAMPING, FitStatus, Minimum, minimise
+from rwn.fit.search_coordinates import Normal
+from rwn.fit.unknown import Unknown
 
 UNKNOWNS = tuple(Unknown(name=name, unit="", index=k, lower=-5.0, upper=5.0) for k, name in enumerate("xy"))
 
@@ -18,9 +20,7 @@ def _rosenbrock(values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArr
     return np.array([-(1.0 - x), -10.0 * (y - x * x)]), np.array([[-1.0, 0.0], [-20.0 * x, 10.0]])
 
 
-def _found(
-    *, probed: bool, doubt: int = 1, most: int = 60, roughly: bool = False
-) -> tuple[Minimum, Counter[str]]:
+def _found(*, probed: bool, doubt: int = 1, most: int = 60, roughly: bool = False) -> tuple[Minimum, Counter[str]]:
     calls: Counter[str] = Counter()
 
     def evaluate(values: NDArray[np.float64]) -> Normal:

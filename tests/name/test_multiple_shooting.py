@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.levenberg_marquardt import prior_cost
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.fit.unknown import prior_cost
 from rwn.name.forward import rank
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.ranking import Ranking

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from rwn.fit.budget import shares_by_rank
 from rwn.fit.hypothesis import OF_RUNS, Hypothesis
-from rwn.fit.levenberg_marquardt import DAMPING, Minimum, Unknown, minimise
+from rwn.fit.levenberg_marquardt import DAMPING, Minimum, minimise
 from rwn.fit.problem import CountedNormal, Problem
+from rwn.fit.unknown import Unknown
 from rwn.model.initial_state import INITIAL_POSITION
 from rwn.parallel import side_by_side
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.levenberg_marquardt import Unknown
 from rwn.fit.prior import Nuisance, Prior, RunUnknown
+from rwn.fit.unknown import Unknown
 from rwn.model.checks import bounds_beforehand
 from rwn.model.drives.drive import OneNumber
 from rwn.model.vocabulary import Effect, Parameter, motor_index, motor_parameters, parameter_vector, table
@@ -164,7 +164,14 @@ def _effect_unknown(effect: Effect, p: Parameter, prior: Prior, scales: Mapping[
         logarithmic=p.lower > 0.0 and not p.cyclic,
         prior=known if has_prior else None,
         prior_std=max(uncertain, 1e-3) if has_prior else np.inf,
+        amplitude=_amplitude(effect) if p.cyclic else "",
     )
+
+
+def _amplitude(effect: Effect) -> str:
+    """Name of the unknown that is the amplitude of the effect's oscillation; empty: it has none."""
+    strengths = [p for p in effect.parameters if p.strength and p.lower == 0.0]
+    return f"{effect.name}.{strengths[0].name}" if len(strengths) == 1 else ""
 
 
 def _declared_unknown(effect: Effect, p: Parameter, value: float, std: float) -> Unknown:

@@ -9,6 +9,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.search_coordinates import Evaluate, Normal, SearchCoordinates
+from rwn.fit.unknown import Unknown
+
 Array = NDArray[np.float64]
 
 
@@ -28,45 +31,6 @@ class FitStatus(Enum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Unknown:
-    """A parameter to be found, as a coordinate of the search."""
-
-    name: str
-    unit: str
-    index: int  # in the parameter vector
-    lower: float
-    upper: float
-    logarithmic: bool = False  # searched as its logarithm
-    prior: float | None = None
-    prior_std: float = np.inf  # relative where logarithmic or `prior` is not 0
-    tied_to: str = ""  # another logarithmic unknown that has about the same value
-    tie_std: float = np.inf  # relative standard deviation of their ratio
-    nuisance: bool = False  # of the recording, not of the drive: fitted, not reported
-    level: bool = False  # logarithm of a factor on a quantity in one recording (fit/levels.py)
-
-    def coordinate(self, value: float) -> float:
-        """Search coordinate of a value."""
-        return float(np.log(value)) if self.logarithmic else value
-
-    def value(self, coordinate: float) -> float:
-        """Value at a search coordinate."""
-        return float(np.exp(coordinate)) if self.logarithmic else coordinate
-
-
-@dataclass(frozen=True, kw_only=True)
-class Normal:
-    """Sum of squares and its normal equations by parameter *values*."""
-
-    chi2: float
-    gradient: Array  # (p) J'r
-    curvature: Array  # (p, p) J'J
-    finite: bool = True
-
-
-Evaluate = Callable[[Array], Normal]
-
-
-@dataclass(frozen=True, kw_only=True)
 class Minimum:
     """Where a fit ended."""
 
@@ -74,96 +38,11 @@ class Minimum:
     chi2: float  # sum of squared weighted errors, priors aside
     cost: float  # chi2 and priors
     first: float  # cost at the start
-    information: (
-        Array  # (p, p) J'J and priors by value: the inverse covariance for white residuals of variance 1
-    )
+    information: Array  # (p, p) J'J and priors by value: the inverse covariance for white residuals of variance 1
     data_information: Array  # (p, p) J'J without priors
     status: FitStatus
     iterations: int
     damping: float = DAMPING  # of the last step, or that the next one wants
-
-
-class _Search:
-    """The problem in search coordinates."""
-
-    def __init__(
-        self, evaluate: Evaluate, probe: Evaluate | None, unknowns: tuple[Unknown, ...], prior_scale: float
-    ) -> None:
-        self.evaluate, self.probe, self.unknowns = evaluate, probe, unknowns
-        self.logarithmic = np.array([u.logarithmic for u in unknowns], dtype=bool)
-        self.lower = np.array([u.coordinate(u.lower) for u in unknowns])
-        self.upper = np.array([u.coordinate(u.upper) for u in unknowns])
-        self.prior = np.array([u.coordinate(u.prior) if u.prior is not None else 0.0 for u in unknowns])
-        self.prior_scale = prior_scale
-        self.weight = prior_scale * np.array([_prior_weight(u) for u in unknowns])
-        self.tie = prior_scale * _ties(unknowns)
-
-    def begun(self, values: Array) -> Array:
-        """Search coordinates of values, within the bounds."""
-        within = zip(self.unknowns, values, strict=True)
-        z = np.array([u.coordinate(float(np.clip(v, u.lower, u.upper))) for u, v in within])
-        clipped: Array = np.clip(z, self.lower, self.upper)
-        return clipped
-
-    def values(self, z: Array) -> Array:
-        return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, z, 0.0)), z)
-
-    def at(self, z: Array) -> tuple[float, Normal]:
-        """Cost in search coordinates, and what it is made of."""
-        return self._priced(z, self.evaluate(self.values(z)))
-
-    def tried(self, z: Array, bar: float, *, last: bool, doubted: bool) -> tuple[float, Normal]:
-        """The same; by the error alone in the last iteration, and where the cost, in doubt, is above `bar`."""
-        if self.probe is None or not (last or doubted):
-            return self.at(z)
-        probed = self._priced(z, self.probe(self.values(z)))
-        return self.at(z) if probed[0] < bar and not last else probed
-
-    def _priced(self, z: Array, normal: Normal) -> tuple[float, Normal]:
-        large = float(np.max(np.abs(normal.curvature), initial=0.0))
-        if not normal.finite or not np.isfinite(normal.chi2) or large > 1e150:
-            return np.inf, normal
-        off = z - self.prior
-        return normal.chi2 + float(np.sum(self.weight * off**2) + z @ self.tie @ z), normal
-
-    def slopes(self, z: Array, normal: Normal) -> tuple[Array, Array]:
-        """-gradient/2 and curvature of the cost in search coordinates."""
-        slope = np.where(self.logarithmic, self.values(z), 1.0)
-        gradient = normal.gradient * slope - self.weight * (z - self.prior) - self.tie @ z
-        curvature = normal.curvature * np.outer(slope, slope) + np.diag(self.weight) + self.tie
-        return gradient, curvature
-
-    def information(self, z: Array, normal: Normal) -> Array:
-        slope = np.where(self.logarithmic, self.values(z), 1.0)
-        found: Array = normal.curvature + (np.diag(self.weight) + self.tie) / (
-            self.prior_scale * np.outer(slope, slope)
-        )
-        return found
-
-
-def _ties(unknowns: tuple[Unknown, ...]) -> Array:
-    """Curvature of the priors on ratios."""
-    names = [u.name for u in unknowns]
-    tie = np.zeros((len(names), len(names)))
-    for i, u in enumerate(unknowns):
-        if u.tied_to in names and u.logarithmic:
-            j = names.index(u.tied_to)
-            tie[np.ix_([i, j], [i, j])] += np.array([[1.0, -1.0], [-1.0, 1.0]]) / u.tie_std**2
-    return tie
-
-
-def _prior_weight(u: Unknown) -> float:
-    if u.prior is None or not np.isfinite(u.prior_std):
-        return 0.0
-    scale = u.prior_std if u.logarithmic or u.prior == 0.0 else u.prior_std * abs(u.prior)
-    return 1.0 / max(scale, 1e-12) ** 2
-
-
-def prior_cost(unknowns: tuple[Unknown, ...], values: Array) -> float:
-    """Squared deviations of values (p,) from their priors, and of tied ones from each other."""
-    z = np.array([u.coordinate(float(v)) for u, v in zip(unknowns, values, strict=True)])
-    off = z - np.array([u.coordinate(u.prior) if u.prior is not None else 0.0 for u in unknowns])
-    return float(np.sum(np.array([_prior_weight(u) for u in unknowns]) * off**2) + z @ _ties(unknowns) @ z)
 
 
 def minimise(
@@ -188,7 +67,7 @@ def minimise(
     `enough`: asked after every iteration, ends the fit as the iteration limit does. `roughly`: it may be the curvature
     before the last iteration that is returned where this limit ends the fit.
     """
-    search = _Search(evaluate, probe, unknowns, prior_scale)
+    search = SearchCoordinates(evaluate, probe, unknowns, prior_scale)
     z = search.begun(start)
     cost, normal = search.at(z)
     if not np.isfinite(cost):
@@ -229,7 +108,7 @@ def minimise(
 
 
 def _relieved(
-    search: _Search, z: Array, gradient: Array, curvature: Array, damping: float, little: float
+    search: SearchCoordinates, z: Array, gradient: Array, curvature: Array, damping: float, little: float
 ) -> tuple[Array, float, float]:
     """The step of the first lower damping that promises `little` or more, or of the least; its promise, its damping."""
     while True:
@@ -245,7 +124,7 @@ def _promise(step: Array, gradient: Array, curvature: Array) -> float:
     return float(2.0 * step @ gradient - step @ curvature @ step)
 
 
-def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
+def _step(search: SearchCoordinates, z: Array, gradient: Array, curvature: Array, damping: float) -> Array:
     """Damped Gauss-Newton step; parameters that would leave their range go to its end, the others answer to that."""
     free = ~(((z <= search.lower) & (gradient < 0)) | ((z >= search.upper) & (gradient > 0)))
     step = np.zeros_like(z)
@@ -268,14 +147,14 @@ def _step(search: _Search, z: Array, gradient: Array, curvature: Array, damping:
     return step
 
 
-def _reach(search: _Search) -> Array:
+def _reach(search: SearchCoordinates) -> Array:
     """No parameter moves by more than a factor of 3, or a third of its range, at once."""
     return np.where(search.logarithmic, 1.1, np.maximum((search.upper - search.lower) / 3.0, 1e-300))
 
 
 def _minimum(
-    search: _Search, z: Array, normal: Normal, chi2: float, cost: float, first: float, status: FitStatus, count: int,
-    damping: float,
+    search: SearchCoordinates, z: Array, normal: Normal, chi2: float, cost: float, first: float, status: FitStatus,
+    count: int, damping: float,
 ) -> Minimum:  # fmt: skip
     return Minimum(
         values=search.values(z),

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
-from rwn.fit.levenberg_marquardt import prior_cost
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics
+from rwn.fit.unknown import prior_cost
 from rwn.recording.intersample import between_ticks
 from rwn.simulate.run import Run
 

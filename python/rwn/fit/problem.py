@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.fit.hypothesis import Hypothesis, hypothesis
-from rwn.fit.levenberg_marquardt import Normal
 from rwn.fit.prior import Prior
+from rwn.fit.search_coordinates import Normal
 from rwn.model.drives.drive import Drive
 from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.vocabulary import motor_index, motor_parameters
@@ -138,9 +138,7 @@ class Problem:
             for p in parameters:
                 if p in column:
                     chosen[column[p], j] = scales[k][0] * begun[p] if k in scales else factor[p]
-        return replace(
-            found, gradient=chosen.T @ found.gradient, curvature=chosen.T @ found.curvature @ chosen
-        )
+        return replace(found, gradient=chosen.T @ found.gradient, curvature=chosen.T @ found.curvature @ chosen)
 
     def _scaled(self, run: Run, vector: Array, active: Sequence[int]) -> dict[int, tuple[float, tuple[int, ...]]]:
         """The levels of a run: place of each, with its part, and the parameters among those it scales that act."""

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from rwn.fit.budget import shares_by_rank
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import Hypothesis
-from rwn.fit.levenberg_marquardt import Minimum, Unknown, minimise
+from rwn.fit.levenberg_marquardt import Minimum, minimise
 from rwn.fit.problem import CountedNormal, Problem
 from rwn.fit.residuals import join
+from rwn.fit.unknown import Unknown
 from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
