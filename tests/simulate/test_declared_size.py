@@ -12,6 +12,10 @@ import rwn
 from command_line import MODEL, Run
 from made_up_motor import MOTOR as MADE_UP
 from rwn.errors import InputError
+from rwn.simulate.declared import check_declared, surely_passes
+from rwn.simulate.run import run_of
+from rwn.simulate.scales import scales_of_input, under_usual_input
+from rwn.simulate.simulator import Simulator
 
 MOTOR = rwn.Model(kind="dc", parameters=MADE_UP)
 AXIS = rwn.Model(kind="axis", linear=True, parameters={"inertia": 95.0, "viscous_friction": 200.0})
@@ -69,6 +73,34 @@ def test_a_weak_or_brief_input_does_not_refuse_what_the_drive_has(
     model: rwn.Model, effects: dict[str, dict[str, float]], peak: float, step: float
 ) -> None:
     assert _simulated(replace(model, effects=effects), peak, step=step).status == "ok"
+
+
+@pytest.mark.parametrize(("peak", "runs"), [(6.0, 2), (0.0, 3)])  # of a motor at rest nothing is measured
+def test_a_usual_input_is_simulated_only_where_that_of_the_run_does_not_settle_it(
+    monkeypatch: pytest.MonkeyPatch, peak: float, runs: int
+) -> None:
+    seen = []
+    simulate = Simulator.simulate
+    monkeypatch.setattr(Simulator, "simulate", lambda *given: (seen.append(given), simulate(*given))[1])
+    _simulated(replace(MOTOR, effects={"coulomb-friction": {"coulomb_torque": 0.05}}), peak)
+    assert len(seen) == runs
+
+
+@pytest.mark.parametrize("torque", [0.05, 40.0, 1e3])
+@pytest.mark.parametrize("peak", [0.0, 1e-3, 6.0, 400.0])
+def test_what_one_input_settles_a_further_one_does_not_change(peak: float, torque: float) -> None:
+    model = replace(MOTOR, effects={"coulomb-friction": {"coulomb_torque": torque}})
+    time = 1e-3 * np.arange(300)
+    given = rwn.Recording(name="run", time=time, signals={"voltage": peak * np.sin(30.0 * time)})
+    run, simulator = run_of(given, model), Simulator.of(model)
+    own = scales_of_input(run, model.drive, simulator, model.vector)
+    usual = under_usual_input(run, model.drive, model.vector)
+    both = [*own, *scales_of_input(usual, model.drive, simulator, model.vector)]
+    if surely_passes(model, own):
+        assert surely_passes(model, both)
+        check_declared(model, both)
+    if torque == 1e3 and peak < 400.0:
+        assert not surely_passes(model, own)
 
 
 def test_a_linear_drive_that_runs_away_has_diverged() -> None:

@@ -46,21 +46,26 @@ def scales(
 
 
 def scales_of_input(run: Run, drive: Drive, simulator: Simulator, vector: Array) -> list[dict[str, float]]:
-    """The scales that the input of a run shows through the motor alone, and those of a usual input at any rate.
+    """The scales that the input of a run shows through the motor alone; none of a motor that runs away.
 
-    `vector`: parameters (all,). A run that is simulated may be much weaker, briefer or denser than those that its model
-    was fitted to. None of a motor that runs away.
+    `vector`: parameters (all,). Also as they would be of a briefer, a longer and a denser recording: a run that is
+    simulated may be so beside those that its model was fitted to.
+    """
+    output = simulator.simulate(run, vector, [])
+    if output.status != "ok":
+        return []
+    found = scales(drive, vector, [run], [output.signals])
+    return [found, *({**found, "time_step": step, "duration": duration} for step, duration in RATES)]
+
+
+def under_usual_input(run: Run, drive: Drive, vector: Array) -> Run:
+    """The run with a usual input instead of its own, which may be much weaker; nothing of it was recorded.
+
+    `vector`: parameters (all,).
     """
     usual = np.full(run.input.size, drive.usual_input(motor_values(vector)))
     nothing = np.empty(0)
-    driven = replace(run, input=usual, applied_input=None, current=nothing, speed=nothing, position=nothing)
-    found = []
-    for one in (run, driven):
-        output = simulator.simulate(one, vector, [])
-        if output.status == "ok":
-            found.append(scales(drive, vector, [one], [output.signals]))
-            found += [{**found[-1], "time_step": step, "duration": duration} for step, duration in RATES]
-    return found
+    return replace(run, input=usual, applied_input=None, current=nothing, speed=nothing, position=nothing)
 
 
 def _best(run: Run, output: dict[str, Array], signal: str) -> Array:

@@ -21,11 +21,11 @@ from rwn.recording.delays import delayed
 from rwn.recording.filters import as_filtered
 from rwn.recording.recording import table_of_signals
 from rwn.recording.signals import MEASURED
-from rwn.simulate.declared import check_declared
+from rwn.simulate.declared import check_declared, surely_passes
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import Run, run_of
-from rwn.simulate.scales import scales_of_input
+from rwn.simulate.scales import scales_of_input, under_usual_input
 from rwn.simulate.simulator import Simulator
 from rwn.values import Values
 
@@ -86,10 +86,8 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
         )  # fmt: skip
     run, simulator, vector = run_of(recording, model).following_nothing(), Simulator.of(model), model.vector
     active = [model.effect_table[name].index for name in model.effects]
-    known = scales_of_input(run, model.drive, simulator, vector) if active else []
-    if known:
-        told = f"under this input or {model.drive.usual_input(model.motor):.2g} {model.drive.input_unit}"
-        check_declared(model, known, told=told)
+    if active:
+        _check_size(model, run, simulator, vector)
     if not model.drive.coefficients:
         vector = simulator.started(run, vector)
         if run.angle_unknown:
@@ -108,6 +106,21 @@ def simulate(model: Model | str | Path, recording: Any) -> Simulation:
         advice=_core.simulation_advice(status) if status == output.status else BEYOND,
         linear=model.linear,
     )
+
+
+def _check_size(model: Model, run: Run, simulator: Simulator, vector: Array) -> None:
+    """Raises InputError where an effect is of a size that no drive of this motor has, under this input or a usual one.
+
+    A usual input is simulated only where this one does not settle it.
+    """
+    drive = model.drive
+    known = scales_of_input(run, drive, simulator, vector)
+    if surely_passes(model, known):
+        return
+    known += scales_of_input(under_usual_input(run, drive, vector), drive, simulator, vector)
+    if known:
+        told = f"under this input or {drive.usual_input(model.motor):.2g} {drive.input_unit}"
+        check_declared(model, known, told=told)
 
 
 def _believable(values: Array) -> Flags:
