@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.io import savemat
 
 from rwn.errors import InputError
 from rwn.recording.columns import Column, Layout, column_map, in_si, is_linear, si_unit, units_of, unused
-from rwn.recording.formats import Table
+from rwn.recording.formats import Table, read_table
 from rwn.recording.signals import COLUMNS
 
 ROWS = np.array([1.0, 2.0, -3.0])
@@ -199,3 +201,31 @@ def test_each_signal_has_its_si_unit_on_a_shaft_and_on_a_line(name: str) -> None
     signal = COLUMNS[name]
     assert si_unit(signal, True) == (signal.linear_unit or signal.unit) != ""
     assert si_unit(signal, False) == (signal.unit or signal.linear_unit) != ""
+
+
+@pytest.mark.parametrize(
+    ("variable", "sources", "left"),
+    [
+        ({"w": ROWS, "u": ROWS, "t": ROWS}, ("log.w", "log.u"), "log.t"),  # which are `w`, `u`, `t` as well
+        ({"w": ROWS, "u": ROWS, "t": ROWS}, ("w", "u"), "log.t"),
+        (np.column_stack([ROWS, ROWS, ROWS]), ("log(:,1)", "log(:,2)"), "log(:,3)"),
+        ({"m": np.column_stack([ROWS, ROWS])}, ("log.m(:,1)",), "log.m(:,2)"),
+        ({"m": np.column_stack([ROWS, ROWS])}, ("m(:,2)",), "log.m(:,1)"),
+        ({"w": ROWS}, ("w",), None),
+    ],
+)
+def test_what_is_used_by_one_of_its_names_is_not_unused_by_another(
+    variable: Any, sources: tuple[str, ...], left: str | None, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.mat"
+    savemat(path, {"log": variable})
+    mapping = {str(k): Column(source=name) for k, name in enumerate(sources)}
+    assert unused(read_table(path, sources), mapping) == ((f"{path}: not used: {left}",) if left else ())
+
+
+def test_nor_is_what_a_part_of_the_file_holds(tmp_path: Path) -> None:
+    path = tmp_path / "a.mat"
+    savemat(path, {"log": {"m": np.column_stack([ROWS, ROWS]), "w": ROWS}, "other": ROWS})
+    table = read_table(Path(f"{path}#log"), ("w", "m(:,2)"))
+    mapping = {"speed": Column(source="w"), "voltage": Column(source="m(:,2)")}
+    assert unused(table, mapping) == (f"{path}#log: not used: m(:,1)",)

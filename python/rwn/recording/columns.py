@@ -159,8 +159,8 @@ def _by_profile(table: Table, layout: Layout) -> dict[str, Column]:
 
 def unused(table: Table, mapping: Mapping[str, Column]) -> tuple[str, ...]:
     """A note on the columns that are no signal, if there are any."""
-    used = {column.source for column in mapping.values()}
-    extra = [plain(name, longest=40) for name in table.units if name not in used]
+    used = {table.same.get(column.source, column.source) for column in mapping.values()}
+    extra = [plain(name, longest=40) for name in table.units if name not in used and name not in table.same]
     if not extra:
         return ()
     shown = ", ".join(extra[:8]) + (f" and {len(extra) - 8} more" if len(extra) > 8 else "")

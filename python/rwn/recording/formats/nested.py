@@ -29,12 +29,15 @@ def nested_table(where: str, content: Mapping[str, Any], names: Collection[str],
     What is in the only variable of a file has its own name as well: `speed` for `log.speed`.
     """
     leaves = [leaf for name, value in content.items() for leaf in _leaves(name, value, _DEPTH)]
+    same = {name.removesuffix("(:,1)"): name for name, _, _ in leaves if name.endswith("(:,1)")}
     if len(names) == 1 and content:
         alone = len(next(iter(content))) + 1
-        leaves += [Leaf(n[alone:], values, unit) for n, values, unit in leaves if n[alone - 1 : alone] == "."]
+        inner = [leaf for leaf in leaves if leaf.name[alone - 1 : alone] == "."]
+        leaves += [Leaf(n[alone:], values, unit) for n, values, unit in inner]
+        same |= {leaf.name[alone:]: same.get(leaf.name, leaf.name) for leaf in inner}
     table = table_of(where, {leaf.name: leaf.values for leaf in leaves}, {n: u for n, _, u in leaves}, wanted)
     unread: dict[str, str | None] = dict.fromkeys(name for name in names if name not in content)
-    return Table(where=where, columns=table.columns, units={**unread, **table.units})
+    return Table(where=where, columns=table.columns, units={**unread, **table.units}, same=same)
 
 
 def roots(names: Iterable[str], wanted: Collection[str]) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -37,4 +38,4 @@ def read_npz(path: Path, wanted: Collection[str] = ()) -> Table:
         ) from error
     units = dict(names.values())
     table = nested_table(str(path), content, units, wanted)
-    return Table(where=table.where, columns=table.columns, units={**table.units, **units})
+    return replace(table, units={**table.units, **units})

@@ -61,4 +61,5 @@ def part_of(
     columns = {name.removeprefix(begins): values for name, values in table.columns.items()}
     if TIME.name in columns:
         units.setdefault(TIME.name, TIME.unit)  # of all parts
-    return Table(where=f"{path}{_MARK}{part}", columns=columns, units=units, row=table.row)
+    same = {name.removeprefix(begins): own.removeprefix(begins) for name, own in table.same.items()}
+    return Table(where=f"{path}{_MARK}{part}", columns=columns, units=units, row=table.row, same=same)

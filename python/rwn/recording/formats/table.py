@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -18,13 +18,15 @@ MAX_SAMPLES = 20_000_000  # 160 MB a signal
 class Table:
     """`columns`: name -> (n_t,) float64 in the unit of `units` (None: not said), which names every column there is.
 
-    `where` is the file or object in messages, `row` words the place of row k.
+    `where` is the file or object in messages, `row` words the place of row k. `same`: further name of a column -> its
+    own; a matrix is a further name of its first column.
     """
 
     where: str
     columns: Mapping[str, NDArray[np.float64]]
     units: Mapping[str, str | None]
     row: Callable[[int], str] = lambda k: f"sample {k + 1}"
+    same: Mapping[str, str] = field(default_factory=dict)
 
 
 def table_of(
