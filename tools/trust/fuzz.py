@@ -7,14 +7,17 @@ A target takes bytes and may raise InputError alone; anything else is a finding,
 from __future__ import annotations
 
 import argparse
+import atexit
 import re
 import resource
+import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+
+from tools.trust.aside import new_folder, sweep
 
 CORPUS = Path(__file__).resolve().parents[2] / "tests" / "corpus"
 ROWS = 80  # of the recordings that are simulated
@@ -103,8 +106,8 @@ def simulation(data: bytes) -> None:
         assert all(np.isfinite(x).all() for x in run.signals.values()), "no NaN silently"
 
 
-_ASIDE = tempfile.TemporaryDirectory(prefix="rwn-fuzz-")  # gone when the process ends
-_FOLDER = Path(_ASIDE.name)
+_FOLDER = new_folder("fuzz")  # gone when the process ends by itself, which atheris does not let one do
+atexit.register(shutil.rmtree, _FOLDER, ignore_errors=True)
 TARGETS: dict[str, Target] = {
     "csv": _reads(".csv"), "wpilog": _reads(".wpilog"), "sysid": _reads(".json"), "npz": _reads(".npz"),
     "mat": _reads(".mat"), "parquet": _reads(".parquet"), "excel": _reads(".xlsx"), "mcap": _reads(".mcap"),
@@ -140,6 +143,7 @@ def _fuzzed(target: str, seconds: int, rows: list[tuple[str, str, int, int, int]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     code = f"from tools.trust.fuzz import fuzz; fuzz({target!r}, {seconds})"
     done = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True, check=False)
+    sweep("fuzz")
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     tried = re.findall(r"stat::number_of_executed_units:\s*(\d+)|^#(\d+)\s", done.stderr, re.MULTILINE)

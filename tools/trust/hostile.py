@@ -14,7 +14,6 @@ import resource
 import shutil
 import signal
 import sys
-import tempfile
 import warnings
 from collections import Counter, defaultdict
 from collections.abc import Iterable
@@ -25,6 +24,7 @@ import numpy as np
 
 from rwn import cli
 from tools.trust import page
+from tools.trust.aside import folder_aside
 from tools.trust.cases import Case, cases
 from tools.trust.good_files import write_formats, write_recordings, write_results
 
@@ -39,8 +39,7 @@ SECONDS, WAITED, BYTES = 30, 300, 3 * 2**30  # of processor time, of waiting, of
 
 def ended(case: Case, base: Path) -> tuple[str, str]:
     """How a case ends, and what it said; `base` holds the good files, which are copied."""
-    with tempfile.TemporaryDirectory(prefix="hostile-") as name:
-        folder = Path(name)
+    with folder_aside("hostile") as folder:
         for path in base.iterdir():
             if path.is_file():
                 shutil.copy(path, folder)
@@ -65,7 +64,7 @@ def load(base: Path) -> None:
         with suppress(ImportError), warnings.catch_warnings():
             warnings.simplefilter("ignore")
             importlib.import_module(module)
-    with tempfile.TemporaryDirectory() as name, redirect_stdout(io.StringIO()):
+    with folder_aside("hostile") as name, redirect_stdout(io.StringIO()):
         model, recording = str(base / "motor.toml"), str(base / "a.csv")
         cli.app(["simulate", model, "--input", recording, "--out", f"{name}/out.csv"], standalone_mode=False)
 
@@ -159,8 +158,8 @@ def main() -> int:
     parser.add_argument("--damaged", type=int, default=1500, help="damaged files beside the table of cases")
     parser.add_argument("--seed", type=int, default=0)
     options = page.parsed(parser, "hostile")
-    with tempfile.TemporaryDirectory() as name:
-        base, good = Path(name) / "base", Path(name) / "good"
+    with folder_aside("hostile") as aside:
+        base, good = aside / "base", aside / "good"
         write_recordings(base)
         if options.damaged:
             write_formats(good)

@@ -15,7 +15,6 @@ import os
 import random
 import signal
 import sys
-import tempfile
 import time
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -28,6 +27,7 @@ from rwn.studies.thesis import page as thesis_page
 from rwn.studies.trials import cli as trials_cli
 from rwn.studies.trials import make as trials_make
 from tools.trust import page
+from tools.trust.aside import folder_aside
 from tools.trust.killed_commands import WORK, Work
 from tools.trust.stopping import until_stopped
 
@@ -130,8 +130,7 @@ def _wait(process: int, seconds: float | None = None) -> int:
 
 def undisturbed(work: Work) -> Tally:
     """What a run leaves that is not killed."""
-    with tempfile.TemporaryDirectory(prefix="rwn-kills-") as name:
-        folder = Path(name)
+    with folder_aside("kills") as folder:
         work.prepare(folder)
         child = _start(work, folder)
         _, status, used = os.wait4(child, 0)
@@ -143,8 +142,7 @@ def undisturbed(work: Work) -> Tally:
 
 def chain(work: Work, tally: Tally, draw: random.Random, most: int) -> None:
     """Kills runs in one folder until one gets to its end or there were `most` kills in all; counts into the tally."""
-    with tempfile.TemporaryDirectory(prefix="rwn-kills-") as name:
-        folder = Path(name)
+    with folder_aside("kills") as folder:
         work.prepare(folder)
         before: dict[Path, int] = {}
         while tally.kills < most:

@@ -15,7 +15,6 @@ import resource
 import shutil
 import signal
 import sys
-import tempfile
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
@@ -23,6 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from tools.trust.aside import folder_aside
 from tools.trust.stopping import until_stopped
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -153,8 +153,7 @@ def main() -> int:
     drawn = random.Random(options.seed).sample(every, min(options.count, len(every)))
     for module in ("numpy", "scipy.io", "pint", "msgspec", "typer", "pytest", "narwhals.stable.v1"):
         __import__(module)
-    with tempfile.TemporaryDirectory() as name:
-        copy = Path(name)
+    with folder_aside("mutants") as copy:
         for part in ("python", "tests", "pyproject.toml", "tools"):
             whole = ROOT / part
             shutil.copytree(whole, copy / part) if whole.is_dir() else shutil.copy(whole, copy / part)

@@ -13,11 +13,11 @@ import hashlib
 import os
 import subprocess
 import sys
-import tempfile
 import zipfile
 from pathlib import Path
 
 from tools.trust import page
+from tools.trust.aside import folder_aside
 
 ROOT = Path(__file__).resolve().parents[2]
 EVERY_MODULE = """
@@ -92,9 +92,9 @@ def main() -> int:
     options = page.parsed(parser, "wheels")
     commit, pythons = output("git", "rev-parse", "HEAD"), [sys.executable, sys.executable, *options.python]
     wheels, found = list[Path](), list[tuple[str, str, str]]()
-    with tempfile.TemporaryDirectory(prefix="rwn-wheels-") as name:
+    with folder_aside("wheels") as aside:
         for k, python in enumerate(pythons):
-            folder = Path(name) / ("a", "another")[k % 2] / str(k)  # paths of two lengths
+            folder = aside / ("a", "another")[k % 2] / str(k)  # paths of two lengths
             folder.mkdir(parents=True)
             wheels.append(build(python, folder, commit, options.settings))
             print(f"built: {wheels[-1]}", file=sys.stderr, flush=True)
