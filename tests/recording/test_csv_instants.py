@@ -95,11 +95,17 @@ def test_a_unit_alone_is_that_of_the_column_that_the_profile_knows(tmp_path: Pat
     np.testing.assert_allclose(read_recording(path, layout=layout).signals["speed"], SPEED * np.pi / 30.0)
 
 
+@pytest.mark.parametrize(("name", "what"), [("run", "without an ending"), ("run.doc", "unknown kind of file '.doc'")])
+def test_a_file_of_an_unknown_kind_is_refused(tmp_path: Path, name: str, what: str) -> None:
+    with pytest.raises(InputError, match=what):
+        read_recording(_file(tmp_path / name, "time [s],speed [rad/s]", ["0,0"]))
+
+
 def test_the_folder_of_a_bag_is_its_file(tmp_path: Path) -> None:
     bag = tmp_path / "run"
     bag.mkdir()
     (bag / "metadata.yaml").write_text("")
-    with pytest.raises(InputError, match="unknown kind of file ''"):
+    with pytest.raises(InputError, match=r"a folder without an \.mcap file"):
         read_recording(bag)
     (bag / "run_0.mcap").write_bytes(b"")
     with pytest.raises(InputError, match=r"run_0\.mcap"):

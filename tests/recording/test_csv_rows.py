@@ -72,15 +72,15 @@ def test_two_columns_of_a_name_are_refused_where_they_are_wanted() -> None:
 @pytest.mark.parametrize(
     ("row", "what", "fix"),
     [
-        ("60,abc,1", "'abc' in column 'voltage' is not a number", "complete the line or remove it"),
+        ("60,abc,1", "'abc' in column 'voltage' is not a number", "correct it, or remove the line"),
         ("60, ,1", "column 'voltage' is empty", "complete the line or remove it"),
         ("60,1 000,1", "'1 000' in column 'voltage' is not a number", "export without them"),
         ("60,1_000,1", "'1_000' in column 'voltage' is not a number", "export without them"),
-        (f"60,{'x' * 50},1", f"'{'x' * 40}' in column 'voltage' is not a number", "complete the line or remove it"),
+        (f"60,{'x' * 50},1", f"'{'x' * 40}' in column 'voltage' is not a number", "correct it, or remove the line"),
         ("60,1", "2 values in 3 columns", "complete the line or remove it"),
         ("60,1,2,3", "4 values in 3 columns", "complete the line or remove it"),
         ('60,"1,2', "a quote is left open", "close the quote; remove line breaks within cells"),
-        ('"60","1,5","2"x"', "'2x\"' in column 'speed' is not a number", "complete the line or remove it"),
+        ('"60","1,5","2"x"', "'2x\"' in column 'speed' is not a number", "correct it, or remove the line"),
     ],
 )
 @pytest.mark.parametrize("each", [30, 1000])

@@ -50,14 +50,20 @@ def read_table(path: Path, wanted: Collection[str]) -> Table:
     path = _in_bag(path)
     reader = FORMATS.get(path.suffix.lower())
     if reader is None:
-        raise InputError(
-            f"unknown kind of file '{path.suffix}'",
-            where=path,
-            expected=", ".join(FORMATS),
-            fix=CONVERTED.get(path.suffix.lower(), "export the recording as CSV").format(path=path, stem=path.stem),
-        )
+        raise _unknown_kind(path)
     with input_file(path, "a recording file"):
         return part_of(reader, path, part, wanted) if part else reader(path, wanted)
+
+
+def _unknown_kind(path: Path) -> InputError:
+    ending = path.suffix.lower()
+    if path.is_dir():
+        what, fix = "a folder without an .mcap file", "give one of its files"
+    elif not ending:
+        what, fix = "a file without an ending, which says its format", "give it the ending of its format"
+    else:
+        what, fix = f"unknown kind of file '{path.suffix}'", CONVERTED.get(ending, "export the recording as CSV")
+    return InputError(what, where=path, expected=", ".join(FORMATS), fix=fix.format(path=path, stem=path.stem))
 
 
 def _in_bag(path: Path) -> Path:

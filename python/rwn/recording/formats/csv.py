@@ -223,11 +223,12 @@ def _first_bad_cell(
                 continue
             if not is_number(cell) or (dialect.delimiter != "," and cell.count(",") + cell.count(".") > 1):
                 what = f"'{cell[:40]}' in column '{name}' is not a number" if cell else f"column '{name}' is empty"
+                mend = "correct it, or remove the line" if cell else "complete the line or remove it"
                 separated = is_number(cell.replace(",", "").replace(".", "").replace(" ", "").replace("_", ""))
                 return InputError(
                     what,
                     where=f"{where}, line {line}",
                     expected="a number without separators of thousands" if separated else "a number",
-                    fix="export without them" if separated else "complete the line or remove it",
+                    fix="export without them" if separated else mend,
                 )
     return InputError("the rows cannot be read as numbers", where=where, expected="rows of numbers", fix=HOW)
