@@ -16,7 +16,6 @@ import random
 import resource
 import signal
 import sys
-import tempfile
 import time
 import traceback
 from collections.abc import Iterator, Sequence
@@ -25,6 +24,7 @@ from functools import cache
 from pathlib import Path
 
 from tools.trust import fuzz, page
+from tools.trust.aside import folder_aside
 from tools.trust.cases import damage
 from tools.trust.stopping import until_stopped
 
@@ -66,8 +66,7 @@ def fuzzed(targets: Sequence[str], *, seconds: float, until: float, jobs: int, k
     waiting = [Tried(target=target) for target in targets]
     running: dict[int, Tried] = {}
     share = seconds / len(targets)
-    with tempfile.TemporaryDirectory() as name:
-        aside = Path(name)
+    with folder_aside("fuzz-corpus") as aside:
         try:
             while waiting or running:
                 while waiting and len(running) < jobs:

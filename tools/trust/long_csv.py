@@ -6,12 +6,12 @@ import argparse
 import resource
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
 from tools.trust import page
+from tools.trust.aside import folder_aside
 
 READ = """
 import sys, rwn
@@ -41,8 +41,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=10**7, help="rows")
     options = page.parsed(parser, "long-csv")
-    with tempfile.TemporaryDirectory() as name:
-        path = Path(name) / "long.csv"
+    with folder_aside("long-csv") as folder:
+        path = folder / "long.csv"
         write(path, options.count)
         subprocess.run([sys.executable, "-c", READ, str(path), str(options.count)], check=True)
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
