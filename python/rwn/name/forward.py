@@ -32,7 +32,7 @@ from rwn.name.weights import weigh
 
 Progress = Callable[[str, float], None]
 
-MOST_EFFECTS = 3  # most effects in one explanation
+MOST_EFFECTS = 4  # most effects in one explanation: three of a drive and one of how a sensor shows it
 WORTH = 0.2  # smallest share of the cost, misfit and data sheet together, that a further effect has to remove
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 
@@ -129,7 +129,7 @@ def _grown(
             break
         known = pairs if size == 2 else NO_PAIRS
         renew(problem.work, begun)
-        progress(f"trying {size} effects at once", 0.1 + 0.25 * size)
+        progress(f"trying {size} effects at once", 0.9 - 0.7 * 0.5 ** (size - 1))
         found, windowed = _beside_and_in_windows(
             alone, best, bases, wanted, fits, known, size=size, windowed=windowed
         )  # fmt: skip
