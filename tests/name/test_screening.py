@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, fit_nominal
+from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, fit, fit_nominal
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.part import part
@@ -19,7 +20,7 @@ from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name import screening
 from rwn.name.forward import _weighted_beforehand, rank
-from rwn.name.screening import FURTHER, MUCH_WORSE, _further, _to_the_end, _unless_much_worse, screen
+from rwn.name.screening import FURTHER, MUCH_WORSE, _further, _has_room, _to_the_end, _unless_much_worse, screen
 from rwn.name.starts import Attempt, Start, starts
 
 TRUE = {
@@ -229,3 +230,19 @@ def test_a_law_that_starts_far_behind_goes_on_where_what_is_ahead_leaves_more_th
     found = screen(problem, nominal, ["current-limit", "magnetic-saturation", "supply-sag"])
     assert found[0].added == ("magnetic-saturation",)
     assert found[0].cost < 0.1 * found[1].cost
+
+
+def test_of_the_machine_itself_three_effects_are_added_at_most(lagging: Problem) -> None:
+    sheet = lagging.prior
+    three = ("stribeck-friction", "quadratic-drag", "cogging-torque")
+    base = fit(lagging, hypothesis(sheet, three, lagging.scales), max_iterations=1)
+    assert _has_room(base, "speed-sensor-lag")
+    assert _has_room(base, "input-delay")
+    assert not _has_room(base, "constant-load")
+    assert _has_room(fit(lagging, hypothesis(sheet, three[:2], lagging.scales), max_iterations=1), "constant-load")
+
+
+def test_there_is_room_for_one_second_mass(lagging: Problem) -> None:
+    base = fit(lagging, hypothesis(lagging.prior, ("shaft-compliance",), lagging.scales), max_iterations=1)
+    assert not _has_room(base, "backlash")
+    assert _has_room(base, "cogging-torque")

@@ -32,7 +32,7 @@ from rwn.name.weights import weigh
 
 Progress = Callable[[str, float], None]
 
-MOST_EFFECTS = 4  # most effects in one explanation: three of a drive and one of how a sensor shows it
+MOST_EFFECTS = 4  # most effects in one explanation: three of a machine and one of what drives it or of a sensor
 WORTH = 0.2  # smallest share of the cost, misfit and data sheet together, that a further effect has to remove
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from rwn.fit.budget import shares_by_rank, shares_of_steps
 from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, cost_of_a_step, fit, refit
-from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.part import part, screening_part
 from rwn.fit.problem import Problem
@@ -38,6 +37,7 @@ FURTHER = 6  # iterations after these, before the promising ones are chosen
 FIRST_ROUND_SAMPLES = 2500  # of the first round of starts beside other effects; alone it is the screening part
 NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a non-smooth error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
+OF_A_MACHINE = 3  # most effects of the machine in one explanation: more of them mimic what has no name
 MUCH_WORSE = 10.0  # a round on a part is undone where the error on the rest grows by more than this factor
 
 
@@ -49,7 +49,7 @@ def screen(
     `best`: least cost of other explanations by as many effects; what comes nowhere near it is fitted briefly.
     `patience`: how many times the usual iterations a start gets before it is given up.
     """
-    fitting = [n for n in names if n not in base.hypothesis.effects and _has_room(base.hypothesis, n)]
+    fitting = [n for n in names if n not in base.hypothesis.effects and _has_room(base, n)]
     begun = side_by_side(lambda name: starts(problem, base, name, orders=keep + 1), fitting)
     on = screening_part(problem, base)
     first = _first_round(problem, base, [start for of_one in begun for start in of_one], keep, patience)
@@ -200,9 +200,11 @@ def _down_secants(attempts: Sequence[Attempt], on: Problem, base_cost: float, be
     return _by_rank(on, near, attempts)
 
 
-def _has_room(this: Hypothesis, name: str) -> bool:
-    """One effect at most can bring a second mass."""
-    return not this.table[name].second_mass or not any(this.table[other].second_mass for other in this.effects)
+def _has_room(base: Fit, name: str) -> bool:
+    """One effect at most can bring a second mass; of the machine itself `OF_A_MACHINE` at most are added."""
+    table = base.hypothesis.table
+    masses = sum(table[n].second_mass for n in (*base.hypothesis.effects, name))
+    return masses <= 1 and sum(not table[n].at_an_end for n in (*base.added, name)) <= OF_A_MACHINE
 
 
 def _goes_on(this: Fit, bar: float) -> bool:
