@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 from rwn.fit.secant import nonsmooth_unknowns
+from rwn.fit.unknown import Unknown
 
 Array = NDArray[np.float64]
 
@@ -55,22 +56,33 @@ NO_DOUBT = Doubt()
 
 
 def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[str, Estimate]:
-    """Value and 95 % interval of every unknown on which something depends, cut at its bounds."""
+    """Value and 95 % interval of every unknown on which something depends, cut at its bounds.
+
+    A doubt widens no interval beyond what was declared of the unknown: that holds whatever the fit does not explain.
+    """
     seen = np.diag(this.minimum.information) > 0.0
-    spread = np.hypot(doubt.birge * deviations(this, left), _systematic(this, doubt.bias))
+    noise = deviations(this, left)
+    sure = np.hypot(noise, _systematic(this, 0.0))
+    doubted = np.hypot(doubt.birge * noise, _systematic(this, doubt.bias))
     found = {}
-    for u, value, std, known in zip(this.hypothesis.unknowns, this.minimum.values, spread, seen, strict=True):
-        if u.nuisance or not known:
+    for k, (u, value) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):
+        if u.nuisance or not seen[k]:
             continue
-        if u.logarithmic and value > 0.0:
-            factor = float(np.exp(min(1.96 * std / value, 50.0)))
-            interval = (max(value / factor, u.lower), min(value * factor, u.upper))
-        else:
-            interval = (max(value - 1.96 * std, u.lower), min(value + 1.96 * std, u.upper))
-        found[u.name] = Estimate(
-            value=float(value), unit=u.unit, interval=(float(interval[0]), float(interval[1]))
-        )
+        low, high = _interval(u, float(value), float(doubted[k]))
+        if u.prior is not None and np.isfinite(u.prior_std):
+            spread = u.prior_std * (abs(u.prior) if u.logarithmic or u.prior else 1.0)
+            ends = [_interval(u, float(value), float(sure[k])), _interval(u, u.prior, spread)]
+            low, high = max(low, min(e[0] for e in ends)), min(high, max(e[1] for e in ends))
+        found[u.name] = Estimate(value=float(value), unit=u.unit, interval=(low, high))
     return found
+
+
+def _interval(u: Unknown, value: float, std: float) -> tuple[float, float]:
+    """The 95 % interval about a value, within the unknown's bounds."""
+    if u.logarithmic and value > 0.0:
+        factor = float(np.exp(min(1.96 * std / value, 50.0)))
+        return max(value / factor, u.lower), min(value * factor, u.upper)
+    return max(value - 1.96 * std, u.lower), min(value + 1.96 * std, u.upper)
 
 
 def _systematic(this: Fit, bias: float) -> Array:

@@ -1,0 +1,61 @@
+"""Intervals of fitted values, and what a doubt does to them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.fit.fit import Fit, fit
+from rwn.fit.hypothesis import hypothesis
+from rwn.fit.intervals import Doubt, Estimate, estimates
+from rwn.fit.preparation import prepare
+from rwn.fit.residuals import Statistics, statistics
+from rwn.model.model import Model
+
+MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+         "viscous_friction": 2e-5}  # fmt: skip
+KNOWN_TO = {"resistance": 0.05, "inertia": 0.1}
+
+
+@pytest.fixture(scope="module")
+def rubbing() -> tuple[Fit, Statistics]:
+    time = 1e-3 * np.arange(2000)
+    voltage = 6.0 * np.sign(np.sin(2 * np.pi * 2.0 * time))
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    truth = Model(kind="dc", parameters=MOTOR, effects={"coulomb-friction": {"coulomb_torque": 0.01}})
+    seen = rwn.simulate(truth, run).signals
+    rng = np.random.default_rng(1)
+    noisy = {s: seen[s] + 0.01 * np.std(seen[s]) * rng.standard_normal(time.size) for s in ("current", "speed")}
+    recorded = replace(run, signals={"voltage": voltage, **noisy})
+    problem = prepare([recorded], Model(kind="dc", parameters=MOTOR, uncertainty=KNOWN_TO))
+    this = fit(problem, hypothesis(problem.prior, ("coulomb-friction",), problem.scales))
+    return this, statistics(problem, this)
+
+
+def _width(of: Estimate) -> float:
+    assert of.interval is not None
+    return (of.interval[1] - of.interval[0]) / of.value
+
+
+def test_a_doubt_widens_what_nobody_declared_and_no_interval_beyond_the_data_sheet(
+    rubbing: tuple[Fit, Statistics],
+) -> None:
+    this, left = rubbing
+    sure = estimates(this, left)
+    doubted = estimates(this, left, doubt=Doubt(birge=3.0, bias=0.3))
+    assert _width(doubted["coulomb-friction.coulomb_torque"]) > 1.0
+    for name, std in KNOWN_TO.items():
+        declared = MOTOR[name] * np.exp(np.array([-1.96, 1.96]) * std)
+        (low, high), (least, most) = sure[name].interval or (0.0, 0.0), doubted[name].interval or (0.0, 0.0)
+        assert least == pytest.approx(min(declared[0], low))
+        assert most == pytest.approx(max(declared[1], high))
+
+
+def test_a_small_doubt_is_added_to_the_noise(rubbing: tuple[Fit, Statistics]) -> None:
+    this, left = rubbing
+    widths = [_width(estimates(this, left, doubt=Doubt(bias=b))["resistance"]) for b in (0.0, 0.005)]
+    bias = 2.0 * 1.96 * 0.005
+    assert widths[1] == pytest.approx(np.hypot(widths[0], bias), rel=0.01)
