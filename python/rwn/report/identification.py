@@ -67,13 +67,13 @@ def failure(fit: Identification, signals: Sequence[ExplainedSignal]) -> str:
     if explained and max(explained) < DESCRIBES:
         said.append(
             f"the fitted model explains {_share(max(explained))} of the variance of any recorded signal: check signs, "
-            "units and columns (rwn check), or diagnose what is missing (rwn diagnose)"
+            "units and columns, or let rwn diagnose find such a mistake or what is missing"
         )
     limits = [unknown_name(n) for n, e in fit.parameters.items() if "." not in n and e.value != 0.0 and _at_a_bound(e)]
     if limits:
         said.append(
             f"{listing(limits)} ran to the end of the search, a thousand times the given value or a thousandth: check "
-            "signs, units and columns (rwn check)"
+            "signs, units and columns, or let rwn diagnose find what is wrong with them"
         )
     return "; ".join(said)
 

@@ -84,7 +84,10 @@ def _insufficient(found: DiagnosisData) -> Iterator[str]:
 
 
 def _mistake(found: DiagnosisData) -> Iterator[str]:
-    yield "Correct the recording, or the columns and units in the model file, and diagnose again."
+    yield (
+        "Correct the recording, or the columns and units in the model file, and diagnose again: under [recording], "
+        "`columns.current = { scale = -1 }` turns a sign and `delays.speed = \"4 ms\"` undoes a delay."
+    )
     if found.next_experiment:
         sets = (found.set, found.beneath.set if found.beneath else ())
         rivals = any(len(names) > 1 for names in sets)
