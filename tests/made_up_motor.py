@@ -15,6 +15,8 @@ Array = NDArray[np.float64]
 Torque = Callable[[float, float], float]  # of speed and angle
 MOTOR = {"resistance": 0.8, "inductance": 1.5e-3, "torque_constant": 0.1, "back_emf_constant": 0.1, "inertia": 3e-4,
          "viscous_friction": 7e-5}  # fmt: skip
+SMALL = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+         "viscous_friction": 2e-5}  # fmt: skip
 
 
 def own(term: str, equation: str, **units: str) -> OwnEffect:

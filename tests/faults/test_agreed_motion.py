@@ -6,16 +6,13 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL
 from rwn.faults import scale
 from rwn.faults.fault import MOTION
 from rwn.faults.scale import wrong_scale
 from rwn.recording.kinematics import kinematics_of
 
-MODEL = rwn.Model(
-    kind="dc",
-    parameters={"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
-                "inertia": 2e-5, "viscous_friction": 2e-5},
-)  # fmt: skip
+MODEL = rwn.Model(kind="dc", parameters=SMALL)
 
 
 def _turned() -> rwn.Recording:

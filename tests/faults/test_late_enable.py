@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.faults.explain import _asked_again
 from rwn.faults.fault import Fault, without
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered, retimed
@@ -19,8 +20,6 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 STEPS = np.repeat(3.0 * np.random.default_rng(8).uniform(-1.0, 1.0, 60), 50)
 

@@ -9,6 +9,7 @@ import pytest
 from scipy.signal import lfilter
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import fit, refit
 from rwn.fit.hypothesis import hypothesis
@@ -20,8 +21,6 @@ from rwn.fit.sensor_filter import losses_beside
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
 

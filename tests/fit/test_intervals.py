@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intervals import Doubt, Estimate, estimates
@@ -15,8 +16,6 @@ from rwn.fit.preparation import prepare
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 KNOWN_TO = {"resistance": 0.05, "inertia": 0.1}
 
 

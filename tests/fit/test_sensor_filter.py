@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
@@ -24,8 +25,6 @@ from rwn.recording.filters import as_filtered
 
 STEP = 1e-3  # [s]
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
 UNCERTAIN = {

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intersample import stating
@@ -16,8 +17,6 @@ from rwn.fit.unrecorded_input import _farthest, with_unrecorded_input
 from rwn.model.model import Model
 from rwn.recording.intersample import INTERSAMPLE, PiecewiseInput
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
 

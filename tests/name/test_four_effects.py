@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import rank
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 EFFECTS = {
     "coulomb-friction": {"coulomb_torque": 0.01},
     "quadratic-drag": {"drag_coefficient": 3e-7},

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL
 from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
@@ -19,12 +20,7 @@ from rwn.name.measurement import CHANGES, Measurement
 from rwn.recording.filters import as_filtered
 
 STEP, SHARE = 1e-3, 0.6
-MODEL = Model(
-    kind="dc",
-    parameters={"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
-                "inertia": 2e-5, "viscous_friction": 2e-5},
-    uncertainty={"inertia": 0.1, "viscous_friction": 0.1},
-)  # fmt: skip
+MODEL = Model(kind="dc", parameters=SMALL, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
 
 def _filter(share: float) -> SensorFilter:

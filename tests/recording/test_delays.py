@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.faults.fault import SHIFT, Fault
 from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 from rwn.recording.delays import delayed, in_time
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 TIME = 1e-3 * np.arange(500)
 RUN = rwn.Recording(name="run", time=TIME, signals={"voltage": np.sin(30.0 * TIME), "speed": np.cos(30.0 * TIME)})
 

@@ -10,13 +10,12 @@ import pytest
 from scipy.signal import lfilter
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 from rwn.recording.filters import as_filtered, unfiltered
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 RNG = np.random.default_rng(3)
 TIME = np.cumsum(1e-3 * RNG.uniform(0.75, 1.25, 400))  # off its clock
 RUN = rwn.Recording(name="run", time=TIME, signals={"voltage": np.sin(30.0 * TIME), "speed": RNG.standard_normal(400)})

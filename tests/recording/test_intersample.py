@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.errors import InputError
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 from rwn.recording.intersample import INTERSAMPLE
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 TIME = 1e-3 * np.arange(401)
 
 

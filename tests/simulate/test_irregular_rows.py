@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import SMALL as MOTOR
 from rwn.model.model import Model
 
-MOTOR = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
-         "viscous_friction": 2e-5}  # fmt: skip
 STEP, ROWS, PARTS = 1e-3, 400, 3
 LAWS = {
     "linear": {},
