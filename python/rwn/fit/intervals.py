@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 from rwn.fit.secant import nonsmooth_unknowns
-from rwn.fit.unknown import Unknown
+from rwn.fit.unknown import Unknown, prior_weight
 
 Array = NDArray[np.float64]
 
@@ -69,9 +69,9 @@ def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[s
         if u.nuisance or not seen[k]:
             continue
         low, high = _interval(u, float(value), float(doubted[k]))
-        if u.prior is not None and np.isfinite(u.prior_std):
-            spread = u.prior_std * (abs(u.prior) if u.logarithmic or u.prior else 1.0)
-            ends = [_interval(u, float(value), float(sure[k])), _interval(u, u.prior, spread)]
+        if u.prior is not None and (weight := prior_weight(u)):
+            declared = weight**-0.5 * (u.prior if u.logarithmic else 1.0)
+            ends = [_interval(u, float(value), float(sure[k])), _interval(u, u.prior, declared)]
             low, high = max(low, min(e[0] for e in ends)), min(high, max(e[1] for e in ends))
         found[u.name] = Estimate(value=float(value), unit=u.unit, interval=(low, high))
     return found
