@@ -27,12 +27,12 @@ from rwn.name.measurement import Measurement
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.observable import observable
 from rwn.name.ranking import NO_PAIRS, Fits, Pairs, Ranking
-from rwn.name.screening import screen
+from rwn.name.screening import OF_THE_MACHINE, screen
 from rwn.name.weights import weigh
 
 Progress = Callable[[str, float], None]
 
-MOST_EFFECTS = 4  # most effects in one explanation: three of a machine and one of what drives it or of a sensor
+MOST_EFFECTS = OF_THE_MACHINE + 1  # in one explanation: a sensor or an actuator shows beside what acts in the machine
 WORTH = 0.2  # smallest share of the cost, misfit and data sheet together, that a further effect has to remove
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 

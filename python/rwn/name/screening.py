@@ -37,7 +37,7 @@ FURTHER = 6  # iterations after these, before the promising ones are chosen
 FIRST_ROUND_SAMPLES = 2500  # of the first round of starts beside other effects; alone it is the screening part
 NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a non-smooth error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
-OF_A_MACHINE = 3  # most effects of the machine in one explanation: more of them mimic what has no name
+OF_THE_MACHINE = 3  # most effects of the machine itself in one explanation, as in every set of trials
 MUCH_WORSE = 10.0  # a round on a part is undone where the error on the rest grows by more than this factor
 
 
@@ -201,10 +201,10 @@ def _down_secants(attempts: Sequence[Attempt], on: Problem, base_cost: float, be
 
 
 def _has_room(base: Fit, name: str) -> bool:
-    """One effect at most can bring a second mass; of the machine itself `OF_A_MACHINE` at most are added."""
+    """One effect at most can bring a second mass; of the machine itself `OF_THE_MACHINE` at most are added."""
     table = base.hypothesis.table
     masses = sum(table[n].second_mass for n in (*base.hypothesis.effects, name))
-    return masses <= 1 and sum(not table[n].at_an_end for n in (*base.added, name)) <= OF_A_MACHINE
+    return masses <= 1 and sum(not table[n].at_an_end for n in (*base.added, name)) <= OF_THE_MACHINE
 
 
 def _goes_on(this: Fit, bar: float) -> bool:
