@@ -86,7 +86,8 @@ def _insufficient(found: DiagnosisData) -> Iterator[str]:
 def _mistake(found: DiagnosisData) -> Iterator[str]:
     yield (
         "Correct the recording, or the columns and units in the model file, and diagnose again: under [recording], "
-        "`columns.current = { scale = -1 }` turns a sign and `delays.speed = \"4 ms\"` undoes a delay."
+        "`columns.speed = { unit = \"rpm\", scale = -1 }` gives a unit and turns a sign, and "
+        "`delays.speed = \"4 ms\"` undoes a delay."
     )
     if found.next_experiment:
         sets = (found.set, found.beneath.set if found.beneath else ())
