@@ -12,7 +12,7 @@ from rwn.fit.unknown import Unknown, prior_weight, ties
 
 Array = NDArray[np.float64]
 
-FAINT = 1e-12  # least amplitude of an oscillation, of its largest: at none its phase is not known
+FAINT = 1e-12  # least amplitude, of its largest: from 0 no phase leads anywhere; below what counts as none (fit.IDLE)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -50,4 +50,3 @@ class Measurement:
         if not completely or self.changes == CHANGES:
             return self.filters
         return filters_again(self.as_prepared, best, self.filters)
-
