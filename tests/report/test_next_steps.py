@@ -50,7 +50,7 @@ STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
     ),
     "found, and something that has no name here beside it": (
         replace(made_up.found(), remainder=Remainder(share=0.12, error=3.0, signals=("speed",))),
-        ("To tell it from", "For what they leave: where you know", "Record again", "corrected.toml"),
+        ("To tell it from", "For what is left: where you know", "Record again", "corrected.toml"),
     ),
     "too little motion": (
         replace(made_up.adequate(), verdict="insufficient-excitation"),
@@ -62,7 +62,10 @@ STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
         replace(
             made_up.mistake(), beneath=Beneath(verdict="missing-physics", set=("a", "b")), next_experiment="Brake it."
         ),
-        ("Correct the recording", "To tell the rivals apart: Brake it.", "What is said beneath the mistake"),
+        (
+            "Correct the recording", "To tell the rivals apart: Brake it.", "What is said beneath the mistake",
+            "corrected.toml holds the model with what was found with the mistake undone",
+        ),
     ),
 }  # fmt: skip
 

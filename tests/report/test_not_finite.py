@@ -71,7 +71,10 @@ def _of(refitted: float, corrected: float | None, signal: str = "speed") -> Held
         (_of(1.0, INF), "makes the simulated speed on heldout_1.csv, not used for fitting, run away."),
         (_of(INF, INF), "does not keep the simulated speed on heldout_1.csv, not used for fitting, from running away."),
         (_of(INF, 1.0), "not used for fitting, from running away: its error is 1.00 rad/s."),
-        (_of(0.0, 0.83), "increases the speed error on heldout_1.csv, not used for fitting, from 0 rad/s to 0.83"),
+        (
+            _of(0.0, 0.83),
+            "increases the speed error on heldout_1.csv, not used for fitting, from 0 rad/s, refitted alone, to 0.83",
+        ),
         (_of(0.0, 0.0), "changes nothing in the speed error on heldout_1.csv, not used for fitting, 0 rad/s"),
     ],
 )

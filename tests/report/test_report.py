@@ -102,8 +102,8 @@ def test_text_of_the_user_cannot_break_the_page(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("changed", "said", "unsaid"),
     [
-        ({"adequate_probability": None}, "noise floor of that signal", "probability that nothing is missing"),
-        ({"heldout": ()}, "probability that nothing is missing", "noise floor of that signal"),
+        ({"adequate_probability": None}, "noise of that signal, estimated", "probability that nothing is missing"),
+        ({"heldout": ()}, "probability that nothing is missing", "noise of that signal, estimated"),
     ],
 )
 def test_facts_that_are_not_known_take_no_place(
@@ -117,7 +117,7 @@ def test_facts_that_are_not_known_take_no_place(
 def test_an_error_without_a_noise_floor_has_no_fact_of_it(tmp_path: Path) -> None:
     found = made_up.adequate()
     rows = (replace(found.heldout[0], noise_floor=None),)
-    assert "noise floor of that signal" not in _body(_text(replace(found, heldout=rows), tmp_path))
+    assert "noise of that signal, estimated" not in _body(_text(replace(found, heldout=rows), tmp_path))
 
 
 def test_a_recording_without_a_stretch_that_shows_most_is_drawn_whole_alone(tmp_path: Path) -> None:

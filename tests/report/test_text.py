@@ -57,7 +57,7 @@ def test_what_a_name_leaves_is_said_beside_it() -> None:
     assert "no name here" not in verdict_sentence(found)
     left = replace(found, remainder=Remainder(share=0.12, error=3.0, signals=("speed",)))
     assert verdict_sentence(left).startswith("The model lacks ")
-    assert "What they leave of the speed, 12 % of the mismatch, is not noise" in verdict_sentence(left)
+    assert "What it leaves of the speed, 12 % of the mismatch, is not noise" in verdict_sentence(left)
 
 
 def test_a_loss_is_not_called_a_gain() -> None:
@@ -143,7 +143,7 @@ def test_the_two_numbers_are_those_that_the_gain_is_of() -> None:
     row = headline(found)
     assert row is not None
     assert before_after(row) == ("6.31 rad/s", "0.830 rad/s")
-    assert "from 6.31 rad/s to 0.830 rad/s" in verdict_sentence(found)
+    assert "from 6.31 rad/s, refitted alone, to 0.830 rad/s" in verdict_sentence(found)
     assert before_after(replace(row, corrected=None)) == ("14.2 rad/s", "6.31 rad/s")
 
 

@@ -33,7 +33,7 @@ def _missing(found: DiagnosisData) -> Iterator[str]:
         which = "them apart" if len(found.set) > 1 else "it from the next explanations"
         yield f"To tell {which}: {found.next_experiment}"
     if found.remainder.signals and found.remainder.share >= SLIGHT:
-        yield f"For what they leave: where you know what does it, {_WRITE_IT}"
+        yield f"For what is left: where you know what does it, {_WRITE_IT}"
         yield from _again(found)
     yield from _use_it("the effects that were found")
     if not any(source.use == "heldout" for source in found.sources) and found.sources:
@@ -95,3 +95,4 @@ def _mistake(found: DiagnosisData) -> Iterator[str]:
         yield f"To tell the rivals apart: {found.next_experiment}" if rivals else found.next_experiment
     if found.beneath is not None and found.beneath.verdict != "adequate":
         yield "What is said beneath the mistake was found with the mistake undone, and holds if it was undone rightly."
+        yield from _use_it("what was found with the mistake undone")

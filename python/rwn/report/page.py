@@ -110,7 +110,7 @@ def _facts(found: DiagnosisData) -> str:
         models = "as given → refitted" if row.corrected is None else "refitted → corrected"
         facts.append((" → ".join(before_after(row)), f"{row.signal} error on {row.recording}, {models}"))
         if row.noise_floor is not None:
-            facts.append((words.quantity(row.noise_floor, row.unit), "noise floor of that signal"))
+            facts.append((words.quantity(row.noise_floor, row.unit), "noise of that signal, estimated"))
     cells = "".join(f'<div class="fact"><b>{_unbroken(a)}</b><span>{escape(b)}</span></div>' for a, b in facts)
     return f'<div class="facts">{cells}</div>'
 
@@ -144,7 +144,8 @@ def _proof(found: DiagnosisData) -> str:
 
 
 def _place(found: DiagnosisData) -> str:
-    text = f"<p>{escape(words.capital(found.location.description))}.</p>" if found.location.description else ""
+    said = f"Of what the refitted model leaves: {found.location.description}."
+    text = f"<p>{escape(said)}</p>" if found.location.description else ""
     kept_back = any(plot.use == "heldout" for plot in found.curves)
     return (
         text

@@ -70,7 +70,8 @@ def _left(found: DiagnosisData) -> Iterator[str]:
     if left.signals and left.share >= SLIGHT:
         where = listing(left.signals)
         share = f"{percent(left.share)} of the mismatch"
-        yield f"What they leave of the {where}, {share}, is not noise and has no name here."
+        leave = "it leaves" if len(found.effects) == 1 else "they leave"
+        yield f"What {leave} of the {where}, {share}, is not noise and has no name here."
 
 
 def _with_parameters(effect: FoundEffect) -> str:
@@ -201,10 +202,10 @@ def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
     if corrected == row.refitted or (row.gain is not None and abs(row.gain) < SLIGHT):
         return f"{how} changes nothing in {where} {after}: something larger is off there."
     if row.gain_interval is not None and row.gain_interval[0] <= 0.0 <= row.gain_interval[1]:
-        return f"{how} changes little for certain: {where} goes from {before} to {after}."
+        return f"{how} changes little for certain: {where} goes from {before}, refitted alone, to {after}."
     does = "increases" if (corrected > row.refitted if row.gain is None else row.gain < 0.0) else "reduces"
     share = f" ({percent(abs(row.gain))})" if row.gain is not None else ""
-    return f"{how} {does} {where} from {before} to {after}{share}."
+    return f"{how} {does} {where} from {before}, refitted alone, to {after}{share}."
 
 
 def _hides(row: HeldoutRow, other: HeldoutRow) -> bool:

@@ -43,7 +43,7 @@ def lines(found: DiagnosisData) -> Iterator[str]:
     first, *others = sentences(found)
     yield typer.style(first, fg=_COLOURS.get(found.verdict, "yellow"), bold=True)
     yield from others
-    yield from _titled("What acts, as a share of the mismatch:", _account(found))
+    yield from _titled("What acts, and how much of the mismatch goes with it:", _account(found))
     yield from _titled("Parameters, 95 %:", _parameters(found))
     yield from _titled("How it was measured:", _measured(found))
     yield from _titled("Next:", next_steps(found))
