@@ -16,6 +16,7 @@ sys.path.insert(0, str(ROOT))  # tools are no part of the package
 
 from tools.trust import page  # noqa: E402
 from tools.trust.coverage import of_cpp, of_python  # noqa: E402
+from tools.trust.mutants import FILES  # noqa: E402
 
 NAMES = re.findall(
     r"^([\w-]+):.*\n(?:\t.*\n)*?\t\$\(TRUST\)", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE
@@ -25,6 +26,12 @@ NAMES = re.findall(
 def test_each_command_has_a_section() -> None:
     assert len(NAMES) == 10
     check_sections(ROOT / "docs/testing.md", page.COMMAND, NAMES)
+
+
+def test_the_files_and_the_tests_of_the_mutants_are_there() -> None:
+    """Where one is not, no mutant is tried: the tests fail on what is not altered."""
+    named = [*FILES, *(test for tests in FILES.values() for test in tests)]
+    assert not [name for name in named if not (ROOT / name).is_file()]
 
 
 def test_a_figure_goes_into_its_section_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
