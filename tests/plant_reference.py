@@ -1,6 +1,6 @@
 """The motor's equations in plain Python for scipy's adaptive integrator: a slow judge of the plant.
 
-Dry friction only for motion in one direction: sticking is judged by closed forms in cpp/tests/plant_test.cpp.
+Dry friction only for motion in one direction: sticking is judged by closed forms in cpp/tests/plant/plant_test.cpp.
 """
 # ruff: noqa: ARG005  (hooks all have the same arguments, most use few)
 

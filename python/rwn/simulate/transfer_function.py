@@ -1,4 +1,4 @@
-"""The transfer function of cpp/include/rwn/transfer_function.hpp in NumPy, plainly."""
+"""The transfer function of cpp/include/rwn/simulate/transfer_function.hpp in NumPy, as plain as can be."""
 
 from __future__ import annotations
 
