@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.filter_colour import MOST
-from rwn.model.initial_state import CERTAIN, resolution
+from rwn.model.initial_state import CERTAIN
+from rwn.recording.quantisation import resolution
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.model.model import Model
-from rwn.recording.noise import noise_from_differences
-from rwn.recording.quantisation import quantum
+from rwn.recording.quantisation import resolution
 from rwn.recording.signals import MEASURED
 from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral
 
@@ -104,11 +103,6 @@ def _known_to(signals: Mapping[str, Array], first: int, missing: Mapping[str, ND
     """Resolution of each measured signal; held or bridged values have no noise of their own."""
     measured = {n: signals[n][~missing[n]] if n in missing else signals[n] for n in MEASURED if n in signals}
     return {n: resolution(x, first) for n, x in measured.items()}
-
-
-def resolution(signal: Array, first: int) -> float:
-    """Standard deviation of one of the first samples of a signal (n,): of their noise, or a step of its values."""
-    return max(noise_from_differences(signal[:first]), quantum(signal))
 
 
 def _first_current(signals: Mapping[str, Array]) -> float:

@@ -1,9 +1,11 @@
-"""Quantised signals: the step that their values are multiples of, and what rounding adds on average."""
+"""Quantised signals: their step, how well it and the noise let a sample be known, and what rounding adds on average."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+
+from rwn.recording.noise import noise_from_differences
 
 Array = NDArray[np.float64]
 
@@ -44,6 +46,11 @@ def _decimal(step: float) -> bool:
     """Whether a step is 1, 2 or 5 in some decimal place."""
     leading = step / 10.0 ** np.floor(np.log10(step) + 1e-9)
     return bool(min(abs(leading / m - 1.0) for m in (1.0, 2.0, 5.0, 10.0)) < 1e-4)
+
+
+def resolution(signal: Array, first: int) -> float:
+    """Standard deviation of one of the first samples of a signal (n,): of their noise, or a step of its values."""
+    return max(noise_from_differences(signal[:first]), quantum(signal))
 
 
 def mean_rounding_error(cells: Array, noise: float) -> Array:
