@@ -34,7 +34,7 @@ def found_effects(
     """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts)."""
     final = chosen.final
     numbers, known = estimates(final, ranking.counted, doubt=doubt), final.hypothesis.table
-    if ranking.problem.simulator.angle_per_position != 1.0:
+    if ranking.problem.drive.linear:
         numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
     rows = []
     for name, probability in probabilities.items():

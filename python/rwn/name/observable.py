@@ -20,7 +20,7 @@ def observable(name: str, problem: Problem) -> bool:
     if effect.guess == "values":
         return False  # read off the values, not fitted
     if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
-        turns = problem.simulator.angle_per_position == 1.0
+        turns = not problem.drive.linear
         if turns and any(p.replaces for p in effect.parameters):
             return True  # of a shaft that rubs, a part of a turn shows where it rubs more
         return _revolutions(problem) > (A_SIXTH if turns else HALF_A_METRE)

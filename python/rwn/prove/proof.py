@@ -61,7 +61,7 @@ def compared(
 ) -> tuple[HeldoutRow, ...]:
     """Rows of two fits on runs that neither saw, `refitted` in the place of the nominal model's; see `heldout_rows`."""
     problem = ranking.problem.in_free_run()
-    linear = problem.simulator.angle_per_position != 1.0
+    linear = problem.drive.linear
     units = {"current": "A", "speed": "m/s" if linear else "rad/s", "position": "m" if linear else "rad"}
     return heldout_rows(
         problem,

@@ -211,7 +211,7 @@ def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
 
 def order_grid(problem: Problem) -> Array:
     """Orders (k,) worth looking at: whole numbers per revolution; as fine as the travel allows on a linear axis."""
-    if problem.simulator.angle_per_position == 1.0:
+    if not problem.drive.linear:
         return np.arange(1.0, 121.0)
     travel = max(float(np.ptp(r.angle)) for r in problem.runs if r.angle.size)
     return np.arange(2.0, 900.0) * (0.5 / max(travel, 1e-9))
