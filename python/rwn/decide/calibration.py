@@ -38,7 +38,7 @@ class Calibration:
         return self.probability_of(features(found))
 
     def probability_of(self, found: Array) -> float:
-        """The same of features (5,).
+        """Probability that the effect, or a rival in its place, acts, from its features (5,).
 
         At most even where an explanation without the effect is the likelier one: nothing is stated against the ranking.
         """
@@ -47,7 +47,7 @@ class Calibration:
         return min(learned, ACTS) if found[FEATURES.index("odds")] < 0.0 else learned
 
     def probability_by(self, **known: float) -> float:
-        """The same where some features alone are known, by name; the others count as usual."""
+        """Probability that it acts where some features alone are known, by name; the others count as usual."""
         z = sum(
             weight * (_SCALES[name](known[name]) - mean) / deviation
             for name, weight, mean, deviation in zip(FEATURES, self.weights, self.means, self.deviations, strict=True)

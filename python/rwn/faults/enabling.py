@@ -34,7 +34,7 @@ def powered_from(time: float, recording: Recording, model: Model) -> Recording:
 
 
 def run_powered_from(time: float, run: Run) -> Run:
-    """The same of a recording as it is simulated."""
+    """The run with no input before a time [s]; in the step in which it comes the input acts for a part."""
     if time == 0.0:
         return run
     steps, acted = np.append(run.time, 2.0 * run.time[-1] - run.time[-2]), run.applied_input
@@ -70,7 +70,7 @@ class Beginning:
         return self._with_power_from(time).error(self.this.vector, self.this.active)
 
     def cost(self, time: float) -> float:
-        """The same, fitted to this alone, with priors."""
+        """Cost, priors included, of the hypothesis refitted to this alone with power from a time [s] on."""
         return refit(self.this, self._with_power_from(time), iterations=NEAR_ITS_END).cost
 
     def _with_power_from(self, time: float) -> Problem:

@@ -102,7 +102,7 @@ def without(recordings: Sequence[Recording], fault: Fault) -> list[Recording]:
 
 
 def without_all(recordings: Sequence[Recording], faults: Iterable[Fault]) -> list[Recording]:
-    """The same of several faults, one after the other."""
+    """The recordings as they should have been without several faults, undone one after the other."""
     return reduce(without, faults, list(recordings))
 
 

@@ -246,7 +246,7 @@ def _tolerance(seen: Similarity, model: Model) -> float:
 
 
 def _axis_fault(recordings: Sequence[Recording], model: Model) -> Fault | None:
-    """The same from the driving force against what the motion takes."""
+    """A wrong scale of an axis, by its driving force against that which the motion takes; None: none is."""
     seen = _force_similarity(recordings, model)
     if abs(seen.correlation) < LEAST_FORCE or (seen.correlation > 0.0 and abs(np.log(seen.ratio)) < np.log(2.0 * FAR)):
         return None

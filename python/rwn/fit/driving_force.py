@@ -92,7 +92,7 @@ class DrivingForceProblem(Problem):
         )  # fmt: skip
 
     def on(self, runs: Sequence[Run]) -> Problem:
-        """The same on other recordings."""
+        """The problem on other recordings, judged by their driving force."""
         return replace(self, runs=tuple(map(balanced, runs)))
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:

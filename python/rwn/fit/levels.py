@@ -39,7 +39,7 @@ class Level:
 
 
 def friction(problem: Problem) -> Level:
-    """That of the nominal model, and of the effects that take its place."""
+    """The level of dry and viscous friction: of the nominal model, and of the effects that take its place."""
     names = problem.drive.friction
     instead = [e for e in problem.prior.table.values() if any(p.replaces in names for p in e.parameters)]
     torques = tuple(e.at(p.name) for e in instead for p in e.parameters if p.unit == "N m") if names else ()

@@ -23,7 +23,10 @@ def weighted_by_nominal(problem: Problem) -> tuple[Problem, Fit]:
 
 
 def nominal_of(recordings: Sequence[Recording], model: Model) -> tuple[Problem, Fit]:
-    """The same of recordings. Raises InputError where one does not fit the model."""
+    """The problem of recordings, weighted by the noise that the refitted nominal model leaves, and that model.
+
+    Raises InputError where a recording does not fit the model.
+    """
     return weighted_by_nominal(prepare(recordings, model))
 
 

@@ -135,7 +135,7 @@ def variances(problem: Problem, this: Fit) -> dict[str, float]:
 
 
 def variance(problem: Problem, this: Fit) -> float:
-    """The same over all signals together; inf: it ran away."""
+    """Mean squared weighted error of a fit over all recordings and signals; 1: noise alone, inf: it ran away."""
     joined = join(problem, problem.residuals(this.vector, this.active))
     left = sum(_energies(joined).values()) / max(_count(joined), 1)
     return left if left < RAN_AWAY else np.inf

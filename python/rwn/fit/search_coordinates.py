@@ -74,7 +74,10 @@ class SearchCoordinates:
         return self._priced(z, self.evaluate(self.values(z)))
 
     def tried(self, z: Array, bar: float, *, last: bool, doubted: bool) -> tuple[float, Normal]:
-        """The same at `z` (p,); by the error alone in the last iteration, and where it is in doubt above `bar`."""
+        """Cost at `z` (p,) and what it is made of.
+
+        Without derivatives in the last iteration, and where it is in doubt and above `bar`.
+        """
         if self.probe is None or not (last or doubted):
             return self.at(z)
         probed = self._priced(z, self.probe(self.values(z)))

@@ -49,7 +49,7 @@ def filters_again(problem: Problem, explanation: Fit, known: Sequence[SensorFilt
 def filters_and_likelihood(
     problem: Problem, this: Fit, known: Sequence[SensorFilter] = ()
 ) -> tuple[tuple[SensorFilter, ...], float]:
-    """The same, and how likely the recordings are by the explanation that goes best with these (log, BIC).
+    """The filters that the errors of a fit show, and how likely the recordings are with these (log, BIC).
 
     `known`: filters under which the explanation was found; they stay unless others are decisively likelier.
     """
@@ -224,7 +224,7 @@ def losses_beside(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) 
 
 
 def losses_of(problem: Problem, this: Fit) -> Array:
-    """The same as it is, without filters; (n,)."""
+    """`losses` (n,) of an explanation as it was fitted, of the rows as they were recorded."""
     return losses(problem, _as_recorded(problem, this, ()))
 
 

@@ -65,7 +65,10 @@ def _ranked(
     made: Measurement, *, progress: Progress, names: Sequence[str] | None = None, at_once: int = MOST_EFFECTS,
     after: Ranking | None = None, known: Sequence[Fit] = (),
 ) -> Ranking:  # fmt: skip
-    """The same. `known`: explanations by several effects that were found under another measurement."""
+    """The ranking under one measurement, or under the one that its best explanation shows (see `rank`).
+
+    `known`: explanations by several effects that were found under another measurement.
+    """
     problem = made.problem
     begun = problem.work.done
     wanted = [n for n in names or problem.prior.table if observable(n, problem)]

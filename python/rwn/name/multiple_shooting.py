@@ -30,7 +30,7 @@ def is_far_off(problem: Problem, best: Fit) -> bool:
 
 
 def has_lost_the_motion(problem: Problem, best: Fit) -> bool:
-    """Whether it is, and a signal errs by a share of its spread with which it no longer follows the motion."""
+    """Whether a free run is far off, and some signal errs by too much of its spread to follow the motion."""
     if not is_far_off(problem, best):
         return False
     errors = join(problem, problem.residuals(best.vector, best.active))

@@ -47,7 +47,7 @@ class PiecewiseInput(Values):
     noise_left: Mapping[str, float] = field(default_factory=dict)
 
     def since(self, begin: float) -> PiecewiseInput:
-        """The same of a recording that begins at `begin` [s], in its time."""
+        """The input of the recording from `begin` [s] on, in the time of that part."""
         first = max(int(np.searchsorted(self.instants, begin, side="right")) - 1, 0)
         instants = np.maximum(self.instants[first:], begin) - begin
         gaps = None if self.gaps is None else self.gaps[first:]

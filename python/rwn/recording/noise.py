@@ -28,7 +28,7 @@ class Noise:
         return float(self.level / np.sqrt(np.prod([1.0 - r**2 for r in self.reflection])))
 
     def scaled(self, factor: float) -> Noise:
-        """That of the signal times `factor`."""
+        """The noise of the signal times `factor`."""
         return replace(self, level=abs(factor) * self.level)
 
     def innovations(self, errors: Array, *, restart: int = 0) -> Array:

@@ -44,7 +44,7 @@ class Winding(Drive):
         return coupling / motor["resistance"]
 
     def speed_spread(self, uncertainty: Mapping[str, float]) -> float:
-        """That of Ke: a motor runs as fast as its back-EMF is large."""
+        """Relative standard deviation of the speed: that of Ke, as a motor runs as fast as its back-EMF is large."""
         return float(uncertainty.get("back_emf_constant", 0.0))
 
     def as_simulated(self, motor: Mapping[str, float]) -> dict[str, float]:
