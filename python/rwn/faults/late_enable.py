@@ -224,9 +224,10 @@ def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model,
     run = replace(run_of(recording, model).until(samples), own=beside.own, levels=beside.levels)
     if not run.in_motion or _stands_about_zero(run, samples):
         return _moves(problem, this, run, {s: run.signal(s) for s in run.recorded})
-    even = replace(run, input=np.full(run.input.size, run.input[0]), applied_input=None)  # it turns evenly,
+    # either it turns evenly under its first input, or it stands and a biased sensor shows what is not there
+    even = replace(run, input=np.full(run.input.size, run.input[0]), applied_input=None)
     turning = problem.simulate(even, this.vector, this.active).signals
-    still = replace(run, in_motion=False, own=(), start=(0.0, 0.0, run.start[2]), input_before=0.0)  # or has a bias
+    still = replace(run, in_motion=False, own=(), start=(0.0, 0.0, run.start[2]), input_before=0.0)
     standing = {s: np.full(run.time.size, still.start[2] if s == "position" else 0.0) for s in run.recorded}
     return _moves(problem, this, run, turning) and _moves(problem, this, still, standing)
 

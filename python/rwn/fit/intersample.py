@@ -27,7 +27,7 @@ from rwn.recording.recording import Recording, beginnings
 
 Array = NDArray[np.float64]
 
-CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations of the loss of a law that the free run certainly refuses
+CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # standard deviations by which a law has to simulate worse to be refused
 MOST_OFF = 0.5  # share of the rows of a signal that may be unknown: with more, little of it is left to be compared
 
 

@@ -15,10 +15,10 @@ from rwn.fit.unknown import Unknown
 Array = NDArray[np.float64]
 
 
-LEAST = 1e-4  # of what a step promises, that it has to keep to be taken
+LEAST = 1e-4  # share of the promised decrease of the cost, that a step has to bring to be taken
 UNDAMPED = 1e-10  # damping that holds no step back, even along what priors alone decide
-DAMPING = 1e-3  # that a fit begins with
-RELIEF = 1e-2  # what damping is lowered by where a step promises little
+DAMPING = 1e-3  # initial damping of a fit
+RELIEF = 1e-2  # factor on the damping where a step promises little
 
 
 class FitStatus(Enum):

@@ -29,7 +29,7 @@ def with_priors_weighed(problem: Problem, this: Fit) -> tuple[Problem, Fit]:
     free = refit(this, replace(problem, colour=1.0), share=one_stage(problem.work))
     if worth(problem, free) < WHITE:  # what was left were the priors' own doing
         colour, this = 1.0, free
-    # exactly 1 would forget that the fits had run away once
+    # a colour of exactly 1 means that no fit has left what is believable yet
     return replace(problem, colour=max(colour, 1.0 + 1e-9)), this
 
 

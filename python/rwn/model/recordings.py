@@ -18,6 +18,12 @@ from rwn.recording.copies import is_piece
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import SIGNALS
 
+LONGEST_SHIFT = 40  # samples up to which a delay of a channel is looked for
+
+# Part of a run that a delay or time constant of a sensor may last: beyond it too little would be left to compare. In a
+# run so short that it is less, LONGEST_SHIFT samples are allowed, so that `diagnose` reads what it wrote.
+_SHARE = 0.1
+
 
 def check_recording(recording: Recording, model: Model, *, compared: bool = True) -> Recording:
     """Its samples are usable, it has the signals that the model needs, in its units, and they move. Raises InputError.
@@ -46,13 +52,6 @@ def check_recording(recording: Recording, model: Model, *, compared: bool = True
     moved = _check_movement(recording, model, where) if compared else ()
     warnings = (*recording.warnings, *moved)
     return replace(recording, warnings=tuple(dict.fromkeys(warnings)))
-
-
-LONGEST_SHIFT = 40  # samples up to which a delay of a channel is looked for
-
-# Largest delay or time constant of a sensor: of more than a tenth of a run too little would be left to compare. In a
-# short run as many rows as a delay is looked for in, so that `diagnose` reads what it wrote.
-_SHARE = 0.1
 
 
 def _check_sensors(recording: Recording, model: Model, where: str) -> None:

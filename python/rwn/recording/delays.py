@@ -12,6 +12,8 @@ from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
+_ROUNDING = 1e-9  # rounding error of a time [s], beyond which an instant is outside a recording
+
 
 def in_time(recording: Recording, delays: Mapping[str, float]) -> Recording:
     """A recording whose signals came late by `delays` [s], in step; samples that it no longer holds are missing."""
@@ -32,6 +34,3 @@ def in_time(recording: Recording, delays: Mapping[str, float]) -> Recording:
 def delayed(time: Array, values: Array, delay: float) -> Array:
     """Values (n,) at `time` (n,) [s] as a logger shows them that is late by `delay` [s]."""
     return np.interp(time - delay, time, values) if delay else values
-
-
-_ROUNDING = 1e-9  # s

@@ -15,11 +15,12 @@ Flags = NDArray[np.bool_]
 
 SHORTEST = 20  # samples that say how a speed was obtained
 REPEATED = 0.05  # error of a difference of the recorded position, in units of the noise that it has
-# power near half the sampling rate in units of that near a quarter, where a rounded speed has 0.4 to 1
-VANISHING = 0.05  # central differences have 0.005
+# Power near half the sampling rate over that near a quarter: a rounded speed has 0.4 to 1, central differences 0.005,
+# differences over one sample 2.
+VANISHING = 0.05  # ratio below which there is no power, as of central differences
 LONGEST = 8  # samples of a difference: a moving average of so many differences over one
 MOTION = 0.2  # of the sampling rate: what moves a drive is slower
-RISING = 1.4  # differences over one sample have 2
+RISING = 1.4  # above this ratio a speed is a difference over one sample
 
 
 @dataclass(frozen=True)

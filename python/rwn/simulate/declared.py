@@ -9,10 +9,10 @@ from rwn.model.model import Model
 from rwn.model.vocabulary import Effect, Parameter
 from rwn.simulate.scales import LEAST
 
-# Beyond a bound of the table. Bounds are measured by what recordings show, and another run of the same drive may be
-# ten times slower or weaker; a slip of a unit is a factor of 1000.
+# Factor by which a value may lie beyond a bound of the table: bounds are measured by what recordings show, and another
+# run of the same drive may be ten times slower or weaker, while a slip of a unit is a factor of 1000.
 SLACK = 100.0
-SHARP = 1e6  # the same of what makes a law sharper, which may be as sharp as one likes but is a number of that drive
+SHARP = 1e6  # such a factor for what idealises a law (`idealised`), which may be as sharp as one likes
 
 
 def check_declared(
