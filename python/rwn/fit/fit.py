@@ -18,7 +18,7 @@ from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
 
-MEASURED = 0.1  # part of every run that is simulated to learn what a step of a fit costs
+COST_SAMPLE = 0.1  # part of every run that is simulated to learn what a step of a fit costs
 IDLE = 1e-9  # strength, relative to its upper limit, that is none
 LIMIT = 1e-3  # relative distance from a limit of a parameter that counts as lying on it
 TO_THE_END = 60  # iterations of a fit that is to converge; most of them are never needed
@@ -219,8 +219,8 @@ def best_few(fits: Sequence[Fit]) -> list[Fit]:
 
 def cost_of_a_step(problem: Problem, this: Hypothesis) -> float:
     """What it costs to simulate all runs once, with derivatives; measured on the beginning of each."""
-    runs = tuple(r.until(max(int(MEASURED * r.time.size), 1)) for r in problem.runs)
+    runs = tuple(r.until(max(int(COST_SAMPLE * r.time.size), 1)) for r in problem.runs)
     own = replace(problem, runs=runs).metered()
     own.normal(this.vector, this.active, this.by)
     problem.work.add(own.work.done)
-    return own.work.done / MEASURED
+    return own.work.done / COST_SAMPLE

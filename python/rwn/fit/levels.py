@@ -23,7 +23,7 @@ from rwn.simulate.run import Run
 
 SPREAD = 0.3  # prior deviation of a level's logarithm: friction that halves, as a gear warms up, is 2.3 of it
 ITERATIONS = 10  # of a fit that begins near its end
-SURE = 3.0  # deviations from the mean of all, from which it is said of a recording: of one in 370 by chance
+APART = 3.0  # deviations from the mean of all, from which a recording is said to differ: one in 370 by chance
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,4 +98,4 @@ def uneven(problem: Problem, this: Fit, level: Level) -> dict[str, tuple[float, 
     # no level is better known than any other number of a fit
     factors, deviations = np.exp(logarithms), np.hypot(np.sqrt(np.maximum(np.diag(spread), 0.0)), AGREEMENT)
     rows = zip(names, factors, deviations, strict=True)
-    return {name: (float(f), float(f * d)) for name, f, d in rows if abs(np.log(f)) > SURE * d}
+    return {name: (float(f), float(f * d)) for name, f, d in rows if abs(np.log(f)) > APART * d}

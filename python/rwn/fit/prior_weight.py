@@ -15,7 +15,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 
 BELIEVABLE = 4.0  # declared standard deviations, beyond which a parameter is not merely off
-WHITE = 2.0  # variance times correlation time below which nothing but noise is left
+LEFT_BY_NOISE = 2.0  # variance times correlation time below which nothing but noise is left
 
 
 def with_priors_weighed(problem: Problem, this: Fit) -> tuple[Problem, Fit]:
@@ -27,7 +27,7 @@ def with_priors_weighed(problem: Problem, this: Fit) -> tuple[Problem, Fit]:
         return problem, this
     colour = worth(problem, this)
     free = refit(this, replace(problem, colour=1.0), share=one_stage(problem.work))
-    if worth(problem, free) < WHITE:  # what was left were the priors' own doing
+    if worth(problem, free) < LEFT_BY_NOISE:  # what was left were the priors' own doing
         colour, this = 1.0, free
     # a colour of exactly 1 means that no fit has left what is believable yet
     return replace(problem, colour=max(colour, 1.0 + 1e-9)), this

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
-from rwn.recording.noise import WHITE as WHITE_NOISE
+from rwn.recording.noise import WHITE
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
 
@@ -200,5 +200,5 @@ def join(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> dict[str
 
 
 def _innovations(problem: Problem, run: Run, signal: str, residual: Array) -> Array:
-    noise = problem.noise.get(signal, WHITE_NOISE)
+    noise = problem.noise.get(signal, WHITE)
     return noise.innovations(run.masked(signal, residual), restart=run.restart_every)

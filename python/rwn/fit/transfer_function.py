@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 STARTS_OF_STATE = 16  # most starts of the search for an initial state
 TIME_CONSTANTS = (3.0, 10.0, 30.0, 100.0)  # first guesses of the slowest pole, in samples
 FASTER = (1.0, 4.0)  # first guesses of the other poles against it
-DAMPING = 0.3  # damping ratio of the first guesses of pairs of poles
+DAMPING_RATIO = 0.3  # damping ratio of the first guesses of pairs of poles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,7 +115,7 @@ def _denominator(order: int, rate: float, faster: float) -> Array:
     """a_0.. (order,) of a real pole at `rate` and damped pairs at `faster` and multiples of it."""
     poles = [complex(-rate)] if order % 2 else []
     for k in range(1, order // 2 + 1):
-        pole = faster * k * rate * complex(-DAMPING, np.sqrt(1.0 - DAMPING**2))
+        pole = faster * k * rate * complex(-DAMPING_RATIO, np.sqrt(1.0 - DAMPING_RATIO**2))
         poles += [pole, pole.conjugate()]
     coefficients: Array = np.real(np.poly(poles))
     return coefficients[1:][::-1]

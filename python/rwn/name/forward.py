@@ -33,7 +33,7 @@ from rwn.name.weights import weigh
 Progress = Callable[[str, float], None]
 
 MOST_EFFECTS = OF_THE_MACHINE + 1  # in one explanation: a sensor or an actuator shows beside what acts in the machine
-WORTH = 0.2  # smallest share of the cost, misfit and data sheet together, that a further effect has to remove
+LEAST_GAIN = 0.2  # smallest share of the cost, misfit and data sheet together, that a further effect has to remove
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 
 
@@ -170,7 +170,7 @@ def _beside_and_in_windows(
 
 def _is_worth_it(more: Sequence[Fit], best: Fit) -> bool:
     """Whether one of `more` costs so much less than what was `best`, by misfit and data sheet together."""
-    return any(f.cost <= (1.0 - WORTH) * best.cost for f in more)
+    return any(f.cost <= (1.0 - LEAST_GAIN) * best.cost for f in more)
 
 
 def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:

@@ -19,7 +19,7 @@ REPEATED = 0.05  # error of a difference of the recorded position, in units of t
 # differences over one sample 2.
 VANISHING = 0.05  # ratio below which there is no power, as of central differences
 LONGEST = 8  # samples of a difference: a moving average of so many differences over one
-MOTION = 0.2  # of the sampling rate: what moves a drive is slower
+FASTEST = 0.2  # highest frequency of a motion, of the sampling rate: what moves a drive is slower
 RISING = 1.4  # above this ratio a speed is a difference over one sample
 
 
@@ -81,7 +81,7 @@ def _of_rows(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
         if errors[best] < REPEATED:
             return best
     step = quantum(speed)
-    if not 0.0 < _power(speed, MOTION, 0.5) <= step**2:  # two roundings to a step are never further apart than that
+    if not 0.0 < _power(speed, FASTEST, 0.5) <= step**2:  # two roundings to a step are never further apart than that
         return INSTANTANEOUS
     averaged = None if position.size else next((way for way in AVERAGED if _vanishes(speed, way.before)), None)
     return averaged or _of_counts(time, speed, step)
@@ -139,7 +139,7 @@ def _vanishes(speed: Array, samples: int) -> bool:
     """Whether a speed of counts has no power at the multiples of 1/samples beyond its motion, but some between them."""
     if speed.size < samples * SHORTEST:
         return False
-    zeros = [k / samples for k in range(1, samples // 2 + 1) if k / samples > MOTION]
+    zeros = [k / samples for k in range(1, samples // 2 + 1) if k / samples > FASTEST]
     between = min(_power(speed, z - 0.6 / samples, z - 0.4 / samples) for z in zeros)
     return all(_power(speed, z - 0.01, min(z + 0.01, 0.5)) < VANISHING * between for z in zeros)
 
