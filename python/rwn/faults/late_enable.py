@@ -221,13 +221,13 @@ def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model,
 
     Where these are not about 0, whether a change of the input moves it, and would from rest.
     """
-    run = replace(run_of(recording, model).until(samples), own=beside.own, levels=beside.levels)
+    run = replace(run_of(recording, model).until(samples), start_unknowns=beside.start_unknowns, levels=beside.levels)
     if not run.in_motion or _stands_about_zero(run, samples):
         return _moves(problem, this, run, {s: run.signal(s) for s in run.recorded})
     # either it turns evenly under its first input, or it stands and a biased sensor shows what is not there
     even = replace(run, input=np.full(run.input.size, run.input[0]), applied_input=None)
     turning = problem.simulate(even, this.vector, this.active).signals
-    still = replace(run, in_motion=False, own=(), start=(0.0, 0.0, run.start[2]), input_before=0.0)
+    still = replace(run, in_motion=False, start_unknowns=(), start=(0.0, 0.0, run.start[2]), input_before=0.0)
     standing = {s: np.full(run.time.size, still.start[2] if s == "position" else 0.0) for s in run.recorded}
     return _moves(problem, this, run, turning) and _moves(problem, this, still, standing)
 
@@ -247,5 +247,5 @@ def _stands_about_zero(run: Run, samples: int) -> bool:
 def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> Beginning:
     run = replace(run_of(recording, model), levels=beside.levels)
     if run.in_motion or run.angle_unknown:  # else it says where it stands, and a fit may have bent that
-        run = replace(run, own=beside.own)
+        run = replace(run, start_unknowns=beside.start_unknowns)
     return Beginning(problem, this, recording, run, _standing_samples(recording, model))

@@ -74,7 +74,8 @@ def balanced(run: Run) -> BalancedRun:
         name=run.name, time=every(run.time), input=every(smooth(run.input, length)), position=position, angle=position,
         velocity=every(smooth(run.position, length, derivative=1, step=step)),
         acceleration=every(smooth(run.position, length, derivative=2, step=step)), missing={DRIVING_FORCE: near[rows]},
-        own=run.own, levels=run.levels, start=run.start, start_spread=run.start_spread, in_motion=run.in_motion,
+        start_unknowns=run.start_unknowns, levels=run.levels, start=run.start, start_spread=run.start_spread,
+        in_motion=run.in_motion,
     )  # fmt: skip
 
 
@@ -121,7 +122,7 @@ class DrivingForceProblem(Problem):
 
     def _slope(self, run: BalancedRun, vector: Array, active: Sequence[int], place: int) -> Array:
         """Derivative (n,) of the needed force by one entry of the vector; 0 for what is unknown of a start."""
-        if place >= vector.size or place in {k for k, _ in run.own}:
+        if place >= vector.size or place in {k for k, _ in run.start_unknowns}:
             return np.zeros(run.time.size)
         step = SLOPE * max(abs(float(vector[place])), SMALL)
         ends = []

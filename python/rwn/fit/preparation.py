@@ -81,7 +81,7 @@ def _unknown_starts(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[RunUnkn
                 )
             )
             own.append((place, motor_index(name)))
-        placed.append(replace(run, own=tuple(own)))
+        placed.append(replace(run, start_unknowns=tuple(own)))
     return tuple(placed), tuple(unknowns)
 
 

@@ -81,7 +81,7 @@ class Problem:
         An angle that nothing tells, of a run that was not fitted, is the one at which it fits best.
         """
         begun = self.simulator.started(run, vector)
-        if not run.angle_unknown or motor_index(INITIAL_POSITION) in dict(run.own).values():
+        if not run.angle_unknown or motor_index(INITIAL_POSITION) in dict(run.start_unknowns).values():
             return begun
         effects = [effect for effect in self.prior.table.values() if effect.index in active]
         angles = angles_to_try(effects, begun)
@@ -122,7 +122,7 @@ class Problem:
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations (p, p), (p,) of one run, of what is unknown of it alone at its place in `by`."""
         core, begun = _core.parameter_count(), self.started(run, vector, active)
-        adds_to, scales = dict(run.own), self._scaled(run, vector, active)
+        adds_to, scales = dict(run.start_unknowns), self._scaled(run, vector, active)
         # what is unknown of other runs changes nothing here
         here = [scales[k][1] if k in scales else (adds_to.get(k, k),) for k in by]
         wanted = sorted({p for parameters in here for p in parameters if p < core})

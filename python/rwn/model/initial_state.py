@@ -32,7 +32,7 @@ class InitialState:
     """
 
     in_motion: bool = False
-    told_by: int = 0  # first samples that told so; 0: it was stated, or it starts at rest
+    start_samples: int = 0  # first samples that show the motion; 0: it was stated, or it starts at rest
     state: tuple[float, float, float] = (0.0, 0.0, 0.0)
     spread: Mapping[str, float] = field(default_factory=dict)
 
@@ -74,7 +74,7 @@ def initial_state_of(
         spread["initial_current"] = max(abs(current), known_to.get("current", 0.0), 1e-9)
     return InitialState(
         in_motion=True,
-        told_by=first if initial == "auto" else 0,
+        start_samples=first if initial == "auto" else 0,
         state=(current if model.drive.winding else 0.0, speed, place),
         spread=spread,
     )

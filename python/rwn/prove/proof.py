@@ -85,7 +85,8 @@ def _folds(problem: Problem) -> Iterator[Fold]:
     if len(whole) > 1:
         for k, run in enumerate(whole):
             others = tuple(r for j, r in enumerate(problem.runs) if j != k)
-            yield replace(problem, runs=others), replace(run, name=f"{run.name} {LEFT_OUT}", own=(), levels=()), 0
+            alone = replace(run, name=f"{run.name} {LEFT_OUT}", start_unknowns=(), levels=())
+            yield replace(problem, runs=others), alone, 0
         return
     first, last = (int(FITTED_PART * r.time.size) for r in (whole[0], problem.runs[0]))  # a fit may take fewer samples
     late = replace(whole[0], name=f"last {1.0 - FITTED_PART:.0%} of {whole[0].name} {LEFT_OUT}".replace("%", " %"))

@@ -33,7 +33,7 @@ class Run:
     """One recording as the core takes it; signals that were not recorded are empty.
 
     Arrays are (n,), C-contiguous float64, SI. `start` holds the initial current, speed and position where they are
-    known; what is unknown of one run alone has a place behind all parameters in the vector of a fit (`own`, `levels`).
+    known; `start_unknowns` and `levels` are unknowns of one run alone, behind all parameters in the vector of a fit.
     """
 
     name: str
@@ -47,9 +47,9 @@ class Run:
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     start_spread: Mapping[str, float] = field(default_factory=dict)  # deviation of what is not known of it exactly
     in_motion: bool = False  # it does not start at rest
-    told_by: int = 0  # first samples that told so; 0: it was stated, or it starts at rest
-    own: tuple[tuple[int, int], ...] = ()  # unknowns of this run alone: place in the vector, parameter that it adds to
-    levels: tuple[tuple[int, float, tuple[int, ...]], ...] = ()  # place, its part in the logarithm of a factor, on what
+    start_samples: int = 0  # first samples that show the motion; 0: it was stated, or it starts at rest
+    start_unknowns: tuple[tuple[int, int], ...] = ()  # each: place in the vector, parameter that its value adds to
+    levels: tuple[tuple[int, float, tuple[int, ...]], ...] = ()  # each: place, share in a log factor, parameters scaled
     input_before: float = 0.0
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
     interpolated: InterpolatedRows | None = None  # its rows, where the signals are samples that these lay between
@@ -143,13 +143,13 @@ class Run:
             cut["angle"] = cut["angle"] - position
         return replace(
             self, **cut, time=self.time[begin:] - first, start=(0.0, speed, position), start_spread={},
-            own=(), levels=(), in_motion=True, told_by=0, input_before=float(self.input[begin - 1]),
+            start_unknowns=(), levels=(), in_motion=True, start_samples=0, input_before=float(self.input[begin - 1]),
             applied_input=self.applied_input and self.applied_input.since(first), interpolated=None,
             missing={s: lost[begin:] for s, lost in self.missing.items()},
         )  # fmt: skip
 
     def following_nothing(self) -> Run:
-        """The same, simulated from the input alone: angle-dependent effects follow the simulated position."""
+        """The run simulated from its input alone: angle-dependent effects follow the simulated position."""
         return replace(self, angle=np.empty(0))
 
     def with_intersample(self, law: str) -> Run:
@@ -193,9 +193,9 @@ class Run:
             changed["angle"] = integral(self.speed_measured, self.time, values)
         before = replace(self, missing=missing, **changed)
         signals = {s: before.measured(s) for s in before.recorded}
-        if not self.told_by or is_moving(self.time, signals, self.told_by, self.speed_measured):
+        if not self.start_samples or is_moving(self.time, signals, self.start_samples, self.speed_measured):
             return before
-        return replace(before, in_motion=False, told_by=0, start=(0.0, 0.0, self.start[2]), input_before=0.0)
+        return replace(before, in_motion=False, start_samples=0, start=(0.0, 0.0, self.start[2]), input_before=0.0)
 
     def quantisation(self, signal: str) -> float:
         """Standard deviation of the quantisation of a signal; 0 where its values are multiples of no step.
@@ -249,7 +249,7 @@ def run_of(recording: Recording, model: Model) -> Run:
         start=start.state,
         start_spread=start.spread,
         in_motion=start.in_motion,
-        told_by=start.told_by,
+        start_samples=start.start_samples,
         input_before=float(given[0]) if start.in_motion else 0.0,
         angle=position if position.size else integral(way, time, speed),
         angle_from_speed=position.size == 0,

@@ -67,7 +67,7 @@ class Simulator:
     def started(run: Run, vector: Array) -> Array:
         """The parameter vector (all,) of one run: that of all runs, its start, and what is unknown of it alone."""
         own = _of_core(vector).copy()
-        for place, parameter in run.own:
+        for place, parameter in run.start_unknowns:
             if place < vector.size:  # else it was fitted to recordings of which nothing was unknown
                 own[parameter] += vector[place]
         for place, part, parameters in run.levels:
