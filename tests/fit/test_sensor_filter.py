@@ -110,7 +110,7 @@ def test_parameters_that_leave_the_data_sheet_are_no_filter(step: float, share: 
 
 def test_what_priors_cost_is_what_a_fit_pays_for_them() -> None:
     problem, nominal = weighted_by_nominal(_problem(0.54, 2000, step=8e-3, model=replace(MODEL, uncertainty=UNCERTAIN)))
-    paid = (nominal.minimum.cost - nominal.minimum.chi2) / problem.colour
+    paid = (nominal.minimum.cost - nominal.minimum.chi2) / problem.inflation
     assert paid > 100.0
     assert prior_cost(nominal.hypothesis.unknowns, nominal.minimum.values) == pytest.approx(paid, rel=1e-9)
 

@@ -224,10 +224,10 @@ def test_priors_give_way_where_nothing_but_noise_is_left() -> None:
     noisy = replace(run, signals={"voltage": voltage, "speed": speed + 0.05 * rng.standard_normal(time.size)})
     problem = prepare([noisy], sheet)
     for noise, gives_way in ((0.05, True), (0.01, False)):  # at the noise, and where something is missing
-        strong = replace(problem, noise={"speed": Noise(level=noise)}, colour=1000.0)
+        strong = replace(problem, noise={"speed": Noise(level=noise)}, inflation=1000.0)
         held = fit_nominal(strong)
         other, free = with_priors_weighed(strong, held)
-        assert (other.colour < 1.1) == gives_way == (free is not held)
+        assert (other.inflation < 1.1) == gives_way == (free is not held)
         if gives_way:  # the search need not find the way once more
             assert free.value("viscous_friction") == pytest.approx(motor["viscous_friction"], rel=0.01)
             assert held.value("viscous_friction") > 1.2 * motor["viscous_friction"]

@@ -74,7 +74,7 @@ def test_each_number_of_effects_has_its_best_fitted_to_the_free_run(ranking: Ran
     assert {len(f.added) for f in again} == {1, 2}
     for this in again:
         free, sheet = problem.error(this.vector, this.active), prior_cost(this.hypothesis.unknowns, this.minimum.values)
-        assert this.cost == pytest.approx(free + problem.colour * sheet)
+        assert this.cost == pytest.approx(free + problem.inflation * sheet)
 
 
 def test_windows_are_not_judged_by_whether_they_lose_the_motion(problem: Problem, ranking: Ranking) -> None:

@@ -17,7 +17,7 @@ from rwn.decide.decision import Decision
 from rwn.fit.driving_force import DrivingForceProblem
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import Hypothesis, hypothesis
-from rwn.fit.prior_weight import worth
+from rwn.fit.prior_weight import variance_inflation
 from rwn.fit.problem import Problem
 from rwn.fit.secant import down_secants
 from rwn.name.initial_guesses.guesses import initial_guesses
@@ -57,10 +57,10 @@ def fitted_to_motion(problem: Problem, runs: Sequence[Run], this: Fit, name: str
     It begins where `this` ended, and with the effect `name` at its first guesses. Priors, those of the runs' starts
     with them, weigh against errors that last.
     """
-    problem = replace(problem.on(runs), colour=1.0)
+    problem = replace(problem.on(runs), inflation=1.0)
     starts = list(_starts(problem, this, name))
     plain = min((fit(problem, start) for start in starts), key=lambda f: f.cost)
-    problem = replace(problem, colour=worth(problem, plain))
+    problem = replace(problem, inflation=variance_inflation(problem, plain))
     ends = [refit(down_secants(problem, fit(problem, start), turns=TURNS), problem) for start in starts]
     return min(ends, key=lambda f: f.cost)
 

@@ -34,7 +34,7 @@ def gear_ratio(fault: Fault, recordings: Sequence[Recording], model: Model, bene
         known = beneath.problem
         more = replace(fault, factor=float(np.exp(change)))  # on top of what is undone already
         noise = more.noise_without(known.noise)
-        return refit(beneath.closest, replace(problem, noise=noise, colour=known.colour)).cost
+        return refit(beneath.closest, replace(problem, noise=noise, inflation=known.inflation)).cost
 
     end = minimize_scalar(cost, bounds=(-REACH, REACH), method="bounded", options={"xatol": RATIO_TOLERANCE})
     return tried(float(end.x)) if end.fun < cost(0.0) else fault

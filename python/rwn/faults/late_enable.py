@@ -20,7 +20,7 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.likelihood import DECISIVE
 from rwn.fit.nominal import nominal_of
 from rwn.fit.preparation import prepare
-from rwn.fit.prior_weight import worth
+from rwn.fit.prior_weight import variance_inflation
 from rwn.fit.problem import Problem
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
@@ -76,7 +76,7 @@ def late_beside(
     """
     if model.drive.coefficients:
         return ()
-    runs, enough = [run_of(r, model) for r in recordings], 2.0 * worth(problem, this) * DECISIVE
+    runs, enough = [run_of(r, model) for r in recordings], 2.0 * variance_inflation(problem, this) * DECISIVE
     found = _enabled_late(recordings, model, problem, this, runs, known=known)
     each = {late: _beginning(problem, this, recordings[late.place], model, runs[late.place]) for late in found}
     return tuple(late for late, of in each.items() if of.cost(0.0) - of.cost(late.time) > enough)
@@ -137,17 +137,17 @@ def retimed(
         beginning = _beginning(problem, this, recording, model, problem.whole[late.place])
         time = beginning.enabling_time()
         gained = beginning.error(late.time) - beginning.error(time)
-        better = gained > 2.0 * DECISIVE and gained > 2.0 * DECISIVE * _worth_from(time, late, beginning, problem, this)
+        better = gained > 2.0 * DECISIVE and gained > 2.0 * DECISIVE * _inflation(time, late, beginning, problem, this)
         made.append(_enabled_at(time, late.place, recording) if better else late)
     return tuple(late for late in made if late.samples >= FEWEST)
 
 
-def _worth_from(time: float, late: LateEnable, beginning: Beginning, problem: Problem, this: Fit) -> float:
-    """What errors are worth where an explanation is refitted with the power of a recording from a time [s] on."""
+def _inflation(time: float, late: LateEnable, beginning: Beginning, problem: Problem, this: Fit) -> float:
+    """`variance_inflation` of an explanation refitted with the power of a recording from a time [s] on."""
     on = run_powered_from(time, beginning.run)
     changed = replace(problem.whole[late.place], input=on.input, applied_input=on.applied_input)
     whole = replace(problem, runs=(*problem.whole[: late.place], changed, *problem.whole[late.place + 1 :]))
-    return worth(whole, refit(this, whole, iterations=NEAR_ITS_END))
+    return variance_inflation(whole, refit(this, whole, iterations=NEAR_ITS_END))
 
 
 def _standing_samples(recording: Recording, model: Model) -> int:
@@ -172,11 +172,11 @@ def _worthwhile(
 
     def best(kept: Sequence[LateEnable]) -> Fit:
         on = prepare(beginnings(powered(recordings, kept, model)), model).in_windows()
-        return _best_held(replace(on, noise=weighted.noise, colour=weighted.colour), waits)
+        return _best_held(replace(on, noise=weighted.noise, inflation=weighted.inflation), waits)
 
     this = best(found)
     starts = {late: replace(weighted, runs=(weighted.runs[late.place].until(2 * late.samples),)) for late in found}
-    enough = {late: 2.0 * worth(start, this) * DECISIVE for late, start in starts.items()}
+    enough = {late: 2.0 * variance_inflation(start, this) * DECISIVE for late, start in starts.items()}
     while found:
         others = {late: best([other for other in found if other != late]) for late in found}
         least = min(others, key=lambda late: others[late].cost - enough[late])

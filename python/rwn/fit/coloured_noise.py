@@ -59,4 +59,4 @@ def under_coloured_noise(problem: Problem, this: Fit) -> Problem:
         share = float(np.clip(before @ after / max(float(before @ before), 1e-300), 0.0, MOST))
         level = max(float(np.sqrt(np.mean((after - share * before) ** 2))), 1e-12)
         noise[signal] = Noise(level=level, reflection=(share,))
-    return replace(problem, noise=noise, colour=1.0)
+    return replace(problem, noise=noise, inflation=1.0)

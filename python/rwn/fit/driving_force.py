@@ -89,7 +89,7 @@ class DrivingForceProblem(Problem):
         """The plain problem over whole recordings."""
         return Problem(
             drive=self.drive, simulator=self.simulator, runs=self.whole, whole=self.whole, noise=self.free,
-            prior=self.prior, scales=self.scales, filters=self.filters, colour=self.colour,
+            prior=self.prior, scales=self.scales, filters=self.filters, inflation=self.inflation,
         )  # fmt: skip
 
     def on(self, runs: Sequence[Run]) -> Problem:

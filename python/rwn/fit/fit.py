@@ -181,7 +181,7 @@ def fit(
 
     end = minimise(
         evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance, damping=damping,
-        prior_scale=problem.colour, probe=probe, enough=lambda: own.work.done >= share, roughly=roughly,
+        prior_scale=problem.inflation, probe=probe, enough=lambda: own.work.done >= share, roughly=roughly,
     )  # fmt: skip
     problem.work.add(own.work.done)
     return Fit(hypothesis=this, minimum=end)

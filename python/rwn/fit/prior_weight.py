@@ -23,17 +23,20 @@ def with_priors_weighed(problem: Problem, this: Fit) -> tuple[Problem, Fit]:
 
     With it `this`, or where it goes without that weight if it leaves noise alone there.
     """
-    if problem.colour == 1.0 and this.farthest_move < BELIEVABLE:
+    if problem.inflation == 1.0 and this.farthest_move < BELIEVABLE:
         return problem, this
-    colour = worth(problem, this)
-    free = refit(this, replace(problem, colour=1.0), share=one_stage(problem.work))
-    if worth(problem, free) < LEFT_BY_NOISE:  # what was left were the priors' own doing
-        colour, this = 1.0, free
-    # a colour of exactly 1 means that no fit has left what is believable yet
-    return replace(problem, colour=max(colour, 1.0 + 1e-9)), this
+    inflation = variance_inflation(problem, this)
+    free = refit(this, replace(problem, inflation=1.0), share=one_stage(problem.work))
+    if variance_inflation(problem, free) < LEFT_BY_NOISE:  # what was left were the priors' own doing
+        inflation, this = 1.0, free
+    # an inflation of exactly 1 means that no fit has left what is believable yet
+    return replace(problem, inflation=max(inflation, 1.0 + 1e-9)), this
 
 
-def worth(problem: Problem, this: Fit) -> float:
-    """How many samples of what a fit leaves count for one: its variance times its correlation time, at least 1."""
+def variance_inflation(problem: Problem, this: Fit) -> float:
+    """Variance of what a fit leaves, in units of the noise, times its correlation time in samples; at least 1.
+
+    So many of its samples count as one.
+    """
     left = statistics(problem, this)
     return max(1.0, left.variance * left.correlation_time)

@@ -43,7 +43,7 @@ class Problem:
     prior: Prior
     scales: Mapping[str, float]  # quantities that parameters are measured against
     filters: Mapping[str, float] = field(default_factory=dict)  # digital ones [s] by signal, undone in the runs
-    colour: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
+    inflation: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
     @property
     def work(self) -> _core.Work:

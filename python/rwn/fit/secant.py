@@ -99,7 +99,7 @@ def _by_secants(problem: Problem, this: Hypothesis, relative: float, share: floa
     with _overflowing():
         return minimise(
             evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * problem.samples,
-            prior_scale=problem.colour, probe=probe, doubt=0, enough=lambda: problem.work.done >= share,
+            prior_scale=problem.inflation, probe=probe, doubt=0, enough=lambda: problem.work.done >= share,
         )  # fmt: skip
 
 

@@ -281,7 +281,7 @@ def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Proble
     best = min([nominal, *fits], key=lambda f: f.cost)
     other, free = with_priors_weighed(with_noise_of(problem, best), best)
     change = max(abs(np.log(n.level / problem.noise[s].level)) for s, n in other.noise.items())
-    change = max(change, abs(np.log(other.colour / problem.colour)) / 30.0)
+    change = max(change, abs(np.log(other.inflation / problem.inflation)) / 30.0)
     if change < 0.03:
         return problem, nominal, fits
     # each by the cost that it was screened with: the others may gain as much once priors weigh less
