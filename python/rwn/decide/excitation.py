@@ -19,7 +19,7 @@ LEARNED = 0.7  # standard deviation after the fit against that of the data sheet
 def learns_nothing(this: Hypothesis, deviations: Array, values: Array) -> bool:
     """Whether the recordings say no more of any uncertain parameter of the motor than the data sheet does.
 
-    `deviations`, `values`: (p,) of its unknowns.
+    `deviations`, `values`: (p,) of its unknowns, in SI.
     """
     shares = [
         std / (u.prior_std * (abs(value) if u.logarithmic else abs(u.prior)))

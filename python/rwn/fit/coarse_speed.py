@@ -50,7 +50,7 @@ def unrounded_fits(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Pro
 
 
 def recorded_steps(problem: Problem, best: Fit) -> tuple[float, ...]:
-    """The step of the speed of each run; empty where the speed is not coarse in all of them."""
+    """The step [rad/s] of the speed of each run; empty where the speed is not coarse in all of them."""
     raw = as_recorded(problem)
     return tuple(coarse_steps(raw, raw.residuals(best.vector, best.active)))
 
@@ -63,9 +63,9 @@ def as_recorded(problem: Problem) -> Problem:
 
 
 def coarse_steps(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[float]:
-    """The step of the speed signal of each run; empty where it is not coarse in all of them.
+    """The step [rad/s] of the speed signal of each run; empty where it is not coarse in all of them.
 
-    `residuals`: of each run, by signal, (n,).
+    `residuals`: of each run, by signal, (n,), in SI.
     """
     steps = [
         speed_resolution(r, left["speed"]) if "speed" in left else 0.0
@@ -75,7 +75,7 @@ def coarse_steps(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> 
 
 
 def speed_resolution(run: Run, residual: Array) -> float:
-    """The step of a speed signal that a coarse converter rounds, where that is much of the residual (n,); else 0."""
+    """The step [rad/s] that a coarse converter rounds a speed to, where that is much of the residual (n,); else 0."""
     step = 0.0 if run.speed_measured.is_difference else quantum(run.measured("speed"))
     share = step**2 / 12.0 / max(float(np.nanmean(residual**2)), 1e-300)
     return step if share > COARSE else 0.0

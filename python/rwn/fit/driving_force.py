@@ -42,7 +42,7 @@ class BalancedRun(Run):
         return (DRIVING_FORCE,)
 
     def signal(self, name: str) -> Array:
-        """The driving force (n,); of the motion what was recorded of it, smoothed."""
+        """The driving force (n,) [N m or N]; of the motion what was recorded of it, smoothed, in SI."""
         return self.input if name == DRIVING_FORCE else super().signal(name)
 
     def quantisation(self, signal: str) -> float:  # noqa: ARG002
@@ -50,7 +50,7 @@ class BalancedRun(Run):
         return 0.0
 
     def motion(self) -> tuple[Array, Array]:
-        """Speed and acceleration (n,)."""
+        """Speed [rad/s or m/s] and acceleration [rad/s^2 or m/s^2], (n,) each."""
         return self.velocity, self.acceleration
 
     def until(self, end: int) -> BalancedRun:
@@ -97,7 +97,7 @@ class DrivingForceProblem(Problem):
         return replace(self, runs=tuple(map(balanced, runs)))
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
-        """Recorded minus needed driving force (n,) per run; 0 where it is not compared."""
+        """Recorded minus needed driving force (n,) [N m or N] per run; 0 where it is not compared."""
 
         def one(run: Run) -> dict[str, Array]:
             assert isinstance(run, BalancedRun)
@@ -108,7 +108,7 @@ class DrivingForceProblem(Problem):
         return side_by_side(one, self.runs)
 
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
-        """Normal equations (p,) of one run, derivatives by central differences: the balance is algebraic."""
+        """Normal equations (p, p), (p,) of one run, by central differences: the balance of forces is algebraic."""
         assert isinstance(run, BalancedRun)
         compared = ~run.not_compared(DRIVING_FORCE)
         with np.errstate(over="ignore", invalid="ignore"):  # a law that leaves the range of numbers is not finite

@@ -47,7 +47,7 @@ class Fit:
 
     @property
     def vector(self) -> Array:
-        """The whole parameter vector (all,) at the minimum."""
+        """The whole parameter vector (all,) at the minimum, in SI."""
         return self.hypothesis.with_values(self.minimum.values)
 
     @property

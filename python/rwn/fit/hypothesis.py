@@ -43,11 +43,11 @@ class Hypothesis:
 
     @property
     def start(self) -> Array:
-        """Starting values (p,) of the unknowns."""
+        """Starting values (p,) of the unknowns, in SI."""
         return self.vector[self.by]
 
     def with_values(self, values: Array) -> Array:
-        """The whole parameter vector (all,) with the unknowns at `values` (p,)."""
+        """The whole parameter vector (all,) with the unknowns at `values` (p,), in SI."""
         vector = self.vector.copy()
         vector[self.by] = values
         return vector

@@ -28,7 +28,7 @@ class Estimate:
 
 
 def deviations(this: Fit, left: Statistics) -> Array:
-    """Standard deviations (p,) of the unknowns; see `covariance`."""
+    """Standard deviations (p,) of the unknowns in SI; see `covariance`."""
     result: Array = np.sqrt(np.maximum(np.diag(covariance(this, left)), 0.0))
     return result
 

@@ -34,7 +34,7 @@ class FitStatus(Enum):
 class Minimum:
     """Where a fit ended."""
 
-    values: Array  # (p)
+    values: Array  # (p,) in SI
     chi2: float  # sum of squared weighted errors, priors aside
     cost: float  # chi2 and priors
     first: float  # cost at the start

@@ -21,7 +21,7 @@ DRIFT = 1.0  # most that the error of a drifting position may weigh against that
 
 
 def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> dict[str, Noise]:
-    """The measurement noise of each signal; `residuals`: (n,) of each run, by signal.
+    """The measurement noise of each signal in SI; `residuals`: (n,) of each run, by signal.
 
     Encoder counts, and a speed that is their difference: of their quantisation. Else what is left of second
     differences, robustly: a model error is smooth against the sample time, so it falls out, and a few sharp instants

@@ -88,11 +88,11 @@ class Problem:
         return nearest_angle(self.simulator, run, begun, active, angles=angles, noise=self.noise)
 
     def simulate(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:
-        """One run: signals (n,), with derivatives (n, p) by the parameters `by`."""
+        """One run: signals (n,) in SI, with derivatives (n, p) by the parameters `by`."""
         return self.simulator.simulate(run, self.started(run, vector, active), active, by)
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
-        """Recorded minus simulated (n,) per run and signal, unweighted; 0 where they are not compared."""
+        """Recorded minus simulated (n,) per run and signal, in SI, unweighted; 0 where they are not compared."""
 
         def one(run: Run) -> dict[str, Array]:
             out = self.simulate(run, vector, active).signals

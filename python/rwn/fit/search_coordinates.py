@@ -20,7 +20,7 @@ class Normal:
     """Sum of squares and its normal equations by parameter *values*."""
 
     chi2: float
-    gradient: Array  # (p) J'r
+    gradient: Array  # (p,) J'r
     curvature: Array  # (p, p) J'J
     finite: bool = True
 

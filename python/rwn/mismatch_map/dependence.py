@@ -38,8 +38,8 @@ class Law:
     share: float  # of the error's energy on samples that were not fitted
     amplitude: float  # sqrt(2) rms of the function over the samples [N m or N]
     periods: int  # per revolution; 0 where the state is not the angle
-    x: Array  # (n,) of the curve
-    torque: Array  # (n,)
+    x: Array  # (n,) values of the state along the curve, in `unit`
+    torque: Array  # (n,) [N m or N]
 
 
 @dataclass(frozen=True, kw_only=True)

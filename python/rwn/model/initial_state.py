@@ -84,7 +84,7 @@ def is_moving(
     time: Array, signals: Mapping[str, Array], first: int, way: SpeedMeasurement,
     missing: Mapping[str, NDArray[np.bool_]] = _NONE,
 ) -> bool:  # fmt: skip
-    """Whether the shaft turns, or current flows, at the first sample of signals (n,): more than their noise."""
+    """Whether the shaft turns, or current flows, at the first sample of signals (n,) in SI: more than their noise."""
     known_to = _known_to(signals, first, missing)
     speed, off = _first_speed(time, signals, known_to, first, way)
     flowing = abs(_first_current(signals)) > CERTAIN * known_to.get("current", 0.0)

@@ -168,7 +168,7 @@ def parameter_vector(
     effects: Mapping[str, Mapping[str, float]],
     known: Mapping[str, Effect] | None = None,
 ) -> NDArray[np.float64]:
-    """All parameters of motor and effects in one vector (all,), as the core takes them; what is not given is zero.
+    """All parameters (SI) of motor and effects in one vector (all,), as the core takes them; not given: zero.
 
     `known`: the effects by name (default: those that come with rwn).
 

@@ -25,7 +25,7 @@ def needed_force(
     simulator: Simulator, vector: Array, active: Sequence[int], *, time: Array, position: Array, speed: Array,
     acceleration: Array,
 ) -> Array:  # fmt: skip
-    """Driving torque or force (n,) that an axis needs for a given motion (n,)."""
+    """Driving torque [N m] or force [N] (n,) that an axis needs for a given motion (n,), in SI."""
     force, _ = along_motion(
         simulator, vector, active, time=time, driven=np.zeros(time.size), position=position, speed=speed,
         acceleration=acceleration, current=np.empty(0),
@@ -34,7 +34,7 @@ def needed_force(
 
 
 def force_error(simulator: Simulator, run: Run, vector: Array, active: Sequence[int]) -> tuple[Array, Array]:
-    """Error and driving force (n,), decimated; empty where no position is recorded or the recording is too short."""
+    """Error and driving force (n,) [N m or N], decimated; empty without a position, or of too short a recording."""
     from scipy.signal import butter, decimate, filtfilt  # late: scipy takes half a second to load
 
     step = run.sample_time

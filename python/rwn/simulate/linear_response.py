@@ -12,7 +12,10 @@ Array = NDArray[np.float64]
 
 
 def speed_filter(drive: Drive, vector: Array, step: float) -> tuple[float, float]:
-    """(a, b) of r[k] = a r[k-1] + b T[k-1], the speed's answer to a torque held over a step [s]."""
+    """(a, b) of r[k] = a r[k-1] + b T[k-1], the speed's answer [rad/s] to a torque [N m] held over a step [s].
+
+    `vector`: parameters (all,), SI.
+    """
     motor = motor_values(vector)
     inertia, damping = motor["inertia"], motor["viscous_friction"] + drive.speed_damping(motor)
     rate = max(damping / inertia, 1e-9)

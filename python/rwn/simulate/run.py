@@ -67,12 +67,12 @@ class Run:
         return {"current": self.current, "speed": self.speed, "position": self.position}[name]
 
     def measured(self, name: str) -> Array:
-        """The measured samples of a recorded signal."""
+        """The measured samples of a recorded signal, (k,)."""
         return self.signal(name)[~self.missing[name]] if name in self.missing else self.signal(name)
 
     @cached_property
     def compared(self) -> Mapping[str, Array]:
-        """The signals, NaN where they are not compared."""
+        """The signals (n,), NaN where they are not compared."""
         signals = {}
         for name in MEASURED:
             signal = self.signal(name)
@@ -86,7 +86,7 @@ class Run:
         return np.where(self.not_compared(name), np.nan, values)
 
     def not_compared(self, name: str) -> Flags:
-        """Samples that were not measured, or where a difference would reach outside the recording.
+        """Samples (n,) that were not measured, or where a difference would reach outside the recording.
 
         For the ends of a difference there are as many formulas as makers.
         """
@@ -113,7 +113,7 @@ class Run:
 
     @property
     def followed(self) -> Array:
-        """The position that angle-dependent effects follow; empty: the simulated one."""
+        """The position (n,) that angle-dependent effects follow; empty: the simulated one."""
         return self.angle if self.follows else _NONE
 
     @property
@@ -206,7 +206,7 @@ class Run:
         return float(quantum(self.measured(signal)) / np.sqrt(6.0 if difference else 12.0))
 
     def motion(self) -> tuple[Array, Array]:
-        """Smoothed speed and acceleration (n,)."""
+        """Smoothed speed [rad/s or m/s] and acceleration [rad/s^2 or m/s^2], (n,) each."""
         step, length = self.sample_time, self.smoothing_length()
         if self.position.size and not self.speed.size:
             speed = smooth(self.position, length, derivative=1, step=step)

@@ -24,7 +24,7 @@ RAN_AWAY = 1e100  # size of a signal, in SI, at which a simulation is cut, so th
 
 @dataclass(frozen=True, kw_only=True)
 class Output:
-    """Simulated signals of one run, (n,) each; derivatives (n, p) where they were asked for."""
+    """Simulated signals of one run in SI, (n,) each; derivatives (n, p) where they were asked for."""
 
     status: str
     signals: dict[str, Array]
@@ -38,7 +38,7 @@ class NormalEquations:
     status: str
     chi2: float
     count: int  # samples that were compared
-    gradient: Array  # (p) J'r
+    gradient: Array  # (p,) J'r
     curvature: Array  # (p, p) J'J
 
 
@@ -89,7 +89,7 @@ class Simulator:
         )  # fmt: skip
 
     def simulate(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:
-        """Signals (n,) of a run under the effects `active`, and their derivatives by the parameters `by`.
+        """Signals (n,) [SI] of a run under the effects `active`, and their derivatives by the parameters `by`.
 
         `vector` holds the start of the run (`started`); speed is as it was measured. Signals end at RAN_AWAY.
         """

@@ -20,13 +20,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class UnknownInputs:
-    """What the equations leave over on one recording, (n,) each, smoothed over at most 31 samples."""
+    """What the equations leave over on one recording, (n,) each in SI, smoothed over at most 31 samples."""
 
     time: Array
     speed: Array
     acceleration: Array
     current: Array  # zeros where it is neither recorded nor part of the drive
-    angle: Array
+    angle: Array  # [rad]; 2 pi per metre of a linear axis
     torque: Array  # drives positive rotation [N m]
     voltage: Array  # drop in the winding [V]; empty where current was not recorded
 

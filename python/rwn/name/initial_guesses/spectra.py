@@ -190,7 +190,7 @@ def _lacking_torque(problem: Problem, vector: Array, active: Sequence[int], run:
 
 
 def current_of(problem: Problem, motor: Array, run: Run) -> Array:
-    """What drives (n,): the force of an axis, the recorded current, or what voltage and speed make of it."""
+    """What drives (n,): the force [N or N m] of an axis, else the current [A], recorded or by voltage and speed."""
     if not problem.drive.winding:
         return run.input
     if run.current.size:

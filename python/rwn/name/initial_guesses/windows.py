@@ -26,7 +26,7 @@ def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess]
 def windows(
     problem: Problem, motor: Array, residuals: Sequence[dict[str, Array]], count: int = 2
 ) -> list[tuple[float, float]]:
-    """Begin and end of windows in time in which a constant extra torque explains most of the `residuals` (n,)."""
+    """Begin and end [s] of windows in which a constant extra torque explains most of the `residuals` (n,)."""
     length = max(float(r.time[-1] - r.time[0]) for r in problem.runs)
     bins = 60
     total, weight = np.zeros(bins), np.zeros(bins)
