@@ -210,7 +210,7 @@ void apply_to_two(Operation operation, S& a, const S& b) {
   return (o >= Operation::add && o <= Operation::power) || o == Operation::min || o == Operation::max;
 }
 
-/// The same with a plain number on the right, which has no slopes; false where it has no short cut.
+/// a = a `operation` b for a number b, which has no slopes; false, and a as it was, where this has no short cut.
 template <class S>
 bool apply_number(Operation operation, S& a, double b) {
   switch (operation) {

@@ -14,7 +14,7 @@ inline constexpr Parameter peak_torque{.name = "amplitude",
                                        .start = 0.03,
                                        .scale = scale::torque,
                                        .strength = true};
-/// The same, tried from weak to strong: a strong one traps the motor, and no small step leads there.
+/// A peak torque that is tried from weak to strong: a strong one traps the motor, and no small step leads there.
 inline constexpr Parameter any_peak_torque = [] {
   Parameter p = peak_torque;
   p.scan = {0.03, 0.15, 0.6};

@@ -20,8 +20,8 @@ class Division {
   /// Of h, for effects of which the fastest has the rate `effects` [1/s].
   Division(double h, double effects) { ask(effects * h / angle_of_a_step); }
 
-  /// The same with the transient of a winding of rate R/L, which is as slow as that on its way and 2^level times as fast
-  /// at one end.
+  /// Of h, for the fastest effect and the transient of a winding of rate R/L, which is as slow as that on its way and
+  /// 2^level times as fast at one end.
   Division(double h, double effects, double rate, int level) {
     double length = angle_of_a_winding / (rate * resistances_of(level));
     const int most = std::min(2 + level, most_transients);

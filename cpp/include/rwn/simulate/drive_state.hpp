@@ -19,7 +19,7 @@ struct MovingState {
   double contact = 0.0;    // side on which the joint transmits: 0 while its gap is open, 1 where there is none
 };
 
-/// The same with what effects remember from step to step.
+/// The state of a motion with what effects remember from step to step.
 template <class S, class Drive, int masses>
 struct DriveState : MovingState<S, Drive, masses> {
   using Moving = MovingState<S, Drive, masses>;

@@ -151,7 +151,7 @@ class Equations {
     return f;
   }
 
-  /// The same where no effect varies within a step: the terms depend on direction alone.
+  /// dx/dt - A x where no effect varies within a step: the terms depend on direction alone.
   Vector constant_part(const State& s) {
     const bool stick = sticks(s);
     Vector f = plain_part(stick ? S(0.0) : steady_acceleration(s), input());

@@ -76,7 +76,7 @@ class EventSearch {
     return there;
   }
 
-  /// The same at `duration`, of which `there` has the value alone.
+  /// The state after `duration` with the derivatives of both; `there`: its value alone.
   State at(const State& s, const State& there, const S& duration) {
     return stepper_.finishes() ? at(s, duration) : stepper_.moved(there, duration - value_of(duration));
   }

@@ -35,7 +35,7 @@ class Events {
     return contact_.continues(s, next) && friction_.continues(s, next);
   }
 
-  /// The same of a motion that is not stuck.
+  /// True where `next`, a step after an `s` that is not stuck, goes on as `s` did.
   bool moves_on(const State& s, const typename State::Moving& next) const {
     return contact_.continues(s, next) && friction_.slides_on(s, next);
   }

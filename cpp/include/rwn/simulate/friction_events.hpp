@@ -20,7 +20,7 @@ class FrictionEvents {
     return equations_.breaking(next) == 0.0;
   }
 
-  /// The same where `s` slides, or nothing brakes it.
+  /// True where `next`, a step after an `s` that slides or that nothing brakes, still moves as `s` did.
   bool slides_on(const State& s, const typename State::Moving& next) const {
     return !(s.direction * value_of(next.x[w]) < 0.0);  // what is not finite goes on, to be found by the sample loop
   }

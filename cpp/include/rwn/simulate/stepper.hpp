@@ -69,8 +69,8 @@ class Stepper {
     }
   }
 
-  /// The same over an interval between samples of a run in which nothing changes but the input: the step is looked up
-  /// where the length is another one than before. `steady`: what accelerates the shaft besides.
+  /// Moves x and position by h, an interval between samples of a run in which nothing changes but the input: the step is
+  /// looked up where the length is another one than before. `steady`: what accelerates the shaft besides.
   void plain_update(Vector& x, S& position, double h, const S& steady, const S& input) {
     if (!All::same(h, plain_length_)) {
       plain_ = operators_.of_interval(h, Regime(0, false, false));
