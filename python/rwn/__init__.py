@@ -13,8 +13,8 @@ from rwn._core import __version__ as __version__
 from rwn.diagnose import diagnose as diagnose
 from rwn.errors import InputError as InputError
 from rwn.errors import NoResultError as NoResultError
-from rwn.fit.identify import Identification as Identification
-from rwn.fit.identify import identify as identify
+from rwn.identify import Identification as Identification
+from rwn.identify import identify as identify
 from rwn.model.files import read_model as read_model
 from rwn.model.model import Model as Model
 from rwn.model.recordings import read_recordings as read_recordings

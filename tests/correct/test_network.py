@@ -13,7 +13,6 @@ import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.correct.network import network_correction, proved_network
 from rwn.decide.calibration import calibration
-from rwn.fit.network_places import places
 from rwn.fit.preparation import prepare
 from rwn.model.drives.axis import LINEAR_AXIS
 from rwn.model.files import write_model
@@ -22,6 +21,7 @@ from rwn.model.own_effects import OwnEffect, OwnParameter
 from rwn.name.forward import rank
 from rwn.report.sentences import verdict_sentence
 from rwn.simulate.run import judging_run
+from rwn.unnamed_law.places import places
 
 pytestmark = pytest.mark.slow
 

@@ -10,7 +10,7 @@ import pytest
 import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.faults.explain import explained
-from rwn.fit.intersample import with_intersample
+from rwn.measurement.intersample import with_intersample
 from rwn.model.model import Model
 
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})

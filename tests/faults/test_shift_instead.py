@@ -11,9 +11,9 @@ from scipy.signal import lfilter
 
 import rwn
 from rwn.faults.delay import shift_instead
-from rwn.fit.filter_colour import SensorFilter
-from rwn.fit.known_filters import filtered
 from rwn.fit.preparation import prepare
+from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.known_filters import filtered
 from rwn.model.model import Model
 from rwn.name.forward import rank
 

@@ -9,12 +9,12 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.name.measurement import CHANGES, Measurement
 from rwn.recording.filters import as_filtered

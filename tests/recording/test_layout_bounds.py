@@ -7,7 +7,7 @@ import pytest
 
 from bad_input import MODEL, Refuse, csv_text, run_rows
 from rwn.errors import InputError
-from rwn.fit.identify import identify
+from rwn.identify import identify
 from rwn.model.model import Model
 from rwn.model.recordings import check_recording
 from rwn.recording.columns import Layout

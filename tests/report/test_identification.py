@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.identify import Identification
+from rwn.identify import Identification
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
 from rwn.report import identification

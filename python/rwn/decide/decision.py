@@ -10,13 +10,13 @@ from rwn.decide.other_law import curve_beside
 from rwn.decide.verdict import Verdict, verdict_of
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.network_places import Place
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
+from rwn.unnamed_law.places import Place
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,15 +14,15 @@ import numpy as np
 
 from rwn.fit.budget import one_stage
 from rwn.fit.fit import Fit, fit
-from rwn.fit.network import has_room, with_network
-from rwn.fit.network_formula import PART
-from rwn.fit.network_places import Place, all_places
-from rwn.fit.network_screening import most_promising
 from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
+from rwn.unnamed_law.formula import PART
+from rwn.unnamed_law.law import has_room, with_network
+from rwn.unnamed_law.places import Place, all_places
+from rwn.unnamed_law.screening import most_promising
 
 ITERATIONS = 6  # the weights are linear but for the motion that they change
 SHARES = 16  # of the work of a stage, for each curve

@@ -14,11 +14,11 @@ import numpy as np
 
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.likelihood import DECISIVE
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import refitted_beside
 from rwn.fit.residuals import statistics
+from rwn.measurement.likelihood import DECISIVE
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import effective_samples

@@ -12,15 +12,15 @@ from rwn.faults.fault import Fault, without, without_all
 from rwn.faults.late_enable import LateEnable, late_under, powered
 from rwn.faults.resolve import resolved
 from rwn.faults.uneven_files import uneven_files
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit
-from rwn.fit.intersample import likeliest_with_filters, stating, with_intersample, without_unknown
-from rwn.fit.known_filters import filtered, known_filters, stating_filters
-from rwn.fit.likelihood import is_decisive, log_posterior
 from rwn.fit.preparation import prepare
 from rwn.fit.refitting import refitted_beside
 from rwn.fit.residuals import statistics
-from rwn.fit.unrecorded_input import with_unrecorded_input
+from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.intersample import likeliest_with_filters, stating, with_intersample, without_unknown
+from rwn.measurement.known_filters import filtered, known_filters, stating_filters
+from rwn.measurement.likelihood import is_decisive, log_posterior
+from rwn.measurement.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.name.forward import Progress
 from rwn.name.ranking import Ranking

@@ -17,11 +17,11 @@ from rwn.faults.enabling import Beginning, powered_from, run_powered_from, since
 from rwn.faults.standstill import FEWEST, first_moved
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit, fit_nominal, refit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.likelihood import DECISIVE
 from rwn.fit.nominal import nominal_of
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import variance_inflation
 from rwn.fit.problem import Problem
+from rwn.measurement.likelihood import DECISIVE
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.model.vocabulary import Effect

@@ -24,8 +24,8 @@ from rwn.faults.fault import GEAR, Fault, without, without_all
 from rwn.faults.gear import gear_ratio
 from rwn.faults.scale import as_gear, wrong_scale
 from rwn.fit.budget import affords_more, meter
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.preparation import prepare
+from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.name.forward import MOST_EFFECTS, Progress, rank
 from rwn.name.ranking import Ranking

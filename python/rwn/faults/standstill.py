@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.filter_colour import MOST
+from rwn.measurement.filter_colour import MOST
 from rwn.model.initial_state import CERTAIN
 from rwn.recording.quantisation import resolution
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from rwn.fit.fit import Fit
-from rwn.fit.levels import Level, can_differ, friction, uneven
 from rwn.fit.problem import Problem
+from rwn.measurement.levels import Level, can_differ, friction, uneven
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.name.ranking import Ranking
 from rwn.name.uneven import uneven_beside

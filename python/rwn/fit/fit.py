@@ -126,7 +126,7 @@ class Fit:
         """Where an explanation by some of its effects begins: with their parameters and those of the measurement.
 
         Along with effects of the angle goes the angle at which each recording begins, where that is unknown, and along
-        with all the level of each recording (fit/levels.py).
+        with all the level of each recording (measurement/levels.py).
         """
         measured = {u.name.partition(".")[0] for u in self.hypothesis.unknowns if u.nuisance}
         known = (*names, *(name for name in self.hypothesis.effects if name in measured))

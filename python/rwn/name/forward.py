@@ -8,11 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rwn.fit.angle import along_the_simulated_angle
 from rwn.fit.budget import affords_more, one_stage, renew
-from rwn.fit.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.fit.coloured_noise import final_fits
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
@@ -21,6 +18,9 @@ from rwn.fit.problem import Problem
 from rwn.fit.refitting import refitted_beside
 from rwn.fit.residuals import Statistics, statistics
 from rwn.fit.secant import all_down_secants
+from rwn.measurement.angle import along_the_simulated_angle
+from rwn.measurement.coarse_speed import as_recorded, recorded_steps, unrounded_fits
+from rwn.measurement.filter_colour import SensorFilter
 from rwn.name.backward import distinct, elaborations, replaced, with_simpler
 from rwn.name.degenerate import adds
 from rwn.name.measurement import Measurement

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit
-from rwn.fit.known_filters import filtered
-from rwn.fit.levels import can_differ, friction, with_levels
 from rwn.fit.problem import Problem
-from rwn.fit.sensor_filter import filters_again, sensor_filters
+from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.known_filters import filtered
+from rwn.measurement.levels import can_differ, friction, with_levels
+from rwn.measurement.sensor_filter import filters_again, sensor_filters
 from rwn.name.uneven import uneven_beside
 
 CHANGES = 2  # times that filters which are known may be found to be others; each costs a search

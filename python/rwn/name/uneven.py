@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from rwn.fit.fit import Fit, refit
-from rwn.fit.levels import ITERATIONS, Level, beside_levels
-from rwn.fit.likelihood import DECISIVE, log_posterior
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
+from rwn.measurement.levels import ITERATIONS, Level, beside_levels
+from rwn.measurement.likelihood import DECISIVE, log_posterior
 from rwn.name.weights import log_odds
 
 

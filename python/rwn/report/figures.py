@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.correct.network import NetworkCorrection
-from rwn.fit.network_places import range_of, states_of, unit_of_state, unit_of_weights
 from rwn.mismatch_map.dependence import CLEAR, Law
 from rwn.mismatch_map.regions import regions
 from rwn.name.initial_guesses import spectra
@@ -20,6 +19,7 @@ from rwn.report.thinning import MOST_POINTS, thin_cloud, worth_seeing
 from rwn.report.time_figures import over_time
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import UnknownInputs
+from rwn.unnamed_law.places import range_of, states_of, unit_of_state, unit_of_weights
 
 Array = NDArray[np.float64]
 

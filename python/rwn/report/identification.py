@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rwn.fit.identify import Identification
 from rwn.fit.intervals import Estimate
 from rwn.fit.prior_weight import BELIEVABLE
+from rwn.identify import Identification
 from rwn.model.model import Model
 from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording

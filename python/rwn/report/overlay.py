@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError, unknown
-from rwn.fit.identify import Identification
+from rwn.identify import Identification
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings

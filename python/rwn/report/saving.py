@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from rwn.errors import InputError
-from rwn.fit.identify import Identification
+from rwn.identify import Identification
 from rwn.input_file import path_of
 from rwn.model.files import write_model
 from rwn.model.model import Model

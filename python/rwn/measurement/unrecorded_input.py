@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import Fit
-from rwn.fit.known_filters import filtered
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import refitted_beside
+from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.known_filters import filtered
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE, PiecewiseInput

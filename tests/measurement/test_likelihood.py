@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rwn.fit.likelihood import is_decisive
 from rwn.fit.residuals import MISSPECIFIED, MOST_SAMPLES, statistics_of
+from rwn.measurement.likelihood import is_decisive
 
 
 @pytest.mark.parametrize(("slow", "most"), [(0.0, MOST_SAMPLES), (10.0, MISSPECIFIED)])

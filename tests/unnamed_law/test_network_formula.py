@@ -8,9 +8,9 @@ import numpy as np
 
 import rwn
 from made_up_motor import MOTOR, plant
-from rwn.fit.network_formula import parts_of
-from rwn.fit.network_places import places
 from rwn.fit.preparation import prepare
+from rwn.unnamed_law.formula import parts_of
+from rwn.unnamed_law.places import places
 
 SHEET = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"viscous_friction": 0.3})
 

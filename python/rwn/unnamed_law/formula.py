@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.network_places import FACTORS, Place, range_of, size_of, states_of, unit_of_state, unit_of_weights
 from rwn.fit.problem import Problem
 from rwn.model import formula
 from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
 from rwn.networks.wavelets import dyadic_places
+from rwn.unnamed_law.places import FACTORS, Place, range_of, size_of, states_of, unit_of_state, unit_of_weights
 
 Array = NDArray[np.float64]
 

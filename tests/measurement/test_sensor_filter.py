@@ -9,17 +9,17 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.known_filters import filtered, known_filters
 from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import refitted_beside
-from rwn.fit.sensor_filter import filters_again, sensor_filters
 from rwn.fit.unknown import prior_cost
+from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.known_filters import filtered, known_filters
+from rwn.measurement.sensor_filter import filters_again, sensor_filters
 from rwn.model.model import Model
 from rwn.recording.filters import as_filtered
 

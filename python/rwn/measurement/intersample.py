@@ -9,15 +9,15 @@ from statistics import NormalDist
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import NEAR_ITS_END, Fit, refit
-from rwn.fit.known_filters import filtered
-from rwn.fit.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import LEVEL, loss_gained, statistics
-from rwn.fit.sensor_filter import filters_and_likelihood, losses_beside, losses_of
+from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.known_filters import filtered
+from rwn.measurement.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
+from rwn.measurement.sensor_filter import filters_and_likelihood, losses_beside, losses_of
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side

@@ -13,16 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.budget import one_stage
-from rwn.fit.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.known_filters import filtered, share_kept, undone
-from rwn.fit.likelihood import DECISIVE, is_decisive, log_posterior
 from rwn.fit.part import screening_part
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, losses, statistics
+from rwn.measurement.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
+from rwn.measurement.known_filters import filtered, share_kept, undone
+from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior
 from rwn.model.vocabulary import analog_filters
 from rwn.parallel import side_by_side
 

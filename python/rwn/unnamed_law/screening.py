@@ -14,8 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
-from rwn.fit.network_formula import basis_at
-from rwn.fit.network_places import FACTORS, Place
 from rwn.fit.problem import Problem
 from rwn.model.drives.drive import Drive
 from rwn.model.vocabulary import motor_values
@@ -23,6 +21,8 @@ from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.linear_response import speed_filter
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import unknown_inputs
+from rwn.unnamed_law.formula import basis_at
+from rwn.unnamed_law.places import FACTORS, Place
 
 Array = NDArray[np.float64]
 

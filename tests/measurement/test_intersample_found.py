@@ -10,14 +10,14 @@ from scipy.signal import lfilter
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.fit import fit, refit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.intersample import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
-from rwn.fit.likelihood import DECISIVE, log_likelihood
 from rwn.fit.nominal import nominal_of
 from rwn.fit.residuals import loss_gained
-from rwn.fit.sensor_filter import losses_beside
+from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.intersample import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
+from rwn.measurement.likelihood import DECISIVE, log_likelihood
+from rwn.measurement.sensor_filter import losses_beside
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 

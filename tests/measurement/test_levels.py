@@ -12,9 +12,9 @@ from made_up_files import files_of
 from rwn import _core
 from rwn.fit.fit import fit_nominal
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.levels import SPREAD, can_differ, friction, uneven, with_levels
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
+from rwn.measurement.levels import SPREAD, can_differ, friction, uneven, with_levels
 from rwn.model.model import Model
 from rwn.name.uneven import uneven_beside
 

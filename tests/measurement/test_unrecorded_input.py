@@ -11,9 +11,9 @@ import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.intersample import stating
 from rwn.fit.nominal import nominal_of
-from rwn.fit.unrecorded_input import _farthest, with_unrecorded_input
+from rwn.measurement.intersample import stating
+from rwn.measurement.unrecorded_input import _farthest, with_unrecorded_input
 from rwn.model.model import Model
 from rwn.recording.intersample import INTERSAMPLE, PiecewiseInput
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn.fit.filter_colour import SensorFilter
 from rwn.fit.prior import Nuisance
 from rwn.fit.problem import Problem
+from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.model.vocabulary import analog_filters
 from rwn.recording.noise import Noise
