@@ -200,6 +200,31 @@ def test_a_matrix_is_not_taken_for_a_signal(tmp_path: Path) -> None:
         read_recording(tmp_path / "a.mat", layout=Layout(columns={"speed": Column(source="M", unit="rpm")}))
 
 
+def _npz_twice(path: Path) -> None:
+    np.savez(path, **NAMED, **{"speed [rad/s]": RPM})
+
+
+def _parquet_twice(path: Path) -> None:
+    pa, parquet = _imported("pyarrow"), _imported("pyarrow.parquet")
+    parquet.write_table(pa.table({**NAMED, "speed [rad/s]": RPM}), path)
+
+
+def _tdms_twice(path: Path) -> None:
+    nptdms = _imported("nptdms")
+    with nptdms.TdmsWriter(path) as writer:
+        for name, values in {**NAMED, "speed [rad/s]": RPM}.items():
+            writer.write_segment([nptdms.ChannelObject("Bench", name, values)])
+
+
+@pytest.mark.parametrize("write", [_npz_twice, _parquet_twice, _tdms_twice])
+def test_a_signal_that_is_there_in_two_units_is_refused(write: Callable[[Path], None], tmp_path: Path) -> None:
+    """Which of them is meant, nobody can guess; the last one was taken without a word."""
+    path = tmp_path / f"run.{write.__name__.split('_')[1]}"
+    write(path)
+    with pytest.raises(InputError, match=r"two columns are called 'speed'; expected each name once; fix: rename"):
+        read_recording(path)
+
+
 def test_a_pickle_in_an_npz_is_not_run(tmp_path: Path) -> None:
     np.savez(tmp_path / "a.npz", **{"speed [rpm]": np.array([{"a": 1}], dtype=object)})
     with pytest.raises(InputError, match="cannot be read"):

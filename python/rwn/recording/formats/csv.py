@@ -23,7 +23,7 @@ from rwn.recording.formats.csv_dialect import (
     without_blanks,
 )
 from rwn.recording.formats.stamps import Stamps, instant
-from rwn.recording.formats.table import MAX_SAMPLES, Table, too_long
+from rwn.recording.formats.table import MAX_SAMPLES, Table, refuse_doubles, too_long
 
 BLOCK = 2**20  # characters that are read at once, and the longest line
 _QUOTE = '"'
@@ -59,7 +59,7 @@ def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, 
     dialect = dialect_of(_sample(first[1]), wanted, where)
     names = dialect.names
     used = [j for j, name in enumerate(names) if name in wanted]
-    _refuse_doubles([names[j] for j in used], where)
+    refuse_doubles(where, names, wanted)
     parts: list[list[Array]] = [[] for _ in used]
     starts: list[int] = []  # first row of each block, and the lines (from 1) of its rows
     numbers: list[Sequence[int]] = []
@@ -131,17 +131,6 @@ def _sample(lines: Sequence[str]) -> list[str]:
         size += len(lines[taken]) + 1
         taken += 1
     return list(lines[:taken])
-
-
-def _refuse_doubles(names: Sequence[str], where: str) -> None:
-    for name in names:
-        if names.count(name) > 1:
-            raise InputError(
-                f"two columns are called '{name}'",
-                where=where,
-                expected="each name once",
-                fix="rename or remove one of them",
-            )
 
 
 def _rows(lines: list[str], at: int, skipped: int) -> tuple[Sequence[int], list[str]]:

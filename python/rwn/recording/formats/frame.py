@@ -9,7 +9,7 @@ import numpy as np
 
 from rwn.errors import InputError
 from rwn.recording.formats.csv_dialect import name_and_unit
-from rwn.recording.formats.table import Table, table_of
+from rwn.recording.formats.table import Table, refuse_doubles, table_of
 
 
 def is_frame(source: Any) -> bool:
@@ -37,12 +37,7 @@ def table_of_object(source: Any, wanted: Collection[str]) -> Table:
             expected="a path, a Recording, a frame of pandas or polars, an xarray.Dataset or a dictionary of arrays",
             fix='pass for instance {"time [s]": t, "voltage [V]": u, "speed [rpm]": w}',
         )
-    names = [name for name, _, _ in found]
-    for name in names:
-        if name in wanted and names.count(name) > 1:
-            raise InputError(
-                f"two columns are called '{name}'", where=where, expected="each name once", fix="rename one of them"
-            )
+    refuse_doubles(where, [name for name, _, _ in found], wanted)
     return table_of(where, {n: values for n, values, _ in found}, {n: unit for n, _, unit in found}, wanted)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from rwn.errors import InputError
 from rwn.recording.formats.frame import name_and_unit_of
 from rwn.recording.formats.nested import nested_table, roots
-from rwn.recording.formats.table import Table
+from rwn.recording.formats.table import Table, refuse_doubles
 
 
 def read_npz(path: Path, wanted: Collection[str] = ()) -> Table:
@@ -25,6 +25,7 @@ def read_npz(path: Path, wanted: Collection[str] = ()) -> Table:
             if isinstance(loaded, np.ndarray):
                 return nested_table(str(path), {path.stem: loaded}, (path.stem,), wanted)
             names = {key: name_and_unit_of(key) for key in loaded.files}
+            refuse_doubles(str(path), [name for name, _ in names.values()], wanted)
             read = roots((name for name, _ in names.values()), wanted)
             content = {name: loaded[key] for key, (name, _) in names.items() if name in read}
     except (InputError, OSError):

@@ -9,7 +9,7 @@ from typing import Any
 from rwn.errors import InputError
 from rwn.recording.formats.extra import library
 from rwn.recording.formats.frame import name_and_unit_of
-from rwn.recording.formats.table import MAX_SAMPLES, Table, table_of, too_long
+from rwn.recording.formats.table import MAX_SAMPLES, Table, refuse_doubles, table_of, too_long
 
 
 def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
@@ -24,6 +24,7 @@ def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
         if rows > MAX_SAMPLES:
             raise too_long(str(path), rows)
         told = {field.name: name_and_unit_of(field.name) for field in schema}
+        refuse_doubles(str(path), [name for name, _ in told.values()], wanted)
         content = file.read(columns=[column for column, (name, _) in told.items() if name in wanted])
     except InputError:
         raise

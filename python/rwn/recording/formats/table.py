@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -66,6 +66,18 @@ def vector(where: str, name: str, values: Any) -> NDArray[np.float64]:
     if array.size > MAX_SAMPLES:
         raise too_long(where, array.size)
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def refuse_doubles(where: str, names: Sequence[str], wanted: Collection[str]) -> None:
+    """Raises InputError where a wanted column is there twice, as `speed [rpm]` and `speed [rad/s]`: which is meant?"""
+    double = next((name for name in names if name in wanted and names.count(name) > 1), None)
+    if double is not None:
+        raise InputError(
+            f"two columns are called '{double}'",
+            where=where,
+            expected="each name once",
+            fix="rename or remove one of them",
+        )
 
 
 def refuse_mask(where: str, name: str, values: Any) -> None:
