@@ -5,10 +5,13 @@ from __future__ import annotations
 import struct
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rwn.errors import InputError
+from rwn.recording.columns import Layout
 from rwn.recording.formats.wpilog import read_wpilog
+from rwn.recording.recording import read_recording
 
 HEADER = struct.pack("<6sHI", b"WPILOG", 0x0100, 0)
 
@@ -35,6 +38,26 @@ def number(entry: int, at: int, value: float, form: str = "<d") -> bytes:
 def _read(folder: Path, content: bytes, *wanted: str) -> dict[str, list[float]]:
     (folder / "a.wpilog").write_bytes(content)
     return {name: x.tolist() for name, x in read_wpilog(folder / "a.wpilog", wanted).columns.items()}
+
+
+def _routine(folder: Path, *motors: str) -> Path:
+    """What SysIdRoutineLog of a routine `drive` logs of these motors."""
+    kinds = (("voltage", "Volt"), ("position", "Rotation"), ("velocity", "Rotation per Second"), ("current", "Amp"))
+    entries = [(f"{kind}-{motor}-drive", unit) for motor in motors for kind, unit in kinds]
+    content = HEADER + start(99, "sysid-test-state-drive", "string")
+    content += b"".join(start(k, name, metadata=unit) for k, (name, unit) in enumerate(entries, 1))
+    for row in range(60):
+        content += b"".join(number(k, 20_000 * row, k + 0.01 * row) for k in range(1, len(entries) + 1))
+    (folder / "routine.wpilog").write_bytes(content)
+    return folder / "routine.wpilog"
+
+
+def test_the_entries_of_a_routine_are_known_by_their_beginnings(tmp_path: Path) -> None:
+    read = read_recording(_routine(tmp_path, "left"), layout=Layout(profile="sysid"))
+    first = {"voltage": 1.0, "position": 4.0 * np.pi, "speed": 6.0 * np.pi, "current": 4.0}
+    assert {name: values[0] for name, values in read.signals.items()} == pytest.approx(first)
+    with pytest.raises(InputError, match=r"voltage-left-drive and voltage-right-drive may both be the voltage.*rename"):
+        read_recording(_routine(tmp_path, "left", "right"), layout=Layout(profile="sysid"))
 
 
 @pytest.mark.parametrize("sizes", [(1, 1, 1), (2, 1, 3), (4, 4, 8), (3, 2, 5), (1, 3, 7)])

@@ -2,7 +2,8 @@
 
 A file has the `source` of what it states and, for each signal, the `names` of its columns, the likeliest first, with
 their `unit` (where the export itself says none) and `scale`. A name stands for itself and for the end of a longer one:
-`vel_estimate` for `odrv0.axis0.vel_estimate`. Adding one is a file and a line in `PROFILES`.
+`vel_estimate` for `odrv0.axis0.vel_estimate`. One that ends with a hyphen is the beginning: `velocity-` of
+`velocity-left-drive`. Adding a tool is a file and a line in `PROFILES`.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ class Profile(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 class Wanted(frozenset[str]):
-    """Names that are wanted whole, or as the end of a longer one after a dot; letters' case does not matter there."""
+    """Names that are wanted whole, or as a part of a longer one as profiles have them, in letters of either case."""
 
     ends: frozenset[str]
 
@@ -93,4 +94,4 @@ def sources(known: Profile, names: Collection[str], *, where: object) -> Mapping
 
 def _ends(name: str, end: str) -> bool:
     plain = name.lower()
-    return plain == end or plain.endswith(f".{end}")
+    return plain == end or (plain.startswith(end) if end.endswith("-") else plain.endswith(f".{end}"))
