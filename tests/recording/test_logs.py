@@ -242,6 +242,31 @@ def test_a_slower_channel_is_held_and_rows_before_it_are_left_out(tmp_path: Path
     assert table.units == {"time": "s", "voltage": "volt", "speed[0]": "radian per second"}
 
 
+def _waveforms(path: Path, **speed: Any) -> Path:
+    nptdms = _imported("nptdms")
+    began = np.datetime64("2026-03-01T12:00:00.000", "us")
+    voltage = {"unit_string": "V", "wf_increment": 0.02, "wf_start_time": began}
+    about = {**voltage, "unit_string": "rpm", **speed}
+    with nptdms.TdmsWriter(path) as writer:
+        channels = (("voltage", VOLTAGE, voltage), ("speed", RPM, about))
+        writer.write_segment([nptdms.ChannelObject("G", name, x, properties=says) for name, x, says in channels])
+    return path
+
+
+def test_waveforms_that_began_apart_are_read_at_their_instants(tmp_path: Path) -> None:
+    later = np.datetime64("2026-03-01T12:00:00.200", "us")  # ten samples
+    read = read_recording(_waveforms(tmp_path / "a.tdms", wf_start_time=later))
+    np.testing.assert_allclose(read.time, TIME[10:], atol=1e-9)
+    np.testing.assert_allclose(read.signals["voltage"], VOLTAGE[10:])
+    np.testing.assert_allclose(read.signals["speed"], RADIANS[:70])
+
+
+@pytest.mark.parametrize("step", [0.0, "unknown", float("nan")])
+def test_a_waveform_without_a_step_in_time_asks_for_it(step: Any, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"no column 'time'.*sample_time"):
+        read_recording(_waveforms(tmp_path / "a.tdms", wf_increment=step))
+
+
 def test_a_file_of_several_runs_asks_for_one(tmp_path: Path) -> None:
     _sysid(tmp_path / "run.json")
     with pytest.raises(InputError, match=r"holds several runs: slow-forward, fast-backward.*run.json#slow-forward"):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +14,14 @@ from rwn.recording.formats.extra import library, quiet
 from rwn.recording.formats.frame import name_and_unit_of
 from rwn.recording.formats.table import MAX_SAMPLES, Table, refuse_doubles, table_of, too_long
 
-_UNIT, _STEP = "unit_string", "wf_increment"
+_UNIT, _STEP, _BEGAN = "unit_string", "wf_increment", "wf_start_time"
 
 
 def read_tdms(path: Path, wanted: Collection[str] = ()) -> Table:
     """The `wanted` channels, named `Group.Channel`, or `Channel` alone in a file with one group.
 
-    Units from the property `unit_string` or the name, `speed [rpm]`; times of waveforms from `wf_increment`. Raises
-    InputError where the file is no TDMS.
+    Units from the property `unit_string` or the name, `speed [rpm]`; times of waveforms from `wf_increment` and
+    `wf_start_time`. Raises InputError where the file is no TDMS.
     """
     nptdms = library("nptdms", "tdms", path)
     try:
@@ -55,13 +55,30 @@ def _table(where: str, file: Any, wanted: Collection[str]) -> Table:
         if len(channel) > MAX_SAMPLES:
             raise too_long(where, len(channel))
     units = {name: unit for name, (_, unit) in told.items()}
-    if used and all(_STEP in channel.properties for channel in used.values()):
-        channels = {name: Channel(_instants(channel), channel[:]) for name, channel in used.items()}
+    if used and all(map(_step, used.values())):
+        began = _began(list(used.values()))
+        channels = {
+            name: Channel(np.round(at + _instants(channel), 9), channel[:])  # else equal instants differ by rounding
+            for (name, channel), at in zip(used.items(), began, strict=True)
+        }
         return table_of_channels(where, channels, units, wanted)
     arrays = {name: used[name][:] if name in used else None for name in told}
     return table_of(where, arrays, units, wanted)
 
 
+def _step(channel: Any) -> float:
+    """The time from sample to sample [s]; 0 where the file states none that is one."""
+    step = channel.properties.get(_STEP, 0.0)
+    return float(step) if isinstance(step, float | int | np.floating) and step > 0.0 else 0.0
+
+
+def _began(channels: Sequence[Any]) -> list[float]:
+    """When each waveform began [s], after the first of them; at once where the file does not say it of all."""
+    stamps = [channel.properties.get(_BEGAN) for channel in channels]
+    told = [stamp for stamp in stamps if isinstance(stamp, np.datetime64)]
+    return [float((s - min(told)) / np.timedelta64(1, "s")) for s in told] if told == stamps else [0.0] * len(stamps)
+
+
 def _instants(channel: Any) -> Array:
     start = float(channel.properties.get("wf_start_offset", 0.0))
-    return start + float(channel.properties[_STEP]) * np.arange(len(channel), dtype=np.float64)
+    return start + _step(channel) * np.arange(len(channel), dtype=np.float64)
