@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +26,15 @@ def read_mcap(path: Path, wanted: Collection[str] = ()) -> Table:
     """
     reader = library("mcap.reader", "mcap", path)
     numbers: dict[str, list[float]] = defaultdict(list)
+    unread: dict[str, str] = {}  # topic -> its encoding
     instants: dict[str, list[float]] = defaultdict(list)
     try:
         with path.open("rb") as file:
-            factories = [_Json(), *_ros2(path)]
+            factories = [_Json(), *_ros2(path), _Other()]
             messages = reader.make_reader(file, decoder_factories=factories).iter_decoded_messages()
             for _, channel, message, decoded in messages:
+                if decoded is None:
+                    unread[channel.topic] = channel.message_encoding
                 at = _stamp(decoded, message.log_time)
                 for name, value in _numbers(channel.topic, decoded, _DEPTH):
                     if name in wanted:
@@ -47,11 +50,12 @@ def read_mcap(path: Path, wanted: Collection[str] = ()) -> Table:
         raise
     except Exception as error:  # mcap raises many kinds for what is no MCAP
         raise InputError(
-            "the file is not MCAP, it is damaged, or its messages are in another encoding than ROS 2 and JSON",
+            "the file is not MCAP, or it is damaged",
             where=path,
             expected="a complete MCAP file",
             fix="`mcap recover` it, or export the recording as CSV",
         ) from error
+    _refuse_unread(unread, wanted, found=bool(numbers), where=path)
     channels = {name: _channel(instants[name], numbers[name]) for name in instants}
     return table_of_channels(str(path), channels, dict.fromkeys(numbers), wanted)
 
@@ -65,6 +69,25 @@ class _Json:
 
     def decoder_for(self, message_encoding: str, _schema: Any) -> Any:
         return json.loads if message_encoding == "json" else None
+
+
+def _refuse_unread(unread: Mapping[str, str], wanted: Collection[str], *, found: bool, where: Path) -> None:
+    """Raises InputError where a topic in another encoding (`unread`) is asked for, or nothing else is `found`."""
+    asked = [topic for topic in unread if not found or any(name.startswith(f"{topic}.") for name in wanted)]
+    if asked:
+        raise InputError(
+            f"messages of {asked[0]} are in another encoding ({unread[asked[0]] or 'none is said'})",
+            where=where,
+            expected="ROS 2 (CDR, ros2msg) or JSON",
+            fix="export the recording as CSV",
+        )
+
+
+class _Other:
+    """A decoder of what is in any other encoding: nothing. A topic of it beside those that are wanted does no harm."""
+
+    def decoder_for(self, _message_encoding: str, _schema: Any) -> Any:
+        return lambda _message: None
 
 
 def _stamp(decoded: Any, logged: int) -> float:
