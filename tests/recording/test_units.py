@@ -33,6 +33,18 @@ def test_a_speed_constant_is_told_from_a_back_emf_constant() -> None:
         ("1/min", "rad/s", math.pi / 30.0),
         ("min^-1", "rad/s", math.pi / 30.0),
         ("r/min", "rad/s", math.pi / 30.0),
+        ("U/min", "rad/s", math.pi / 30.0),
+        ("Umdr./min", "rad/s", math.pi / 30.0),
+        ("tr/min", "rad/s", math.pi / 30.0),
+        ("min-1", "rad/s", math.pi / 30.0),
+        ("min⁻¹", "rad/s", math.pi / 30.0),
+        ("Degrees/s", "rad/s", math.pi / 180.0),
+        ("Volts", "V", 1.0),
+        ("Amps", "A", 1.0),
+        ("amp", "A", 1.0),
+        ("mOhm", "ohm", 1e-3),
+        ("MOhm", "ohm", 1e6),
+        ("Ohms", "ohm", 1.0),
         ("revs/s", "rad/s", 2.0 * math.pi),
         ("rotation", "rad", 2.0 * math.pi),
         ("mNm", "N m", 1e-3),
@@ -47,6 +59,11 @@ def test_a_speed_constant_is_told_from_a_back_emf_constant() -> None:
 )
 def test_a_unit_is_what_people_write_for_it(unit: str, si: str, size: float) -> None:
     assert units.factor(unit, si, where="x") == pytest.approx(size, rel=1e-12)
+
+
+@pytest.mark.parametrize("unit", ["min-12", "Furz", "MOHM", "VOLTS", "V?", "V|A", "V & A", "<V"])
+def test_what_only_looks_like_a_unit_is_none(unit: str) -> None:
+    assert not units.is_unit(unit)
 
 
 @pytest.mark.parametrize("unit", ["1/s", "Hz", "kHz"])

@@ -9,12 +9,15 @@ from typing import Any
 
 from rwn.errors import InputError, closest, plain
 
-# What people write and pint reads otherwise ("Nm" is its number metre, "Hz" its radian per second).
+# What people write and pint reads otherwise ("Nm" is its number metre, "Hz" its radian per second, "amps" an
+# attometre per second).
 _SPELLINGS = (
     (re.compile(r"\b([kmcuµ]?)N(m|cm|mm)\b"), r"\1N \2"),
     (re.compile(r"\b(k?g)(m|cm|mm)\b"), r"\1 \2"),
-    (re.compile(r"\bRPM\b|\br/min\b|\b1/min\b|\bmin\^-1\b"), "rpm"),
+    (re.compile(r"\bRPM\b|\b(?:r|tr|U|Umdr\.?|1)/min\b|\bmin(?:\^?-1|⁻¹)(?!\w)"), "rpm"),
     (re.compile(r"\brevs?\b|\brotations?\b"), "turn"),
+    (re.compile(r"\b[Aa]mps?\b"), "A"),
+    (re.compile(r"Ohms?\b"), "ohm"),
     (re.compile("²"), "^2"),
     (re.compile(r"[·⋅]"), "*"),
 )
@@ -26,6 +29,7 @@ _COMMON = (
 
 
 _LONGEST = 80  # characters of a unit
+_SKIPPED = re.compile(r"[!?$~§&@\\|<>=]")
 _POWER = re.compile(r"\^|\*\*")
 _SMALL_POWER = re.compile(r"(?<![\d. )])[ )]*(?:\^|\*\*) *\(? *[-+]? *\d(?:\.\d*)?(?![\d.])")
 
@@ -33,9 +37,10 @@ _SMALL_POWER = re.compile(r"(?<![\d. )])[ )]*(?:\^|\*\*) *\(? *[-+]? *\d(?:\.\d*
 def _believable(text: str) -> bool:
     """Whether a text may be a unit: of no number and of no power is a power taken, and none beyond 9.
 
-    pint works them out in whole numbers, and a tower of them lasts for ever.
+    pint works them out in whole numbers, and a tower of them lasts for ever; signs that it does not know it skips.
     """
-    return len(text) <= _LONGEST and len(_POWER.findall(text)) == len(_SMALL_POWER.findall(text))
+    plain_text = len(text) <= _LONGEST and not _SKIPPED.search(text)
+    return plain_text and len(_POWER.findall(text)) == len(_SMALL_POWER.findall(text))
 
 
 def _registry() -> Any:
@@ -60,7 +65,7 @@ def _parse(text: str, *, where: object) -> Any:
     try:
         if not _believable(spelled):
             raise ValueError(spelled)
-        return _registry().parse_units(spelled)
+        return _known(spelled)
     except Exception as error:  # pint raises its own, tokenize's and Python's errors for what is no unit
         meant = closest(text, _COMMON)
         raise InputError(
@@ -69,6 +74,17 @@ def _parse(text: str, *, where: object) -> Any:
             expected="a unit such as V, mA, rad/s, rpm, deg, N m, kg m^2",
             fix=f"did you mean '{meant}'?" if meant else "write the unit in SI or with an SI prefix",
         ) from error
+
+
+def _known(spelled: str) -> Any:
+    """The unit; a word that only its capital makes unknown is taken without: `Volts`, as LabVIEW writes it.
+
+    That takes no mega for milli: what is a unit after m is one after M too, and so not unknown.
+    """
+    try:
+        return _registry().parse_units(spelled)
+    except Exception:  # of the many kinds of _parse
+        return _registry().parse_units(re.sub(r"\b[A-Z][a-z]{2,}\b", lambda word: word[0].lower(), spelled))
 
 
 def _angle_power(unit: Any) -> float:
