@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +61,33 @@ def _excel(path: Path) -> None:
     for row in zip(TIME, VOLTAGE, RPM, strict=True):
         book.active.append([*map(float, row), "ok"])
     book.save(path)
+
+
+def _excel_of(path: Path, times: list[Any], *, cover: list[list[str]]) -> Path:
+    _imported("python_calamine")
+    book = _imported("openpyxl").Workbook()
+    for row in cover:
+        book.active.append(row)
+    sheet = book.create_sheet("data")
+    sheet.append(["time", "voltage [V]", "speed [rpm]"])
+    for at, u, w in zip(times, VOLTAGE, RPM, strict=True):
+        sheet.append([at, float(u), float(w)])
+    book.save(path)
+    return path
+
+
+BEGAN = datetime(2026, 3, 1)  # midnight, which a spreadsheet knows as a day
+STEPS = [timedelta(milliseconds=20 * k) for k in range(80)]
+
+
+@pytest.mark.parametrize("times", [[BEGAN + s for s in STEPS], [(BEGAN + s).time() for s in STEPS], STEPS])
+def test_instants_and_durations_of_a_spreadsheet_are_times(times: list[Any], tmp_path: Path) -> None:
+    _as_meant(read_recording(_excel_of(tmp_path / "a.xlsx", times, cover=[])))
+
+
+def test_a_sheet_that_says_who_recorded_is_passed_over(tmp_path: Path) -> None:
+    path = _excel_of(tmp_path / "a.xlsx", STEPS, cover=[["Operator", "Smith"], ["Bench", "3"]])
+    _as_meant(read_recording(path))
 
 
 def _mat(path: Path) -> None:
