@@ -68,7 +68,8 @@ def _unknown_kind(path: Path) -> InputError:
 
 def _in_bag(path: Path) -> Path:
     """The file in the folder of a ROS 2 bag; other paths as they are. Raises InputError where there are several."""
-    files = sorted(path.glob("*.mcap")) if path.is_dir() else []
+    kinds = (".mcap", *CONVERTED) if path.is_dir() else ()
+    files = next(filter(None, (sorted(path.glob(f"*{kind}")) for kind in kinds)), [])
     if len(files) > 1:
         raise InputError(
             f"the bag is split into {len(files)} files", where=path, expected="a bag of one file",
