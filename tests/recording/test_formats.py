@@ -189,6 +189,16 @@ def test_units_of_a_timetable_are_taken(version: str, tmp_path: Path) -> None:
     _as_meant(read_recording(path, layout=layout))
 
 
+@pytest.mark.parametrize("began", [None, "2026-03-01"])
+def test_the_index_of_times_of_a_frame_is_kept_in_parquet(began: str | None, tmp_path: Path) -> None:
+    frame = _pandas_timetable().rename(columns={"Voltage": "voltage [V]", "Speed": "speed [rpm]"})
+    frame.index = frame.index if began is None else _imported("pandas").Timestamp(began) + frame.index
+    frame.index.name = None
+    _imported("pyarrow")
+    frame.to_parquet(tmp_path / "a.parquet")
+    _as_meant(read_recording(tmp_path / "a.parquet"))
+
+
 def test_struct_arrays_and_matrices(tmp_path: Path) -> None:
     runs = np.zeros((1, 2), dtype=[("u", object), ("w", object)])
     for k, factor in enumerate((0.0, 1.0)):

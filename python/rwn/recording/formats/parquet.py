@@ -10,6 +10,9 @@ from rwn.errors import InputError
 from rwn.recording.formats.extra import library
 from rwn.recording.formats.frame import name_and_unit_of
 from rwn.recording.formats.table import MAX_SAMPLES, Table, refuse_doubles, table_of, too_long
+from rwn.recording.signals import TIME
+
+_TIMES = ("timestamp", "duration")  # kinds of Arrow
 
 
 def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
@@ -23,7 +26,7 @@ def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
         schema, rows = file.schema_arrow, file.metadata.num_rows
         if rows > MAX_SAMPLES:
             raise too_long(str(path), rows)
-        told = {field.name: name_and_unit_of(field.name) for field in schema}
+        told = {field.name: name_and_unit_of(_named(field)) for field in schema}
         refuse_doubles(str(path), [name for name, _ in told.values()], wanted)
         content = file.read(columns=[column for column, (name, _) in told.items() if name in wanted])
     except InputError:
@@ -43,8 +46,14 @@ def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
     return table_of(str(path), arrays, units, wanted)
 
 
+def _named(field: Any) -> str:
+    """Its name; pandas calls an index that has none by its place: where it holds instants it is the time."""
+    unnamed = field.name == "__index_level_0__" and str(field.type).startswith(_TIMES)
+    return TIME.name if unnamed else str(field.name)
+
+
 def _in_metadata(field: Any) -> str | None:
     for key in (b"unit", b"units"):
         if key in (field.metadata or {}):
             return str(field.metadata[key].decode("utf-8", "replace"))
-    return "s" if str(field.type).startswith(("timestamp", "duration")) else None
+    return "s" if str(field.type).startswith(_TIMES) else None
