@@ -46,6 +46,13 @@ def test_the_last_rows_that_fill_no_step_are_averaged_alone(tmp_path: Path) -> N
     assert read.signals["torque"][-1] == pytest.approx(VOLTAGE[392:399].mean())
 
 
+@pytest.mark.parametrize("keys", ["decimate = 9\n", "from = 1.0\nto = 1.441\n"])
+def test_what_leaves_too_few_rows_is_named(keys: str, tmp_path: Path) -> None:
+    """'Record longer' would not mend it."""
+    with pytest.raises(InputError, match=r"from, to and decimate leave 45 of 400 samples.*fix: widen from and to"):
+        _read(tmp_path, keys)
+
+
 def test_a_column_is_renamed_with_its_own_unit(tmp_path: Path) -> None:
     read = _read(tmp_path, 'rename = { "w mot" = "speed", M = "torque" }\n', "time [s],M [mN m],w mot [rpm]")
     np.testing.assert_allclose(read.signals["speed"], SPEED * np.pi / 30.0, rtol=1e-8)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError
+from rwn.recording.check import MIN_SAMPLES
 from rwn.recording.columns import Layout
 from rwn.recording.signals import MEASURED
 
@@ -29,7 +30,7 @@ def selected(
     """The rows (n,) from `layout.start` to `layout.end`, both in the file's own time, thinned by `layout.decimate`.
 
     What is measured is taken at the rows that are kept; an input is its mean until the next of them, so that what it
-    does to a drive is kept. Raises InputError where nothing is left.
+    does to a drive is kept. Raises InputError where too few are left.
     """
     if layout.start is None and layout.end is None and layout.decimate == 1:
         return Selected(time, dict(signals), row)
@@ -45,6 +46,14 @@ def selected(
         )
     first, last = int(kept[0]), int(kept[-1]) + 1
     step = layout.decimate
+    left = len(range(first, last, step))
+    if left < MIN_SAMPLES <= time.size:
+        raise InputError(
+            f"from, to and decimate leave {left} of {time.size} samples",
+            where=where,
+            expected=f"at least {MIN_SAMPLES} samples",
+            fix="widen from and to, or decimate by less, under [recording]",
+        )
     thinned = {}
     for name, values in signals.items():
         part = values[first:last]
