@@ -94,6 +94,23 @@ def test_names_of_a_profile_are_found_in_any_letters_and_behind_a_dot(ending: st
     _as_meant(read_recording(path, layout=Layout(profile="moteus")), signals)
 
 
+def test_what_a_profile_takes_for_granted_is_said(tmp_path: Path) -> None:
+    """A supply of 12 V is a guess: the torque constant would be off by as much as it."""
+    header, columns, _ = EXPORTS["dynamixel"]
+    path = _write(tmp_path / "run.csv", header, columns)
+    said = " ".join(read_recording(path, layout=Layout(profile="dynamixel")).warnings)
+    assert "voltage from 'Present PWM': the PWM's share of a supply of 12 V" in said
+    assert "current from 'Present Current': counts of 2.69 mA" in said
+    keys = "voltage = { unit = 'dimensionless', scale = '0.02712 V' }\ncolumns.current = { unit = 'mA' }"
+    motor = "".join(f"motor.{name} = 1.0\n" for name in ("resistance", "inductance", "torque_constant",
+                    "back_emf_constant", "inertia", "viscous_friction"))  # fmt: skip
+    recording = f"[recording]\nprofile = 'dynamixel'\ncolumns.{keys}\n"
+    (tmp_path / "motor.toml").write_text(f"motor.kind = 'dc'\n{motor}{recording}")
+    told = read_recording(path, layout=read_model(tmp_path / "motor.toml").recording)
+    np.testing.assert_allclose(told.signals["voltage"], 2.0 * VOLTAGE, atol=1e-6)
+    assert told.warnings == ()
+
+
 def test_two_axes_in_an_export_are_asked_for(tmp_path: Path) -> None:
     header = "time,axis0.vel_estimate,axis1.vel_estimate,axis0.torque_setpoint"
     path = _write(tmp_path / "run.csv", header, [TIME, SPEED / TURN, -SPEED / TURN, TORQUE])
@@ -236,11 +253,11 @@ def test_a_signal_that_two_columns_may_be_is_asked_for() -> None:
 
 def test_a_profile_holds_nothing_but_what_it_may_and_stays_as_it_is() -> None:
     column = {"names": [], "scales": 1.0}
-    for wrong in ({"source": "x", "columns": {}, "nots": ""}, {"source": "x", "columns": {"speed": column}}):
+    for wrong in ({"source": "x", "columns": {}, "note": ""}, {"source": "x", "columns": {"speed": column}}):
         with pytest.raises(msgspec.ValidationError):
             msgspec.convert(wrong, Profile)
     known = profile("odrive")
-    for frozen, name in ((known, "note"), (known.columns["speed"], "unit")):
+    for frozen, name in ((known, "source"), (known.columns["speed"], "unit")):
         with pytest.raises(AttributeError):
             setattr(frozen, name, "x")
 

@@ -157,6 +157,17 @@ def _by_profile(table: Table, layout: Layout) -> dict[str, Column]:
     return found
 
 
+def assumed(table: Table, layout: Layout, mapping: Mapping[str, Column]) -> tuple[str, ...]:
+    """What the profile takes for granted of the columns whose unit neither the file nor the map says."""
+    known = profile(layout.profile).columns if layout.profile is not None else {}
+    taken = {name: column.source for name, column in mapping.items() if name in known and name not in layout.columns}
+    return tuple(
+        f"{table.where}: {name} from '{plain(source, longest=40)}': {known[name].note}"
+        for name, source in taken.items()
+        if known[name].note and not table.units[source]
+    )
+
+
 def unused(table: Table, mapping: Mapping[str, Column]) -> tuple[str, ...]:
     """A note on the columns that are no signal, if there are any."""
     used = {table.same.get(column.source, column.source) for column in mapping.values()}

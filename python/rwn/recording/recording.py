@@ -15,6 +15,7 @@ from rwn.errors import InputError
 from rwn.recording.check import check_lengths, check_samples
 from rwn.recording.columns import (
     Layout,
+    assumed,
     column_map,
     in_si,
     is_linear,
@@ -172,7 +173,7 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
         signals=ordered,
         source=table.where,
         linear=linear,
-        warnings=(*warnings, *unused(table, mapping)),
+        warnings=(*warnings, *assumed(table, layout, mapping), *unused(table, mapping)),
         units=units_of(table, mapping),
     )
 

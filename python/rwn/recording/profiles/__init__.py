@@ -1,9 +1,10 @@
 """What the tools of drives export: which of their columns is which signal, in which unit. One TOML file each.
 
 A file has the `source` of what it states and, for each signal, the `names` of its columns, the likeliest first, with
-their `unit` (where the export itself says none) and `scale`. A name stands for itself and for the end of a longer one:
-`vel_estimate` for `odrv0.axis0.vel_estimate`. One that ends with a hyphen is the beginning: `velocity-` of
-`velocity-left-drive`. Adding a tool is a file and a line in `PROFILES`.
+their `unit` (where the export itself says none) and `scale`, and a `note` on what these take for granted, which is said
+wherever they are used. A name stands for itself and for the end of a longer one: `vel_estimate` for
+`odrv0.axis0.vel_estimate`. One that ends with a hyphen is the beginning: `velocity-` of `velocity-left-drive`. Adding a
+tool is a file and a line in `PROFILES`.
 """
 
 from __future__ import annotations
@@ -21,20 +22,20 @@ PROFILES = ("odrive", "moteus", "dynamixel", "twincat", "sinamics", "sysid")
 
 
 class ProfileColumn(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """The names under which a tool exports a signal; `scale` [`scale_unit`] as in a column map."""
+    """The names under which a tool exports a signal; `scale` [`scale_unit`] as in a column map; `note`: see above."""
 
     names: tuple[str, ...]
     unit: str | None = None
     scale: float = 1.0
     scale_unit: str = ""
+    note: str = ""
 
 
 class Profile(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """`columns`: signal -> its names and unit; `source`: where that is said; `note`: what the user still has to say."""
+    """`columns`: signal -> its names and unit; `source`: where that is said."""
 
     source: str
     columns: dict[str, ProfileColumn]
-    note: str = ""
 
 
 class Wanted(frozenset[str]):
