@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import pytest
 
 from command_line import Run
@@ -23,10 +21,18 @@ from rwn.recording.profiles import PROFILES
     ],
 )
 def test_the_shell_is_offered(words: str, offered: list[str], run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys.modules["__main__"], "__package__", None)  # the command is not python -m pytest
     monkeypatch.setenv("_RWN_COMPLETE", "complete_bash")
     monkeypatch.setenv("COMP_WORDS", words)
     monkeypatch.setenv("COMP_CWORD", str(words.count(" ")))
     code, said, error = run()
     assert (code, error) == (0, "")
     assert said.split() == offered
+
+
+def test_the_shell_completes_rwn_and_no_other_command(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As `python -m rwn` it installed a completion of every `python`."""
+    monkeypatch.setenv("_RWN_COMPLETE", "source_bash")
+    code, said, _ = run()
+    assert code == 0
+    assert said.split()[-1] == "rwn"
+    assert "python" not in said

@@ -292,7 +292,7 @@ def _mount(name: str, module: str) -> None:
 def _command() -> Any:
     for name in ("thesis", "trials"):
         _mount(name, f"rwn.studies.{name}.cli")
-    return app(standalone_mode=False)
+    return app(standalone_mode=False, prog_name="rwn")  # also as `python -m rwn`: the shell completes this name
 
 
 def main() -> None:
