@@ -86,6 +86,7 @@ MODELS: dict[str, tuple[dict[str, Any], str]] = {
     "an inertia of NaN": ({"parameters": {**MOTOR, "inertia": np.nan}}, "inertia: the value is nan"),
     "an inertia of infinity": ({"parameters": {**MOTOR, "inertia": np.inf}}, "inertia: the value is inf"),
     "an inertia of text": ({"parameters": {**MOTOR, "inertia": "small"}}, "inertia: the value is 'small'"),
+    "an inertia of a number as text": ({"parameters": {**MOTOR, "inertia": "3e-4"}}, "inertia: the value is '3e-4'"),
     "an inertia of 400 digits": ({"parameters": {**MOTOR, "inertia": 10**400}}, "inertia: the value is 1000"),
     "an uncertainty of -1": ({"uncertainty": {"inertia": -1.0}}, "inertia is -1"),
     "an uncertainty of NaN": ({"uncertainty": {"inertia": np.nan}}, "the value is nan"),
@@ -104,6 +105,13 @@ MODELS: dict[str, tuple[dict[str, Any], str]] = {
     "a load that there is not": ({"load": {"spring": {"stiffness": 0.1}}}, "unknown load 'spring'"),
     "no kind": ({"kind": ""}, "unknown kind"),
 }  # fmt: skip
+
+
+@pytest.mark.parametrize("lost", [[7], np.zeros(199, dtype=bool), np.zeros(200), None])
+def test_what_flags_no_samples_is_refused(lost: Any) -> None:
+    with pytest.raises(InputError, match=r"^run: missing of 'speed' has shape .*; expected shape \(200,\), bool; fix"):
+        replace(_recording(), missing={"speed": lost})
+    assert replace(_recording(), missing={"speed": [False] * 200}).missing["speed"].dtype == bool
 
 
 @pytest.mark.parametrize("case", RECORDINGS)

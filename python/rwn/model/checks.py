@@ -22,7 +22,7 @@ def check_numbers(values: Mapping[str, Any], *, where: str, largest: float = LAR
             number = float(value)
         except (TypeError, ValueError, OverflowError):
             number = math.nan if not isinstance(value, int) else math.inf
-        if isinstance(value, bool) or not abs(number) <= largest:
+        if isinstance(value, bool | str | bytes) or not abs(number) <= largest:
             raise InputError(
                 f"the value is {value!r}",
                 where=f"{where} {name}",

@@ -92,6 +92,8 @@ class Recording(Values):
                 )
         object.__setattr__(self, "time", time)
         object.__setattr__(self, "signals", MappingProxyType(signals))
+        missing = {name: _flags(self.name, name, lost, len(time)) for name, lost in self.missing.items()}
+        object.__setattr__(self, "missing", missing)
 
     def __len__(self) -> int:
         return len(self.time)
@@ -145,6 +147,18 @@ def _vector(name: str, signal: str, values: Any) -> Array:
     copy = np.array(array, dtype=np.float64, order="C")
     copy.flags.writeable = False
     return copy
+
+
+def _flags(name: str, signal: str, values: Any, samples: int) -> Flags:
+    flags = np.asarray(values)
+    if flags.shape != (samples,) or flags.dtype != np.bool_:
+        raise InputError(
+            f"missing of '{signal}' has shape {flags.shape}, {flags.dtype}",
+            where=name,
+            expected=f"shape ({samples},), bool",
+            fix="pass true where the signal was not measured, such as np.isnan(values)",
+        )
+    return flags
 
 
 def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
