@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -12,22 +11,12 @@ import numpy as np
 import pytest
 import scipy.io
 
+from one_recording import NAMED, RPM, TIME, UNITS, VOLTAGE, as_meant, imported, pandas_timetable
 from rwn.errors import InputError
 from rwn.recording.columns import Column, Layout
 from rwn.recording.formats import FORMATS
 from rwn.recording.formats.nested import nested_table
-from rwn.recording.recording import Recording, read_recording
-
-TIME = np.arange(80) * 0.02
-VOLTAGE = 5.0 * np.sin(TIME)
-RPM = 300.0 * np.sin(TIME - 0.2)
-NAMED = {"time [s]": TIME, "voltage [V]": VOLTAGE, "speed [rpm]": RPM}
-
-
-def _imported(module: str) -> Any:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return pytest.importorskip(module)
+from rwn.recording.recording import read_recording
 
 
 def _npz(path: Path) -> None:
@@ -42,7 +31,7 @@ def _npy(path: Path) -> None:
 
 
 def _parquet(path: Path) -> None:
-    pa, parquet = _imported("pyarrow"), _imported("pyarrow.parquet")
+    pa, parquet = imported("pyarrow"), imported("pyarrow.parquet")
     fields = [
         pa.field("time", pa.float64(), metadata={"unit": "s"}),
         pa.field("voltage [V]", pa.float64()),
@@ -53,8 +42,8 @@ def _parquet(path: Path) -> None:
 
 
 def _excel(path: Path) -> None:
-    _imported("python_calamine")
-    book = _imported("openpyxl").Workbook()
+    imported("python_calamine")
+    book = imported("openpyxl").Workbook()
     book.active.append(["Recorded by bench 3"])
     book.active.append(["time", "voltage", "speed", "note"])
     book.active.append(["s", "V", "rpm", None])
@@ -64,8 +53,8 @@ def _excel(path: Path) -> None:
 
 
 def _excel_of(path: Path, times: list[Any], *, cover: list[list[str]]) -> Path:
-    _imported("python_calamine")
-    book = _imported("openpyxl").Workbook()
+    imported("python_calamine")
+    book = imported("openpyxl").Workbook()
     for row in cover:
         book.active.append(row)
     sheet = book.create_sheet("data")
@@ -82,12 +71,12 @@ STEPS = [timedelta(milliseconds=20 * k) for k in range(80)]
 
 @pytest.mark.parametrize("times", [[BEGAN + s for s in STEPS], [(BEGAN + s).time() for s in STEPS], STEPS])
 def test_instants_and_durations_of_a_spreadsheet_are_times(times: list[Any], tmp_path: Path) -> None:
-    _as_meant(read_recording(_excel_of(tmp_path / "a.xlsx", times, cover=[])))
+    as_meant(read_recording(_excel_of(tmp_path / "a.xlsx", times, cover=[])))
 
 
 def test_a_sheet_that_says_who_recorded_is_passed_over(tmp_path: Path) -> None:
     path = _excel_of(tmp_path / "a.xlsx", STEPS, cover=[["Operator", "Smith"], ["Bench", "3"]])
-    _as_meant(read_recording(path))
+    as_meant(read_recording(path))
 
 
 def _mat(path: Path) -> None:
@@ -95,10 +84,9 @@ def _mat(path: Path) -> None:
 
 
 def _mat_7_3(path: Path) -> None:
-    _imported("matio").save_to_mat(str(path), {"time": TIME, "voltage": VOLTAGE, "speed": RPM}, version="v7.3")
+    imported("matio").save_to_mat(str(path), {"time": TIME, "voltage": VOLTAGE, "speed": RPM}, version="v7.3")
 
 
-UNITS = {"time": "s", "voltage": "V", "speed": "rpm"}
 BY_MAP = Layout(columns={name: Column(source=name, unit=unit) for name, unit in UNITS.items()})
 WRITERS: dict[str, tuple[str, Callable[[Path], None], Layout]] = {
     "npz": (".npz", _npz, Layout()),
@@ -110,17 +98,11 @@ WRITERS: dict[str, tuple[str, Callable[[Path], None], Layout]] = {
 }
 
 
-def _as_meant(read: Recording) -> None:
-    np.testing.assert_allclose(read.time, TIME, atol=1e-12)
-    np.testing.assert_allclose(read.signals["voltage"], VOLTAGE)
-    np.testing.assert_allclose(read.signals["speed"], RPM * np.pi / 30.0, rtol=1e-6, atol=1e-6)
-
-
 @pytest.mark.parametrize("kind", WRITERS)
 def test_a_format_gives_the_recording_that_was_written(kind: str, tmp_path: Path) -> None:
     ending, write, layout = WRITERS[kind]
     write(tmp_path / f"run{ending}")
-    _as_meant(read_recording(tmp_path / f"run{ending}", layout=layout))
+    as_meant(read_recording(tmp_path / f"run{ending}", layout=layout))
 
 
 @pytest.mark.parametrize(("kind", "module"), [("npz", "table"), ("parquet", "parquet"), ("mat 7", "mat")])
@@ -130,7 +112,7 @@ def test_more_samples_than_memory_is_meant_for_are_refused(
     ending, write, layout = WRITERS[kind]
     write(tmp_path / f"run{ending}")
     monkeypatch.setattr(f"rwn.recording.formats.{module}.MAX_SAMPLES", TIME.size)
-    _as_meant(read_recording(tmp_path / f"run{ending}", layout=layout))
+    as_meant(read_recording(tmp_path / f"run{ending}", layout=layout))
     monkeypatch.setattr(f"rwn.recording.formats.{module}.MAX_SAMPLES", TIME.size - 1)
     with pytest.raises(InputError, match=r"80 samples are too many.*keep every k-th row"):
         read_recording(tmp_path / f"run{ending}", layout=layout)
@@ -152,33 +134,25 @@ def test_what_is_no_such_file_is_refused_in_one_line(ending: str, tmp_path: Path
             read_recording(path, layout=BY_MAP)
 
 
-def _pandas_timetable() -> Any:
-    pandas = _imported("pandas")
-    return pandas.DataFrame(
-        {"Voltage": VOLTAGE, "Speed": RPM},
-        index=pandas.Index(pandas.to_timedelta(np.round(1e3 * TIME), unit="ms").astype("timedelta64[ms]"), name="Time"),
-    )
-
-
 @pytest.mark.filterwarnings("ignore:duration_to_mat")  # of the writer
 @pytest.mark.parametrize("version", ["v7", "v7.3"])
 def test_timetables_with_their_times(version: str, tmp_path: Path) -> None:
-    matio = _imported("matio")
-    matio.save_to_mat(str(tmp_path / "a.mat"), {"log": _pandas_timetable(), "x": np.ones(3)}, version=version)
+    matio = imported("matio")
+    matio.save_to_mat(str(tmp_path / "a.mat"), {"log": pandas_timetable(), "x": np.ones(3)}, version=version)
     columns = {
         "time": Column(source="log.Time"),
         "voltage": Column(source="log.Voltage", unit="V"),
         "speed": Column(source="log.Speed", unit="rpm"),
     }
-    _as_meant(read_recording(tmp_path / "a.mat", layout=Layout(columns=columns)))
+    as_meant(read_recording(tmp_path / "a.mat", layout=Layout(columns=columns)))
 
 
 @pytest.mark.filterwarnings("ignore:duration_to_mat")  # of the writer
 @pytest.mark.parametrize("version", ["v7", "v7.3"])
 def test_units_of_a_timetable_are_taken(version: str, tmp_path: Path) -> None:
-    matio = _imported("matio")
+    matio = imported("matio")
     path = str(tmp_path / "a.mat")
-    matio.save_to_mat(path, {"log": _pandas_timetable()}, version=version)
+    matio.save_to_mat(path, {"log": pandas_timetable()}, version=version)
     raw = matio.load_from_mat(path, raw_data=True)["log"]
     units = np.empty((1, 2), dtype=object)
     units[0, 0], units[0, 1] = np.array(["V"]), np.array(["rpm"])
@@ -186,17 +160,17 @@ def test_units_of_a_timetable_are_taken(version: str, tmp_path: Path) -> None:
     matio.save_to_mat(path, {"log": raw}, version=version)
     columns = {"time": "Time", "voltage": "Voltage", "speed": "Speed"}  # of the only variable: the bare names do
     layout = Layout(columns={name: Column(source=source) for name, source in columns.items()})
-    _as_meant(read_recording(path, layout=layout))
+    as_meant(read_recording(path, layout=layout))
 
 
 @pytest.mark.parametrize("began", [None, "2026-03-01"])
 def test_the_index_of_times_of_a_frame_is_kept_in_parquet(began: str | None, tmp_path: Path) -> None:
-    frame = _pandas_timetable().rename(columns={"Voltage": "voltage [V]", "Speed": "speed [rpm]"})
-    frame.index = frame.index if began is None else _imported("pandas").Timestamp(began) + frame.index
+    frame = pandas_timetable().rename(columns={"Voltage": "voltage [V]", "Speed": "speed [rpm]"})
+    frame.index = frame.index if began is None else imported("pandas").Timestamp(began) + frame.index
     frame.index.name = None
-    _imported("pyarrow")
+    imported("pyarrow")
     frame.to_parquet(tmp_path / "a.parquet")
-    _as_meant(read_recording(tmp_path / "a.parquet"))
+    as_meant(read_recording(tmp_path / "a.parquet"))
 
 
 def test_struct_arrays_and_matrices(tmp_path: Path) -> None:
@@ -209,7 +183,7 @@ def test_struct_arrays_and_matrices(tmp_path: Path) -> None:
         "voltage": Column(source="runs(2).u", unit="V"),
         "speed": Column(source="runs(2).w", unit="rpm"),
     }
-    _as_meant(read_recording(tmp_path / "a.mat", layout=Layout(columns=columns)))
+    as_meant(read_recording(tmp_path / "a.mat", layout=Layout(columns=columns)))
 
 
 def test_objects_and_cells_of_matlab_name_what_they_hold() -> None:
@@ -243,12 +217,12 @@ def _npz_twice(path: Path) -> None:
 
 
 def _parquet_twice(path: Path) -> None:
-    pa, parquet = _imported("pyarrow"), _imported("pyarrow.parquet")
+    pa, parquet = imported("pyarrow"), imported("pyarrow.parquet")
     parquet.write_table(pa.table({**NAMED, "speed [rad/s]": RPM}), path)
 
 
 def _tdms_twice(path: Path) -> None:
-    nptdms = _imported("nptdms")
+    nptdms = imported("nptdms")
     with nptdms.TdmsWriter(path) as writer:
         for name, values in {**NAMED, "speed [rad/s]": RPM}.items():
             writer.write_segment([nptdms.ChannelObject("Bench", name, values)])
@@ -274,83 +248,3 @@ def test_a_library_that_is_missing_is_named_with_its_extra(tmp_path: Path, monke
     monkeypatch.setitem(__import__("sys").modules, "pyarrow.parquet", None)
     with pytest.raises(InputError, match=r"pip install 'rwn\[parquet\]'"):
         read_recording(tmp_path / "a.parquet")
-
-
-def _pandas() -> Any:
-    return _imported("pandas").DataFrame(NAMED)
-
-
-def _pandas_with_an_index() -> Any:
-    frame = _pandas_timetable().rename(columns={"Voltage": "voltage", "Speed": "speed"})
-    frame.attrs["units"] = {"voltage": "V", "speed": "rpm"}
-    frame.index.name = None
-    return frame
-
-
-def _pandas_with_a_named_index() -> Any:
-    frame = _pandas()
-    return frame.set_index("time [s]")
-
-
-def _pandas_with_dates() -> Any:
-    instants = np.datetime64("2026-03-01T12:00:00", "ms") + np.round(1e3 * TIME).astype("timedelta64[ms]")
-    return _imported("pandas").DataFrame({**NAMED, "time [s]": instants}).rename(columns={"time [s]": "time"})
-
-
-def _polars() -> Any:
-    return _imported("polars").DataFrame(NAMED)
-
-
-def _pyarrow() -> Any:
-    return _imported("pyarrow").table(NAMED)
-
-
-def _xarray() -> Any:
-    xarray = _imported("xarray")
-    return xarray.Dataset(
-        {"voltage": ("time", VOLTAGE, {"units": "V"}), "speed": ("time", RPM, {"units": "rpm"})},
-        coords={"time": ("time", TIME, {"units": "s"})},
-    )
-
-
-def _xarray_with_units_in_its_names() -> Any:
-    return _imported("xarray").Dataset({name: ("row", values) for name, values in NAMED.items()})
-
-
-OBJECTS: dict[str, Callable[[], Any]] = {
-    "pandas": _pandas,
-    "pandas with times as its index": _pandas_with_an_index,
-    "pandas with a named index": _pandas_with_a_named_index,
-    "pandas with dates": _pandas_with_dates,
-    "polars": _polars,
-    "pyarrow": _pyarrow,
-    "xarray": _xarray,
-    "xarray with units in its names": _xarray_with_units_in_its_names,
-    "dictionary": lambda: dict(NAMED),
-    "dictionary of lists": lambda: {name: values.tolist() for name, values in NAMED.items()},
-}
-
-
-@pytest.mark.parametrize("kind", OBJECTS)
-def test_tables_in_python_are_read_as_files_are(kind: str) -> None:
-    _as_meant(read_recording(OBJECTS[kind]()))
-
-
-@pytest.mark.parametrize(
-    ("source", "held"),
-    [
-        (3, "cannot be read from the int"),
-        (None, "cannot be read from the NoneType"),
-        ([1, 2, 3], "cannot be read from the list"),
-        ({}, "no column is called like a signal"),
-        ({"time [s]": TIME, "voltage [V]": VOLTAGE[:5]}, "5 samples"),
-        ({"time [s]": TIME, "voltage": VOLTAGE}, "'voltage' has no unit"),
-        ({"time [s]": TIME, "voltage [V]": ["a"] * 80}, "real numbers"),
-        ({"time [s]": TIME, "speed [rpm]": RPM, "speed [rad/s]": RPM}, "two columns are called 'speed'"),
-        ({"time [s]": TIME, "speed [rpm]": np.where(TIME[7] == TIME, np.nan, RPM)}, "sample 8: speed is nan"),
-    ],
-)
-def test_what_is_no_table_is_refused(source: Any, held: str) -> None:
-    with pytest.raises(InputError) as refused:
-        read_recording(source)
-    assert held in str(refused.value)

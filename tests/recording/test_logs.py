@@ -5,24 +5,19 @@ from __future__ import annotations
 import json
 import struct
 import sys
-import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
+from one_recording import RADIANS, RPM, TIME, VOLTAGE, imported
 from rwn.errors import InputError
 from rwn.recording.columns import Column, Layout
 from rwn.recording.formats import FORMATS
 from rwn.recording.recording import Recording, read_recording
 
-TIME = np.arange(80) * 0.02
-VOLTAGE = 5.0 * np.sin(TIME)
-RPM = 300.0 * np.sin(TIME - 0.2)
-RADIANS = RPM * np.pi / 30.0
 JOINT_STATE = """std_msgs/Header header
 string[] name
 float64[] position
@@ -39,18 +34,12 @@ uint32 nanosec
 """
 
 
-def _imported(module: str) -> Any:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return pytest.importorskip(module)
-
-
 def _layout(**columns: tuple[str, str | None]) -> Layout:
     return Layout(columns={name: Column(source=source, unit=unit) for name, (source, unit) in columns.items()})
 
 
 def _ros2_bag(path: Path) -> None:
-    writer_of = _imported("mcap_ros2.writer").Writer
+    writer_of = imported("mcap_ros2.writer").Writer
     with path.open("wb") as file:
         writer = writer_of(file)
         joint = writer.register_msgdef("sensor_msgs/msg/JointState", JOINT_STATE)
@@ -68,7 +57,7 @@ def _ros2_bag(path: Path) -> None:
 
 
 def _mcap_of_json(path: Path) -> None:
-    writer_of = _imported("mcap.writer").Writer
+    writer_of = imported("mcap.writer").Writer
     with path.open("wb") as file:
         writer = writer_of(file)
         writer.start()
@@ -102,7 +91,7 @@ def _wpilog(path: Path) -> None:
 
 
 def _tdms(path: Path) -> None:
-    nptdms = _imported("nptdms")
+    nptdms = imported("nptdms")
     speed, voltage = (
         nptdms.ChannelObject("Bench", name, values, properties={"unit_string": unit, "wf_increment": 0.02})
         for name, values, unit in (("speed", RPM, "rpm"), ("voltage", VOLTAGE, "V"))
@@ -112,7 +101,7 @@ def _tdms(path: Path) -> None:
 
 
 def _tdms_with_times(path: Path) -> None:
-    nptdms = _imported("nptdms")
+    nptdms = imported("nptdms")
     columns = {"time": (TIME, "s"), "voltage": (VOLTAGE, "V"), "speed": (RPM, "rpm")}
     with nptdms.TdmsWriter(path) as writer:
         for name, (values, unit) in columns.items():
@@ -121,7 +110,7 @@ def _tdms_with_times(path: Path) -> None:
 
 
 def _mdf(path: Path) -> None:
-    asammdf = _imported("asammdf")
+    asammdf = imported("asammdf")
     with asammdf.MDF(version="4.10") as file:
         signals = (("voltage", VOLTAGE, "V"), ("speed", RPM, "rpm"))
         for name, values, unit in signals:  # a group each, as a bus logger writes it
@@ -240,31 +229,6 @@ def test_a_slower_channel_is_held_and_rows_before_it_are_left_out(tmp_path: Path
     assert table.columns["voltage"].tolist() == [12.0, 12.0, 12.0, 12.0, -12.0, -12.0]
     np.testing.assert_allclose(table.columns["time"], 0.01 * np.arange(2, 8))
     assert table.units == {"time": "s", "voltage": "volt", "speed[0]": "radian per second"}
-
-
-def _waveforms(path: Path, **speed: Any) -> Path:
-    nptdms = _imported("nptdms")
-    began = np.datetime64("2026-03-01T12:00:00.000", "us")
-    voltage = {"unit_string": "V", "wf_increment": 0.02, "wf_start_time": began}
-    about = {**voltage, "unit_string": "rpm", **speed}
-    with nptdms.TdmsWriter(path) as writer:
-        channels = (("voltage", VOLTAGE, voltage), ("speed", RPM, about))
-        writer.write_segment([nptdms.ChannelObject("G", name, x, properties=says) for name, x, says in channels])
-    return path
-
-
-def test_waveforms_that_began_apart_are_read_at_their_instants(tmp_path: Path) -> None:
-    later = np.datetime64("2026-03-01T12:00:00.200", "us")  # ten samples
-    read = read_recording(_waveforms(tmp_path / "a.tdms", wf_start_time=later))
-    np.testing.assert_allclose(read.time, TIME[10:], atol=1e-9)
-    np.testing.assert_allclose(read.signals["voltage"], VOLTAGE[10:])
-    np.testing.assert_allclose(read.signals["speed"], RADIANS[:70])
-
-
-@pytest.mark.parametrize("step", [0.0, "unknown", float("nan")])
-def test_a_waveform_without_a_step_in_time_asks_for_it(step: Any, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"no column 'time'.*sample_time"):
-        read_recording(_waveforms(tmp_path / "a.tdms", wf_increment=step))
 
 
 def test_a_file_of_several_runs_asks_for_one(tmp_path: Path) -> None:

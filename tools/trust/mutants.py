@@ -42,7 +42,7 @@ FILES = {
     f"{FORMATS}table.py": ("tests/recording/test_table.py", "tests/recording/test_formats.py"),
     f"{FORMATS}nested.py": ("tests/recording/test_table.py", "tests/recording/test_formats.py"),
     f"{FORMATS}npz.py": ("tests/recording/test_formats.py", "tests/recording/test_converted.py"),
-    f"{FORMATS}frame.py": ("tests/recording/test_table.py", "tests/recording/test_formats.py"),
+    f"{FORMATS}frame.py": ("tests/recording/test_frame.py", "tests/recording/test_formats.py"),
     f"{RECORDING}columns.py": ("tests/recording/test_columns.py", "tests/recording/test_missing_units.py",
                                "tests/recording/test_profiles.py", "tests/recording/test_recording.py"),
     f"{RECORDING}units.py": ("tests/recording/test_units.py", "tests/recording/test_missing_units.py"),

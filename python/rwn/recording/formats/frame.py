@@ -54,16 +54,26 @@ def columns_of_frame(frame: Any) -> Iterator[tuple[str, Any, str | None]]:
     given: Mapping[str, str] = units if isinstance(units, Mapping) else {}
     index: Any = getattr(frame, "index", None)
     if getattr(getattr(index, "dtype", None), "kind", "") in ("m", "M"):
-        yield str(index.name or "time"), np.asarray(index), "s"
+        plain = index.tz_convert(None) if getattr(index, "tz", None) is not None else index
+        yield str(index.name or "time"), np.asarray(plain), "s"
     elif getattr(index, "name", None):
         name, unit = name_and_unit_of(str(index.name))
         yield name, np.asarray(index), unit or given.get(name)
+    names = None
+    if hasattr(frame, "set_axis"):  # pandas, where a name may be a number, several, or there twice
+        names = list(map(_joined, frame.columns))
+        frame = frame.set_axis([str(k) for k in range(len(names))], axis=1)
     wrapped = stable.v1.from_native(frame, eager_only=True)
-    for k, column in enumerate(wrapped.columns):
+    for k, (column, own) in enumerate(zip(names or wrapped.columns, wrapped.columns, strict=True)):
         name, unit = name_and_unit_of(column)
-        values = wrapped[column].to_numpy()
+        values = wrapped[own].to_numpy()
         unit = unit or given.get(column) or given.get(name) or (listed[k] if k < len(listed) else None)
-        yield name, values, unit or ("s" if values.dtype.kind in "mM" else None)
+        yield name, values, unit
+
+
+def _joined(name: object) -> str:
+    """A column's name; one of several levels as what is nested has it."""
+    return ".".join(map(str, name)) if isinstance(name, tuple) else str(name)
 
 
 def name_and_unit_of(name: str) -> tuple[str, str | None]:

@@ -56,4 +56,4 @@ def _in_metadata(field: Any) -> str | None:
     for key in (b"unit", b"units"):
         if key in (field.metadata or {}):
             return str(field.metadata[key].decode("utf-8", "replace"))
-    return "s" if str(field.type).startswith(_TIMES) else None
+    return None

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from decimal import Decimal
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -34,17 +36,19 @@ def table_of(
 ) -> Table:
     """The `wanted` ones of named arrays as a table; a unit may be an object that is written as one (that of pint is).
 
-    Raises InputError where one is no vector of real numbers.
+    Instants and durations are in s. Raises InputError where one is no vector of real numbers.
     """
     columns = {name: vector(where, name, arrays[name]) for name in arrays if name in wanted}
+    timed = {name: "s" for name in arrays if getattr(getattr(arrays[name], "dtype", None), "kind", "") in ("m", "M")}
     said = {name: None if units.get(name) is None else str(units[name]) for name in arrays}
+    said |= {name: unit for name, unit in timed.items() if not said[name]}
     return Table(where=where, columns=columns, units=said)
 
 
 def vector(where: str, name: str, values: Any) -> NDArray[np.float64]:
     """One column (n_t,) float64; instants and durations in s. Raises InputError."""
     refuse_mask(where, name, values)
-    array = np.atleast_1d(np.squeeze(np.asarray(values)))
+    array = _as_numbers(np.atleast_1d(np.squeeze(np.asarray(values))))
     if array.dtype.kind == "M" and array.size:  # instants, as time since the first
         array = array - array.flat[0]
     if array.dtype.kind == "m":
@@ -66,6 +70,16 @@ def vector(where: str, name: str, values: Any) -> NDArray[np.float64]:
     if array.size > MAX_SAMPLES:
         raise too_long(where, array.size)
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def _as_numbers(array: NDArray[Any]) -> NDArray[Any]:
+    """Numbers that are kept as objects, such as decimals, None as nan; what else it holds stays as it is."""
+    if array.dtype != object or not all(x is None or isinstance(x, Real | Decimal) for x in array.flat):
+        return array
+    try:
+        return array.astype(np.float64)
+    except OverflowError:
+        return array
 
 
 def refuse_doubles(where: str, names: Sequence[str], wanted: Collection[str]) -> None:
