@@ -13,6 +13,8 @@ import scipy.io
 from rwn import cli
 from rwn.errors import InputError
 from rwn.model.files import read_model, write_model
+from rwn.model.model import Model
+from rwn.model.recordings import read_recordings
 from rwn.recording.columns import Column, Layout
 from rwn.recording.profiles import PROFILES, Profile, ProfileColumn, Wanted, profile, sources
 from rwn.recording.recording import Recording, read_recording
@@ -109,6 +111,16 @@ def test_what_a_profile_takes_for_granted_is_said(tmp_path: Path) -> None:
     told = read_recording(path, layout=read_model(tmp_path / "motor.toml").recording)
     np.testing.assert_allclose(told.signals["voltage"], 2.0 * VOLTAGE, atol=1e-6)
     assert told.warnings == ()
+
+
+def test_a_drive_under_torque_control_is_no_motor_with_a_voltage(tmp_path: Path) -> None:
+    """An ODrive exports its torque: a model of kind dc asked for a voltage that there is not."""
+    header, columns, _ = EXPORTS["odrive"]
+    path = _write(tmp_path / "run.csv", header, columns)
+    motor = dict.fromkeys(("resistance", "inductance", "torque_constant", "back_emf_constant", "inertia"), 1.0)
+    model = Model(kind="dc", parameters={**motor, "viscous_friction": 1.0}, recording=Layout(profile="odrive"))
+    with pytest.raises(InputError, match=r"no 'voltage'.*; or kind = 'axis', if the torque drives$"):
+        read_recordings(str(path), model)
 
 
 def test_two_axes_in_an_export_are_asked_for(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from rwn.errors import InputError
+from rwn.model.drives import KINDS
 from rwn.model.files import model_of
 from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
@@ -76,8 +77,16 @@ def _missing(recording: Recording, name: str, why: str) -> InputError:
         f"there is no '{name}' ({why}); it has {has}",
         where=recording.source or recording.name,
         expected=f"a column '{name} [{unit}]'",
-        fix="add it, or map it under [recording.columns] in the model file",
+        fix=f"add it, or map it under [recording.columns] in the model file{_other_kind(recording, name)}",
     )
+
+
+def _other_kind(recording: Recording, name: str) -> str:
+    """Where the input `name` is missing and that of a drive of another kind is there: perhaps that is what drives."""
+    others = {drive.input: kind for kind, drive in KINDS.items() if drive.input != name}
+    if name not in (drive.input for drive in KINDS.values()):
+        return ""
+    return "".join(f"; or kind = '{kind}', if the {i} drives" for i, kind in others.items() if i in recording.signals)
 
 
 def _check_movement(recording: Recording, model: Model, where: str) -> tuple[str, ...]:
