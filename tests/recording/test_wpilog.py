@@ -60,6 +60,17 @@ def test_the_entries_of_a_routine_are_known_by_their_beginnings(tmp_path: Path) 
         read_recording(_routine(tmp_path, "left", "right"), layout=Layout(profile="sysid"))
 
 
+def test_what_is_lost_of_a_log_is_said(tmp_path: Path) -> None:
+    path = _routine(tmp_path, "left")
+    layout = Layout(profile="sysid")
+    whole, data = read_recording(path, layout=layout), path.read_bytes()
+    assert not any("byte" in warning for warning in whole.warnings)
+    path.write_bytes(data[:-3])
+    cut = read_recording(path, layout=layout)
+    record_size = len(number(1, 20_000 * 59, 0.0))
+    assert f"read up to byte {len(data) - record_size} of {len(data) - 3}: what follows" in cut.warnings[0]
+
+
 @pytest.mark.parametrize("sizes", [(1, 1, 1), (2, 1, 3), (4, 4, 8), (3, 2, 5), (1, 3, 7)])
 def test_numbers_of_a_record_take_as_many_bytes_as_its_first_says(sizes: tuple[int, int, int], tmp_path: Path) -> None:
     content = HEADER + start(3, "u") + record(3, 200, struct.pack("<d", 1.5), sizes=sizes) + number(3, 300, 2.5)

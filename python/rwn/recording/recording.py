@@ -187,7 +187,7 @@ def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
         signals=ordered,
         source=table.where,
         linear=linear,
-        warnings=(*warnings, *assumed(table, layout, mapping), *unused(table, mapping)),
+        warnings=(*table.notes, *warnings, *assumed(table, layout, mapping), *unused(table, mapping)),
         units=units_of(table, mapping),
     )
 

@@ -62,4 +62,5 @@ def part_of(
     if TIME.name in columns:
         units.setdefault(TIME.name, TIME.unit)  # of all parts
     same = {name.removeprefix(begins): own.removeprefix(begins) for name, own in table.same.items()}
-    return Table(where=f"{path}{_MARK}{part}", columns=columns, units=units, row=table.row, same=same)
+    where = f"{path}{_MARK}{part}"
+    return Table(where=where, columns=columns, units=units, row=table.row, same=same, notes=table.notes)

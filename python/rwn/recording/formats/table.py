@@ -21,7 +21,7 @@ class Table:
     """`columns`: name -> (n_t,) float64 in the unit of `units` (None: not said), which names every column there is.
 
     `where` is the file or object in messages, `row` words the place of row k. `same`: further name of a column -> its
-    own; a matrix is a further name of its first column.
+    own; a matrix is a further name of its first column. `notes`: what reading it found odd, a sentence each.
     """
 
     where: str
@@ -29,6 +29,7 @@ class Table:
     units: Mapping[str, str | None]
     row: Callable[[int], str] = lambda k: f"sample {k + 1}"
     same: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 def table_of(

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -36,7 +36,7 @@ def read_wpilog(path: Path, wanted: Collection[str] = ()) -> Table:
     """The `wanted` entries of one number, by their names; a unit is an entry's metadata where that is one.
 
     Of an entry of several numbers `name[0]` is the first. Raises InputError where the file is no such log; a log that
-    was cut off is read up to there.
+    was cut off is read up to there, which is noted.
     """
     data = path.read_bytes()
     if len(data) < _HEADER.size or not data.startswith(_MAGIC) or _HEADER.unpack_from(data)[1] >> 8 != 1:
@@ -48,7 +48,9 @@ def read_wpilog(path: Path, wanted: Collection[str] = ()) -> Table:
         )
     entries: dict[str, _Entry] = {}
     open_now: dict[int, _Entry] = {}
-    for number, instant, payload in _records(data, _HEADER.size + _HEADER.unpack_from(data)[2]):
+    start = end = _HEADER.size + _HEADER.unpack_from(data)[2]
+    for number, instant, payload, after in _records(data, start):
+        end = after
         if number == _CONTROL:
             _control(payload, entries, open_now)
         elif number in open_now:
@@ -61,11 +63,13 @@ def read_wpilog(path: Path, wanted: Collection[str] = ()) -> Table:
             told[name] = _unit(entry.metadata)
             if name in wanted:
                 channels[name] = _channel(entry, column)
-    return table_of_channels(str(path), channels, told, wanted)
+    table = table_of_channels(str(path), channels, told, wanted)
+    lost = f"{path}: read up to byte {end} of {len(data)}: what follows is no whole record"
+    return replace(table, notes=(lost,)) if end < len(data) else table
 
 
-def _records(data: bytes, at: int) -> Iterator[tuple[int, int, bytes]]:
-    """Entry, time [us] and payload of each record; a record that is not whole ends them."""
+def _records(data: bytes, at: int) -> Iterator[tuple[int, int, bytes, int]]:
+    """Entry, time [us], payload and end of each record; a record that is not whole ends them."""
     while at < len(data):
         bits = data[at]
         sizes = ((bits & 3) + 1, (bits >> 2 & 3) + 1, (bits >> 4 & 7) + 1)
@@ -77,8 +81,8 @@ def _records(data: bytes, at: int) -> Iterator[tuple[int, int, bytes]]:
         entry, length, instant = numbers
         if at + length > len(data):
             return
-        yield entry, instant, data[at : at + length]
         at += length
+        yield entry, instant, data[at - length : at], at
 
 
 def _control(payload: bytes, entries: dict[str, _Entry], open_now: dict[int, _Entry]) -> None:
