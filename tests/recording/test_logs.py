@@ -231,6 +231,18 @@ def test_a_slower_channel_is_held_and_rows_before_it_are_left_out(tmp_path: Path
     assert table.units == {"time": "s", "voltage": "volt", "speed[0]": "radian per second"}
 
 
+@pytest.mark.slow  # asammdf is imported
+def test_which_of_several_channels_of_one_name_is_read_is_said(tmp_path: Path) -> None:
+    asammdf = imported("asammdf")
+    with asammdf.MDF(version="4.10") as file:
+        for name, values, unit in (("voltage", VOLTAGE, "V"), ("speed", RPM, "rpm"), ("speed", 2.0 * RPM, "rpm")):
+            file.append([asammdf.Signal(samples=values, timestamps=TIME, name=name, unit=unit)])
+        file.save(tmp_path / "a.mf4", overwrite=True)
+    read = read_recording(tmp_path / "a.mf4")
+    np.testing.assert_allclose(read.signals["speed"], RADIANS)
+    assert read.warnings == (f"{tmp_path / 'a.mf4'}: 2 channels are called 'speed': the first is read",)
+
+
 def test_a_file_of_several_runs_asks_for_one(tmp_path: Path) -> None:
     _sysid(tmp_path / "run.json")
     with pytest.raises(InputError, match=r"holds several runs: slow-forward, fast-backward.*run.json#slow-forward"):

@@ -6,6 +6,7 @@ import gc
 import sys
 import traceback
 from collections.abc import Collection
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +21,12 @@ from rwn.recording.formats.table import Table
 def read_mdf(path: Path, wanted: Collection[str] = ()) -> Table:
     """The `wanted` channels by name, in physical values. Raises InputError where the file is no MDF.
 
-    Of several channels of one name the first is read.
+    Of several channels of one name the first is read, which is noted.
     """
     asammdf = library("asammdf", "mdf", path)
     try:
         with quiet("asammdf"), path.open("rb") as stream, asammdf.MDF(stream) as file:
-            channels, units = _channels(file, wanted)
+            channels, units, several = _channels(file, wanted)
     except OSError:
         raise
     except Exception as error:  # asammdf raises many kinds for what is no MDF
@@ -36,7 +37,8 @@ def read_mdf(path: Path, wanted: Collection[str] = ()) -> Table:
             expected="a complete MDF 4 file",
             fix="write it again, or export the recording as CSV",
         ) from error
-    return table_of_channels(str(path), channels, units, wanted)
+    notes = tuple(f"{path}: {count} channels are called '{name}': the first is read" for name, count in several.items())
+    return replace(table_of_channels(str(path), channels, units, wanted), notes=notes)
 
 
 def _forget(error: BaseException | None) -> None:
@@ -51,16 +53,22 @@ def _forget(error: BaseException | None) -> None:
         sys.unraisablehook = hook
 
 
-def _channels(file: Any, wanted: Collection[str]) -> tuple[dict[str, Channel], dict[str, str | None]]:
+def _channels(
+    file: Any, wanted: Collection[str]
+) -> tuple[dict[str, Channel], dict[str, str | None], dict[str, int]]:
+    """The wanted ones, the unit of each, and how many bear the name of a wanted one, where several do."""
     masters = file.masters_db  # group -> place of its time
     channels: dict[str, Channel] = {}
     units: dict[str, str | None] = {}
+    several: dict[str, int] = {}
     for name, places in file.channels_db.items():
         group, index = places[0]
         if masters.get(group) == index:
             continue
         units[name] = file.get_channel_unit(group=group, index=index) or None
         if name in wanted:
+            if len(places) > 1:
+                several[name] = len(places)
             signal = file.get(group=group, index=index)
             channels[name] = Channel(np.asarray(signal.timestamps, dtype=np.float64), signal.samples)
-    return channels, units
+    return channels, units, several
