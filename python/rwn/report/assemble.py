@@ -13,8 +13,8 @@ from rwn.decide import excitation
 from rwn.decide.calibration import calibration
 from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
-from rwn.decide.verdict import Verdict
-from rwn.faults.fault import SURE, Fault
+from rwn.decide.statement import Statement, statement
+from rwn.faults.fault import Fault
 from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import with_uncertainty
 from rwn.fit.intervals import Doubt, estimates
@@ -24,7 +24,7 @@ from rwn.fit.problem import Problem
 from rwn.mismatch_map.dependence import laws
 from rwn.mismatch_map.regions import regions
 from rwn.model.model import Model
-from rwn.name.found_effect import coarse_speed, found_effects
+from rwn.name.found_effect import found_effects
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.prove.heldout import HeldoutRow
@@ -45,27 +45,18 @@ def assemble(
 ) -> Diagnosis:
     """The diagnosis, of a model that has the network among its own effects where one stands in."""
     decision = correction.decision
-    ranking, chosen, verdict, rows = decision.ranking, decision.chosen, decision.verdict, decision.rows
+    ranking, chosen, rows, said = decision.ranking, decision.chosen, decision.rows, statement(decision, faults)
     model = correction.network.model if correction.network else model
     problem, nominal = ranking.problem.in_free_run(), ranking.nominal
     unknown = _unknown_to(nominal, problem)
-    named = verdict == "missing-physics"
+    named = decision.verdict == "missing-physics"
     stated, doubt = decision.account.stated, _doubt(decision)
     physics = found_effects(ranking, chosen, {e.name: e.probability for e in stated}, doubt=doubt) if named else ()
-    steps = coarse_speed(ranking)
-    if steps and verdict in ("adequate", "missing-physics"):
-        physics, verdict = (*physics, steps), "missing-physics"
-    names = (stated[0].name, *stated[0].rivals) if stated else tuple(e.name for e in physics[:1])
-    effects = (*(fault.found(_probability(fault)) for fault in faults), *physics)
-    beneath = Beneath(verdict=verdict, set=names) if faults else None
+    effects = (*said.faults, *physics, *((said.coarse,) if said.coarse else ()))
     alternatives = _alternatives(ranking, chosen)
-    wanted = [_next_experiment(ranking, verdict, names) or from_near(alternatives, named=named)]
-    if faults:
-        verdict, names = "recording-mistake", (faults[0].name, *faults[0].also)
-        wanted.insert(0, _next_experiment(ranking, verdict, names))
     equation = effects[0].equation if effects else ""
     where = regions(unknown, linear=model.linear)
-    torque_unknown = verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
+    torque_unknown = said.verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
     place = located(where, depends, linear=model.linear)
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
@@ -73,11 +64,11 @@ def assemble(
     shown = correction.by_free_run or chosen
     drawn = figures.plots(ranking, shown, heldout, unknown, depends, correction.network, linear=model.linear)
     return Diagnosis(
-        verdict=verdict,
+        verdict=said.verdict,
         equation=equation,
         effects=effects,
-        set=names,
-        beneath=beneath,
+        set=said.names,
+        beneath=Beneath(verdict=said.beneath.verdict, set=said.beneath.names) if said.beneath else None,
         alternatives=alternatives,
         location=Location(equation=equation, regions=where, description=place),
         nominal_fit=nominal_fit(ranking, chosen, model, doubt=doubt),
@@ -87,7 +78,7 @@ def assemble(
         warnings=(
             *_contradictions(chosen, model), *_warnings(ranking, chosen, rows, filters), *correction.warnings
         ),
-        next_experiment="; ".join(filter(None, wanted)),
+        next_experiment=_next_experiment(ranking, said, alternatives, named=named),
         adequate_probability=ranking.nothing_missing.probability,
         account=decision.account.effects,
         remainder=decision.remainder,
@@ -125,15 +116,16 @@ def _doubt(decision: Decision) -> Doubt:
     return Doubt(birge=decision.account.birge, bias=calibration().bias * float(np.sqrt(share)))
 
 
-def _probability(fault: Fault) -> float:
-    """That it is so: plainly where a scale is off, else by what it removes, as of an effect."""
-    return calibration().probability_by(**fault.removes._asdict()) if fault.removes else SURE
-
-
-def _next_experiment(ranking: Ranking, verdict: Verdict, names: Sequence[str]) -> str:
-    if verdict == "insufficient-excitation":
-        return excitation.advice(ranking.problem.whole)
-    return separated_by(names) if len(names) > 1 else ""
+def _next_experiment(ranking: Ranking, said: Statement, alternatives: Sequence[Alternative], *, named: bool) -> str:
+    """What would tell the rivals apart, of the faults first; else what is stated from the next explanations."""
+    drive = said.beneath or said
+    if drive.verdict == "insufficient-excitation":
+        wanted = excitation.advice(ranking.problem.whole)
+    else:
+        wanted = separated_by(drive.names) if len(drive.names) > 1 else ""
+    wanted = wanted or from_near(alternatives, named=named)
+    first = separated_by(said.names) if said.beneath and len(said.names) > 1 else ""
+    return "; ".join(filter(None, (first, wanted)))
 
 
 def from_near(alternatives: Sequence[Alternative], *, named: bool) -> str:
