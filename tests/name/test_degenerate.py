@@ -15,6 +15,7 @@ from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name.degenerate import adds
 from rwn.name.forward import rank
+from rwn.name.observable import revolutions
 
 FitWith = Callable[[str], Fit]  # an effect's name -> the demo's recording explained by it
 
@@ -32,6 +33,20 @@ def test_a_load_from_end_to_end_or_for_a_moment_is_none(
     assert moved.windows == [pytest.approx((begin, end))]
     assert adds(moved, problem) != none
     assert fit_with("quadratic-drag").windows == []
+
+
+@pytest.mark.parametrize(("travelled", "none"), [(1.2, False), (0.8, True)])
+def test_what_is_periodic_has_a_period_that_is_travelled(
+    problem: Problem, fit_with: FitWith, travelled: float, none: bool
+) -> None:
+    this = fit_with("cogging-torque")
+    names = [u.name for u in this.hypothesis.unknowns]
+    values = this.minimum.values.copy()
+    values[names.index("cogging-torque.periods_per_rev")] = travelled / revolutions(problem)
+    moved = replace(this, minimum=replace(this.minimum, values=values))
+    assert revolutions(problem) * moved.periods[0] == pytest.approx(travelled)
+    assert adds(moved, problem) != none
+    assert fit_with("quadratic-drag").periods == []
 
 
 def test_loads_that_say_the_same_do_not_keep_another_law_from_being_built_on() -> None:

@@ -90,6 +90,12 @@ class Fit:
         return [(pair[0], pair[1]) for pair in ends if pair]
 
     @property
+    def periods(self) -> list[float]:
+        """Periods per revolution (per metre on a linear axis) of the added effects that have a number of them."""
+        table = self.hypothesis.table
+        return [self.value(f"{n}.{p.name}") for n in self.added for p in table[n].parameters if p.order]
+
+    @property
     def motor(self) -> dict[str, float]:
         """Nominal parameters as fitted."""
         pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)

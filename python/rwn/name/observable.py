@@ -23,7 +23,7 @@ def observable(name: str, problem: Problem) -> bool:
         turns = not problem.drive.linear
         if turns and any(p.replaces for p in effect.parameters):
             return True  # of a shaft that rubs, a part of a turn shows where it rubs more
-        return _revolutions(problem) > (A_SIXTH if turns else HALF_A_METRE)
+        return revolutions(problem) > (A_SIXTH if turns else HALF_A_METRE)
     beside = [p.beside for p in effect.parameters if p.beside]
     if beside:
         return all(problem.prior.uncertainty.get(nominal, 0.0) == 0.0 for nominal in beside)
@@ -37,7 +37,7 @@ def _may_be_rectified(problem: Problem) -> bool:
     return all(np.percentile(s, 2.0) > -0.05 * np.max(np.abs(s)) for s in speeds)
 
 
-def _revolutions(problem: Problem) -> float:
+def revolutions(problem: Problem) -> float:
     """The longest travel of a recording in revolutions (metres on a linear axis)."""
     spans = [float(np.ptp(r.angle)) for r in problem.runs if r.angle.size]
     return max(spans, default=np.inf) * problem.simulator.angle_per_position / (2.0 * np.pi)
