@@ -15,21 +15,20 @@ from numpy.typing import NDArray
 
 from rwn.decide.other_law import curve_instead
 from rwn.fit.budget import one_stage
-from rwn.fit.fit import Fit, fit, refit
+from rwn.fit.fit import NEAR_ITS_END, Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intervals import deviations
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics, variances
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
-from rwn.name.weights import RankedFit, effective_samples
+from rwn.name.weights import RankedFit, effective_samples, log_odds
 from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
 
 Array = NDArray[np.float64]
 
-ITERATIONS = 8  # of a fit that begins near its end
 PARTS = 16  # of the work of a stage, for each of these fits
 
 
@@ -88,12 +87,16 @@ class Validation:
             share=_share(before, self._after, self._nothing, self._chance),
             unseen=float(np.mean(unseen)),
             part=_share(beside, self._after, beside, self._chance),
-            odds=self._odds(instead or self._best_without({name, *rivals})),
+            odds=self._odds(instead or self._best_without({name, *rivals}, less)),
             curve=curve_instead(ranking.problem, self._leading.fit, less, self._model),
         )
 
-    def _best_without(self, names: set[str]) -> RankedFit:
-        return max((r for r in self._ranking.fits if not names & set(r.added)), key=lambda r: r.score)
+    def _best_without(self, names: set[str], less: Fit) -> RankedFit:
+        """The best explanation without effects; the leading one without the first of them need not be ranked."""
+        lost = log_odds(self._leading.final, less, self._ranking.counted)
+        weighed = RankedFit(fit=less, final=less, score=self._leading.score - lost, probability=0.0)
+        ranked = (r for r in self._ranking.fits if not names & set(r.added))
+        return max((weighed, *ranked), key=lambda r: r.score)
 
     def _odds(self, other: RankedFit) -> float:
         """Against another explanation: by what was fitted, and by what was kept back."""
@@ -148,11 +151,11 @@ def _without(ranking: Ranking, leading: RankedFit, name: str) -> Fit:
     problem, this = ranking.weighted, leading.final
     starts = this.starts(others)
     begun = hypothesis(problem.prior, others, problem.scales, starts, this.motor)
-    return fit(problem, begun, max_iterations=ITERATIONS, share=one_stage(problem.work) / PARTS)
+    return fit(problem, begun, max_iterations=NEAR_ITS_END, share=one_stage(problem.work) / PARTS)
 
 
 def _refit(this: Fit, half: Problem) -> Fit:
-    return refit(this, half, iterations=ITERATIONS, share=one_stage(half.work) / PARTS)
+    return refit(this, half, iterations=NEAR_ITS_END, share=one_stage(half.work) / PARTS)
 
 
 def _birge(halves: Sequence[_Half]) -> float:

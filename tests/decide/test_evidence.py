@@ -1,0 +1,50 @@
+"""Evidence for an effect, where something else is missing that no name has."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+from rwn.decide.evidence import Validation
+from rwn.fit.preparation import prepare
+from rwn.name.forward import rank
+from rwn.name.ranking import Ranking
+
+MODEL = rwn.read_model(Path(rwn.__file__).parent / "demo" / "model.toml")
+LOAD = {"torque": 0.08, "t_start": 1.0, "t_end": 2.5}
+N, STEP = 3000, 1e-3
+
+
+def _wandering(seed: int) -> np.ndarray:
+    """A voltage (n,) that wanders for half a second at a time, as a torque of some mN m does."""
+    kept, noise = 1.0 - STEP / 0.5, np.random.default_rng(seed).standard_normal(N)
+    values = [0.0]
+    for new in noise[1:]:
+        values.append(kept * values[-1] + 0.4 * np.sqrt(1.0 - kept**2) * new)
+    return np.array(values)
+
+
+def _ranking(truth: rwn.Model, names: Sequence[str], *, seed: int, wandering: float = 1.0) -> Ranking:
+    time = STEP * np.arange(N)
+    voltage = 6.0 * np.sin(2 * np.pi * (0.5 * time + 0.5 * time**2))
+    acting = rwn.Recording(name="run", time=time, signals={"voltage": voltage + wandering * _wandering(seed)})
+    speed = rwn.simulate(truth, acting).signals["speed"]
+    speed = speed + 0.5 * np.random.default_rng(seed + 100).standard_normal(N)
+    given = rwn.Recording(name="run", time=time, signals={"voltage": voltage, "speed": speed})
+    return rank(prepare([given], MODEL), progress=lambda *_: None, names=names)
+
+
+def test_an_effect_is_compared_with_the_rest_of_its_explanation_also_where_that_is_not_ranked() -> None:
+    truth = replace(MODEL, effects={"coulomb-friction": {"coulomb_torque": 0.02}, "load-disturbance": LOAD})
+    ranking = _ranking(truth, list(truth.effects), seed=0, wandering=0.0)
+    both = next(r for r in ranking.fits if len(r.added) == 2)
+    ranked = Validation(ranking, both, [], MODEL).evidence("coulomb-friction", ())
+    pruned = replace(ranking, fits=(both, ranking.nothing_missing))
+    found = Validation(pruned, both, [], MODEL).evidence("coulomb-friction", ())
+    assert found.odds == pytest.approx(ranked.odds, rel=0.05)
+    assert both.score - ranking.nothing_missing.score > 2.0 * found.odds
