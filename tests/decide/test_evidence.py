@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import rwn
+from rwn.decide import evidence as module
 from rwn.decide.evidence import Validation
 from rwn.fit.preparation import prepare
 from rwn.name.forward import rank
@@ -39,7 +41,26 @@ def _ranking(truth: rwn.Model, names: Sequence[str], *, seed: int, wandering: fl
     return rank(prepare([given], MODEL), progress=lambda *_: None, names=names)
 
 
-def test_an_effect_is_compared_with_the_rest_of_its_explanation_also_where_that_is_not_ranked() -> None:
+@pytest.mark.parametrize("seed", [0, 3])
+def test_a_load_that_follows_what_wanders_has_no_evidence(seed: int) -> None:
+    """It fits better by far, and what is new in each error is no less once both are fitted to that."""
+    ranking = _ranking(MODEL, ["load-disturbance"], seed=seed)
+    load = next(r for r in ranking.fits if r.added)
+    assert load.score > ranking.nothing_missing.score + 5.0
+    assert Validation(ranking, load, [], MODEL).evidence("load-disturbance", ()).odds < 0.0
+
+
+@pytest.mark.parametrize("seed", [3, 5])
+def test_a_load_that_sets_in_beside_what_wanders_has(seed: int) -> None:
+    ranking = _ranking(replace(MODEL, effects={"load-disturbance": LOAD}), ["load-disturbance"], seed=seed)
+    load = next(r for r in ranking.fits if r.added)
+    assert Validation(ranking, load, [], MODEL).evidence("load-disturbance", ()).odds > 10.0
+
+
+def test_an_effect_is_compared_with_the_rest_of_its_explanation_also_where_that_is_not_ranked(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(module, "_innovations", lambda *_: SimpleNamespace(log_odds=lambda *_: np.inf))
     truth = replace(MODEL, effects={"coulomb-friction": {"coulomb_torque": 0.02}, "load-disturbance": LOAD})
     ranking = _ranking(truth, list(truth.effects), seed=0, wandering=0.0)
     both = next(r for r in ranking.fits if len(r.added) == 2)

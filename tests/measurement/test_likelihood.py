@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
-from rwn.fit.residuals import MISSPECIFIED, MOST_SAMPLES, statistics_of
-from rwn.measurement.likelihood import is_decisive
+import rwn
+from rwn.fit.fit import fit_nominal
+from rwn.fit.preparation import prepare
+from rwn.fit.residuals import MISSPECIFIED, MOST_SAMPLES, correlation_time, join, statistics_of
+from rwn.measurement.likelihood import is_decisive, under_own_colour
 
 
 @pytest.mark.parametrize(("slow", "most"), [(0.0, MOST_SAMPLES), (10.0, MISSPECIFIED)])
@@ -17,3 +23,17 @@ def test_a_gain_counts_in_as_many_samples_as_what_is_left_is_worth(slow: float, 
     enough = np.log(1000.0) * noise.size / most
     assert is_decisive(1.01 * enough, left)
     assert not is_decisive(0.99 * enough, left)
+
+
+def test_errors_under_their_own_colour_are_white() -> None:
+    slow = lfilter([0.05], [1.0, -0.95], np.random.default_rng(5).standard_normal(2000))
+    run = rwn.Recording(
+        name="run", time=1e-3 * np.arange(2000), signals={"voltage": np.ones(2000), "speed": 100.0 + slow}
+    )
+    problem = prepare([run], rwn.read_model(Path(rwn.__file__).parent / "demo" / "model.toml"))
+    nominal = fit_nominal(problem)
+    own = under_own_colour(problem, nominal)
+    before, after = (join(p, p.residuals(nominal.vector, nominal.active))["speed"] for p in (problem, own))
+    assert correlation_time(before) > 10.0
+    assert correlation_time(after) < 1.5
+    assert np.mean(after**2) == pytest.approx(1.0, rel=0.05)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.decide.innovations import Innovations, innovations
 from rwn.decide.other_law import curve_instead
 from rwn.fit.budget import one_stage
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit, refit
@@ -39,7 +40,8 @@ class Evidence:
     share: float  # of what the nominal model leaves above the noise, that goes without the effect; mean of signals
     unseen: float  # that share on the halves that were not fitted, and on recordings kept back
     part: float  # of what the other effects leave above the noise, that goes with it; mean of signals but the position
-    odds: float  # log evidence for its explanation against the best without it and its rivals, by all recordings
+    odds: float  # log evidence for its explanation against the best without it and its rivals, by all recordings; at
+    # most that against the same without it by what is new in each error
     curve: float  # squared error with the best curve over one state in its place, in units of that with it; at most 1
 
 
@@ -65,6 +67,7 @@ class Validation:
         self._halves = _halves(problem)
         self._seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(leading.final, half)), self._halves)
         self._heldout = [problem.on(heldout)] if heldout else []
+        self._innovations = _innovations(problem, leading.final)
 
     def evidence(self, name: str, rivals: Collection[str], *, instead: RankedFit | None = None) -> Evidence:
         """Features of one effect of the explanation.
@@ -87,7 +90,10 @@ class Validation:
             share=_share(before, self._after, self._nothing, self._chance),
             unseen=float(np.mean(unseen)),
             part=_share(beside, self._after, beside, self._chance),
-            odds=self._odds(instead or self._best_without({name, *rivals}, less)),
+            odds=min(
+                self._odds(instead or self._best_without({name, *rivals}, less)),
+                self._innovations.log_odds(_innovations(ranking.weighted, less), ranking.counted.count),
+            ),
             curve=curve_instead(ranking.problem, self._leading.fit, less, self._model),
         )
 
@@ -156,6 +162,10 @@ def _without(ranking: Ranking, leading: RankedFit, name: str) -> Fit:
 
 def _refit(this: Fit, half: Problem) -> Fit:
     return refit(this, half, iterations=NEAR_ITS_END, share=one_stage(half.work) / PARTS)
+
+
+def _innovations(problem: Problem, this: Fit) -> Innovations:
+    return innovations(problem, this, share=one_stage(problem.work) / PARTS)
 
 
 def _birge(halves: Sequence[_Half]) -> float:

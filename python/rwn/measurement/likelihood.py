@@ -9,6 +9,8 @@ the evidence for effects does.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,6 +19,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics
 from rwn.fit.unknown import prior_cost
 from rwn.recording.intersample import between_ticks
+from rwn.recording.noise import autoregression
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -38,15 +41,29 @@ def log_posterior(problem: Problem, this: Fit) -> float:
     return log_likelihood(problem, this) - 0.5 * prior_cost(this.hypothesis.unknowns, this.minimum.values)
 
 
+def under_own_colour(problem: Problem, this: Fit) -> Problem:
+    """`problem` weighted by what is new in each error of a fit, as if all that lasts in them were disturbances."""
+    residuals, noise = problem.residuals(this.vector, this.active), dict(problem.noise)
+    for signal in dict.fromkeys(s for left in residuals for s in left):
+        pairs = [(r, left[signal]) for r, left in zip(problem.runs, residuals, strict=True) if signal in left]
+        noise[signal] = autoregression([r.masked(signal, left) for r, left in pairs], ORDER)
+    return replace(problem, noise=noise)
+
+
 def log_likelihood(problem: Problem, this: Fit) -> float:
-    """Of what a fit leaves, each signal an autoregression of its own; up to a constant.
+    """Of what a fit leaves, all signals together; up to a constant."""
+    return sum(log_likelihoods(problem, this).values())
+
+
+def log_likelihoods(problem: Problem, this: Fit) -> dict[str, float]:
+    """Of what a fit leaves of each signal, an autoregression of its own; up to a constant.
 
     An autoregression is over even steps: errors of uneven rows are those of the samples that these would lie between,
     and the noise of a row, where it was not interpolated, is larger there the farther it lies from its tick.
     What an input that was inferred from the errors has taken of their noise is no likelihood.
     """
     residuals = problem.residuals(this.vector, this.active)
-    likelihood = 0.0
+    likelihoods = {}
     for signal in dict.fromkeys(s for left in residuals for s in left):
         pairs = [(r, left[signal]) for r, left in zip(problem.runs, residuals, strict=True) if signal in left]
         even = [_evenly(r, signal, left / r.noise_left(signal)) for r, left in pairs]
@@ -58,8 +75,8 @@ def log_likelihood(problem: Problem, this: Fit) -> float:
             weights = np.linalg.lstsq(before, now)[0]
             new = now - before @ weights
             samples = sum(r.time.size for r, _ in pairs)
-            likelihood -= 0.5 * samples * _log_variance(new, noise, 1.0 + float(weights @ weights))
-    return likelihood
+            likelihoods[signal] = -0.5 * samples * _log_variance(new, noise, 1.0 + float(weights @ weights))
+    return likelihoods
 
 
 def _log_variance(new: Array, noise: Array, noises: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,6 +11,9 @@ from numpy.typing import NDArray
 from rwn import _core
 
 Array = NDArray[np.float64]
+
+STABLE = 0.9999  # largest partial autocorrelation: a fit of one of 1 would not know the level of the errors
+LEAST = 1e-12  # least level of a noise
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +46,21 @@ class Noise:
 
 
 WHITE = Noise(level=1.0)
+
+
+def autoregression(errors: Sequence[Array], order: int) -> Noise:
+    """Errors (n,) of each recording as an autoregression (Burg 1975); NaN is passed over."""
+    forward = [x[np.isfinite(x)] for x in errors]
+    backward, reflection = forward, list[float]()
+    for _ in range(order):
+        pairs = [(f[1:], b[:-1]) for f, b in zip(forward, backward, strict=True) if f.size > 1]
+        energy = sum(float(f @ f + b @ b) for f, b in pairs)
+        last = float(np.clip(2.0 * sum(float(f @ b) for f, b in pairs) / energy, -STABLE, STABLE)) if energy else 0.0
+        forward, backward = [f - last * b for f, b in pairs], [b - last * f for f, b in pairs]
+        reflection.append(last)
+    new = np.concatenate(forward) if forward else np.zeros(1)
+    level = float(np.sqrt(np.mean(new**2))) if new.size else 0.0
+    return Noise(level=max(level, LEAST), reflection=tuple(reflection))
 
 
 def noise_from_differences(signal: Array) -> float:
