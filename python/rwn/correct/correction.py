@@ -115,7 +115,7 @@ def _in_place(decision: Decision, chosen: RankedFit, other: RankedFit) -> bool:
 
 
 def _better_part(decision: Decision, chosen: RankedFit, heldout: Sequence[Run], *, seed: int) -> RankedFit | None:
-    """The part of an explanation beside which the rest certainly makes recordings worse that were kept back, most so.
+    """The part of an explanation beside which the rest makes recordings worse that were kept back, most so.
 
     Where both run away nothing is won without the rest.
     """

@@ -22,6 +22,7 @@ from rwn.simulate.simulator import RAN_AWAY
 Array = NDArray[np.float64]
 FEWEST = 20  # samples that a row judges
 DRAWS = 400  # of the bootstrap
+HALF_WIDTH = 1.96  # of its 95 % interval, in standard errors
 WORTH = 0.9  # squared error with what stands in for an unknown law, above which it is not worth a file
 NOISE_FLOOR = (
     "standard deviation of the signal's measurement noise, in unit: what second differences of the corrected (else the "
@@ -56,6 +57,12 @@ class HeldoutRow:
         if self.corrected is None or self.corrected == self.refitted:
             return 0.0, 0.0
         return (1.0, 1.0) if self.corrected < self.refitted else (-np.inf, -np.inf)
+
+    @property
+    def gain_and_an_error(self) -> float:
+        """The gain and one standard error of it."""
+        low, high = self.certain_gain
+        return high if self.gain is None else self.gain + (high - low) / (2.0 * HALF_WIDTH)
 
     @property
     def left(self) -> float:
@@ -201,9 +208,14 @@ def helps(rows: Sequence[HeldoutRow]) -> bool:
 
 
 def hurts(rows: Sequence[HeldoutRow]) -> bool:
-    """Whether what was not fitted is certainly worse in some signal and worse on the mean of all; or one runs away."""
-    runs_away = any(r.corrected is not None and not np.isfinite(r.corrected) for r in rows if r.region == "all")
-    return runs_away or (_any_certainly_worse(rows) and log_change(rows) > 0.0)
+    """Whether what was not fitted is worse on the mean of all signals, and of some by more than a standard error.
+
+    Or a simulation runs away. That error tells one model that is kept from another (Breiman et al. 1984, one standard
+    error), not what is so.
+    """
+    whole = [r for r in rows if r.region == "all"]
+    runs_away = any(r.corrected is not None and not np.isfinite(r.corrected) for r in whole)
+    return runs_away or (any(r.gain_and_an_error < 0.0 for r in whole) and log_change(rows) > 0.0)
 
 
 def _free_run(rows: Sequence[HeldoutRow]) -> list[HeldoutRow]:
