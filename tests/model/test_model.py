@@ -92,6 +92,24 @@ resistance = "10 %"
     assert model.uncertainty["resistance"] == pytest.approx(0.1)
 
 
+def test_a_data_sheet_with_one_of_the_two_constants_will_do(tmp_path: Path) -> None:
+    path = tmp_path / "motor.toml"
+    text = (
+        '[motor]\nkind = "dc"\nresistance = 0.8\ninductance = 1e-3\n{} = 0.062\ninertia = 1e-4\n'
+        "viscous_friction = 4e-5\n[uncertainty]\n{} = 0.03\n"
+    )
+    for given, other in (("torque_constant", "back_emf_constant"), ("back_emf_constant", "torque_constant")):
+        path.write_text(text.format(given, given))
+        model = read_model(path)
+        assert model.parameters[other] == model.parameters[given] == 0.062
+        assert model.uncertainty == {given: 0.03, other: 0.03}
+    path.write_text(text.format("torque_constant", "resistance"))
+    assert read_model(path).uncertainty == {"resistance": 0.03}
+    path.write_text(text.format("inertia_of_nothing", "resistance"))
+    with pytest.raises(InputError, match="unknown key"):
+        read_model(path)
+
+
 def test_a_transfer_function_is_made_monic(tmp_path: Path) -> None:
     model = _read(tmp_path, '[motor]\nkind = "lti"\nnumerator = [8.0]\ndenominator = [2.0, 4.0, 6.0]\n')
     assert model.order == 2

@@ -32,12 +32,17 @@ def parse_model(text: str, *, where: str, effects: EffectTable | None = None) ->
     motor = {key: value for key, value in file.motor.items() if key not in ("kind", "linear")}
     given, order = drive.read(motor, where=place)
     parameters = _values(given, drive.nominal(order), linear=linear, where=place)
+    uncertainty = _uncertainty(file, f"{where}, [uncertainty]")
+    for name, other in _told_by_another(parameters, drive):
+        parameters[name] = parameters[other]
+        if other in uncertainty:
+            uncertainty.setdefault(name, uncertainty[other])
     own = {name: from_entry(name, entry, drive, where=where) for name, entry in file.own_effects.items()}
     check_own_effects(tuple(own.values()), drive, where=f"{where}, [own_effects]")
     return Model(
         kind=drive.kind,
         parameters=parameters,
-        uncertainty=_uncertainty(file, f"{where}, [uncertainty]"),
+        uncertainty=uncertainty,
         effects=_effects(file.effects, own, effects, where) if file.effects else {},
         own_effects=tuple(own.values()),
         load=_load(file.load, drive, where),
@@ -46,6 +51,12 @@ def parse_model(text: str, *, where: str, effects: EffectTable | None = None) ->
         recording=_layout(file.recording, f"{where}, [recording]"),
         source=where,
     )
+
+
+def _told_by_another(given: Mapping[str, float], drive: Drive) -> list[tuple[str, str]]:
+    """Parameters that are not given, each with one that is and is the same number: a data sheet has Kt or Ke."""
+    pairs = [pair for one in drive.one_numbers for pair in ((one.name, one.like), (one.like, one.name))]
+    return [(name, other) for name, other in pairs if name not in given and other in given]
 
 
 def _drive(motor: Mapping[str, Any], where: str) -> tuple[Drive, bool]:

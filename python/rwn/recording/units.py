@@ -12,13 +12,14 @@ from rwn.errors import InputError, closest, plain
 # What people write and pint reads otherwise ("Nm" is its number metre, "Hz" its radian per second, "amps" an
 # attometre per second).
 _SPELLINGS = (
-    (re.compile(r"\b([kmcuµ]?)N(m|cm|mm)\b"), r"\1N \2"),
+    (re.compile("²"), "^2"),  # first: it counts as a letter
+    (re.compile(r"\b([kmcuµ]?)N(m|cm|mm)(s?)\b"), r"\1N \2 \3"),
+    (re.compile(r"\b([kmuµ]?)Vs\b"), r"\1V s"),
     (re.compile(r"\b(k?g)(m|cm|mm)\b"), r"\1 \2"),
     (re.compile(r"\bRPM\b|\b(?:r|tr|U|Umdr\.?|1)/min\b|\bmin(?:\^?-1|⁻¹)(?!\w)"), "rpm"),
     (re.compile(r"\brevs?\b|\brotations?\b"), "turn"),
     (re.compile(r"\b[Aa]mps?\b"), "A"),
     (re.compile(r"Ohms?\b"), "ohm"),
-    (re.compile("²"), "^2"),
     (re.compile(r"[·⋅]"), "*"),
 )
 _COMMON = (
