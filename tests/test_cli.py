@@ -183,7 +183,7 @@ def test_identify_says_what_ran_into_a_bound_and_what_is_not_seen() -> None:
     fit = FakeIdentification(model, estimates, not_identifiable=("inertia",))
     said = "\n".join(identification.lines(fit, (), model))  # type: ignore[arg-type]
     assert "warning: resistance ran into a bound" in said
-    assert "say nothing of inertia" in said
+    assert "add nothing to what was declared of inertia" in said
     assert "times what was given, 27 declared deviations" in said
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
+from rwn.recording.recording import remarks
 from rwn.report.identification import lines
 
 
@@ -31,3 +32,13 @@ def test_columns_that_are_not_used_are_told(tmp_path: Path) -> None:
     assert told in fitted.warnings
     assert f"warning: {told}" in list(lines(fitted, (), model))
     assert not any("not used" in line for line in lines(replace(fitted, warnings=()), (), model))
+
+
+def test_a_remark_of_several_files_is_said_once() -> None:
+    time, voltage = 1e-3 * np.arange(100), np.ones(100)
+
+    def told(name: str, *warnings: str) -> rwn.Recording:
+        return rwn.Recording(name=name, time=time, signals={"voltage": voltage, "speed": voltage}, warnings=warnings)
+
+    found = remarks([told("a.csv", "a.csv: not used: temp"), told("b.csv", "b.csv: not used: temp", "b.csv: odd: x")])
+    assert found == ("a.csv, b.csv: not used: temp", "b.csv: odd: x")

@@ -15,7 +15,7 @@ import typer
 
 from rwn import completion
 from rwn.endings import NO_RESULT, run
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError
 
 if TYPE_CHECKING:
     from rwn.model.model import Model
@@ -173,7 +173,7 @@ def effects(
 ) -> None:
     """The effects that rwn can name: site, equation, parameters, source; also by a word: rwn effects friction."""
     from rwn.model import vocabulary as known
-    from rwn.model.effect_search import effects_by_word
+    from rwn.model.effect_search import effects_by_word, nothing_mentions
     from rwn.model.files import read_model
     from rwn.report.effect_text import lines
 
@@ -181,7 +181,7 @@ def effects(
     wanted = " ".join(name or [])
     found = [table[wanted]] if wanted in table else effects_by_word(wanted, table) if wanted else list(table.values())
     if not found:
-        raise unknown("effect", wanted, table, where="rwn effects")
+        raise nothing_mentions(wanted, table)
     width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
     for line in lines(found, width=width):
         typer.echo(line)

@@ -25,7 +25,7 @@ from rwn.name.forward import Progress
 from rwn.parallel import thread_pool
 from rwn.recording.inspection import inspected
 from rwn.recording.inspection.overlap import overlaps
-from rwn.recording.recording import Recording
+from rwn.recording.recording import Recording, remarks
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
 from rwn.simulate.declared import check_declared
@@ -89,7 +89,7 @@ def diagnose(
         corrected = replace(made.corrected, recording=layout)
         enabled = (one.as_finding(model.drive.input) for one in case.late)
         findings = (*findings, *found.findings, *unseen_findings, *common, *enabled)
-        warnings = (*made.warnings, *(told for recording in (*fitted, *judged) for told in recording.warnings))
+        warnings = (*made.warnings, *remarks((*fitted, *judged)))
         return replace(made, corrected=corrected, findings=findings, warnings=warnings)
 
 

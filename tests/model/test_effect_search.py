@@ -43,7 +43,7 @@ def test_a_word_that_means_one_effect_shows_it(run: Run, word: str) -> None:
 def test_a_word_that_means_none_is_refused(run: Run) -> None:
     code, _, err = run("effects", "gravitation")
     assert code == 2
-    assert "unknown effect 'gravitation'" in err
+    assert "no effect mentions 'gravitation'" in err
 
 
 def test_the_shell_completes_commands_and_effects() -> None:

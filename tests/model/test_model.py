@@ -2,6 +2,8 @@ from __future__ import annotations
 
 import copy
 import pickle
+import re
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -90,6 +92,15 @@ resistance = "10 %"
         rel=1e-5,
     )
     assert model.uncertainty["resistance"] == pytest.approx(0.1)
+
+
+def test_the_shaft_alone_is_written_as_a_model_file_has_it() -> None:
+    said = KINDS["dc"].halves({"torque_constant": 0.062})
+    (line,) = re.findall(r"`(columns[^`]*)`", said)
+    assert tomllib.loads(line)["columns"]["torque"] == {
+        "source": "<the column of the current>", "unit": "A", "scale": "0.062 N m/A"
+    }  # fmt: skip
+    assert KINDS["axis"].halves({}) == ""
 
 
 def test_a_data_sheet_with_one_of_the_two_constants_will_do(tmp_path: Path) -> None:

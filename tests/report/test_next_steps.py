@@ -25,11 +25,11 @@ def unexplained(**changed: object) -> Diagnosis:
 STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
     "a law over a signal": (
         unexplained(curves=(law(),)),
-        ("It is drawn over speed below.", "Nearest names, not stated: unbalance (31 %).", "Record again with more"),
+        ("It is drawn over speed in", "Nearest names, not stated: unbalance (31 %).", "Record again with more"),
     ),
     "an experiment in its place": (
         unexplained(next_experiment="Turn it by hand.", curves=(), account=()),
-        ("Turn it by hand.",),
+        ("Turn it by hand.", "Record again with more"),
     ),
     "nothing near, nowhere in particular": (
         unexplained(curves=(), account=(), location=replace(made_up.unexplained().location, regions=())),

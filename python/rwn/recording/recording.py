@@ -134,6 +134,16 @@ def beginnings(recordings: Sequence[Recording]) -> list[Recording]:
     return [r.beginning(ENOUGH) for r in recordings]
 
 
+def remarks(recordings: Sequence[Recording]) -> tuple[str, ...]:
+    """What reading them found odd, each remark once, with the files that it is of."""
+    of: dict[str, list[str]] = {}
+    for recording in recordings:
+        for warning in recording.warnings:
+            where, _, remark = warning.partition(": ")
+            of.setdefault(remark, []).append(where)
+    return tuple(f"{', '.join(dict.fromkeys(where))}: {remark}" for remark, where in of.items())
+
+
 def _vector(name: str, signal: str, values: Any) -> Array:
     refuse_mask(name, signal, values)
     array = np.asarray(values)

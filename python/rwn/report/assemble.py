@@ -119,8 +119,11 @@ def _doubt(decision: Decision) -> Doubt:
 def _next_experiment(ranking: Ranking, said: Statement, alternatives: Sequence[Alternative], *, named: bool) -> str:
     """What would tell the rivals apart, of the faults first; else what is stated from the next explanations."""
     drive = said.beneath or said
+    problem = ranking.problem
     if drive.verdict == "insufficient-excitation":
-        wanted = excitation.advice(ranking.problem.whole)
+        wanted = excitation.advice(problem.whole)
+    elif drive.verdict == "unexplained" and all(r.current.size for r in problem.whole):
+        wanted = problem.drive.halves(problem.prior.motor)
     else:
         wanted = separated_by(drive.names) if len(drive.names) > 1 else ""
     wanted = wanted or from_near(alternatives, named=named)

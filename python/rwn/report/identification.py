@@ -98,7 +98,7 @@ def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
         yield f"{listing([unknown_name(n) for n in at_bound])} ran into a bound: the value is that of the bound"
     if unseen:
         names = listing([unknown_name(n) for n in unseen])
-        yield f"these recordings say nothing of {names} that was not declared"
+        yield f"these recordings add nothing to what was declared of {names}"
     yield from _held(fit, nominal)
     for name, value in fit.parameters.items():
         if name in nominal.uncertainty and nominal.parameters.get(name):

@@ -55,14 +55,13 @@ def _adequate(found: DiagnosisData) -> Iterator[str]:
 def _unexplained(found: DiagnosisData) -> Iterator[str]:
     laws = [plot for plot in found.curves if plot.slot == "law"]
     if laws:
-        yield f"It is drawn over {laws[0].x_label} below. Where you know what does that, {_WRITE_IT}"
+        yield f"It is drawn over {laws[0].x_label} in the report. Where you know what does that, {_WRITE_IT}"
     near = [e for e in found.account if e.together > NEAR]
     if near:
         yield f"Nearest names, not stated: {listing([_nearest(e) for e in near[:3]], 'and')}."
     if found.next_experiment:
         yield found.next_experiment
-    else:
-        yield from _again(found)
+    yield from _again(found)
     if found.stand_in:
         yield from _use_it("what stands for it")
 
@@ -76,7 +75,8 @@ def _again(found: DiagnosisData) -> Iterator[str]:
 
 
 def _nearest(effect: Acting) -> str:
-    return f"{plain_name(effect.name)} ({likelihood(effect.probability)})"
+    names = listing([plain_name(name) for name in (effect.name, *effect.rivals)], "or")
+    return f"{names} ({likelihood(effect.together)})"
 
 
 def _insufficient(found: DiagnosisData) -> Iterator[str]:

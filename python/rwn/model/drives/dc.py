@@ -30,6 +30,15 @@ class Winding(Drive):
         """Ke w."""
         return motor["back_emf_constant"] * speed
 
+    def halves(self, motor: Mapping[str, float]) -> str:
+        """The shaft alone, driven by the recorded current."""
+        scale = f"{motor['torque_constant']:.4g} N m/A"
+        return (
+            "To see whether the shaft or the winding lacks something, diagnose the shaft alone, driven by the recorded "
+            'current: `kind = "axis"` with inertia and friction, and '
+            f'`columns.torque = {{ source = "<the column of the current>", unit = "A", scale = "{scale}" }}`.'
+        )
+
     def usual_input(self, motor: Mapping[str, float]) -> float:  # noqa: ARG002
         """A voltage [V], to a factor of some hundred."""
         return USUAL_VOLTAGE

@@ -106,6 +106,10 @@ class Drive:
         """
         raise NotImplementedError(f"a {self.kind} has no winding")
 
+    def halves(self, motor: Mapping[str, float]) -> str:  # noqa: ARG002
+        """How to see which half of it is at fault, where what joins them was recorded; empty where it is one."""
+        return ""
+
     def usual_input(self, motor: Mapping[str, float]) -> float:
         """An input such as a drive of this size is run with, to a factor of some hundred: 10 m/s^2, 1000 rad/s^2."""
         return motor["inertia"] * (10.0 if self.linear else 1000.0)
