@@ -97,9 +97,19 @@ class Fit:
 
     @property
     def motor(self) -> dict[str, float]:
-        """Nominal parameters as fitted."""
+        """Uncertain nominal parameters as fitted; of one that an effect has taken over, the mean of what it has for it.
+
+        So a fit without that effect begins with friction as large, and not with that of the data sheet.
+        """
         pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
-        return {u.name: float(v) for u, v in pairs if "." not in u.name and not u.nuisance}
+        fitted = {u.name: float(v) for u, v in pairs if "." not in u.name and not u.nuisance}
+        taken = {name: self._taken_over(name) for name in self.hypothesis.taken_over}
+        return {name: float(np.mean(values)) for name, values in taken.items() if values} | fitted
+
+    def _taken_over(self, nominal: str) -> list[float]:
+        """What the added effects have for a nominal parameter."""
+        pairs = ((name, p) for name in self.added for p in self.hypothesis.table[name].parameters)
+        return [self.values_of(name)[p.name] for name, p in pairs if p.replaces == nominal]
 
     @property
     def farthest_move(self) -> float:

@@ -30,6 +30,7 @@ class Hypothesis:
     vector: Array  # starting values of all parameters, and of what is unknown of single runs
     unknowns: tuple[Unknown, ...]
     table: Mapping[str, Effect] = field(default_factory=table)
+    taken_over: frozenset[str] = frozenset()  # uncertain nominal parameters that an effect has in its own place
 
     @property
     def active(self) -> list[int]:
@@ -95,7 +96,10 @@ def hypothesis(
             unknowns += [_declared_unknown(effect, p, known[p.name], std) for p, std in declared if std > 0.0]
     of_runs = [starts.get(OF_RUNS, {}).get(own.name, 0.0) for own in prior.of_runs]
     vector = np.append(parameter_vector(motor_now, values, known_effects), of_runs)
-    return Hypothesis(effects=active, added=added, vector=vector, unknowns=tuple(unknowns), table=known_effects)
+    return Hypothesis(
+        effects=active, added=added, vector=vector, unknowns=tuple(unknowns), table=known_effects,
+        taken_over=frozenset(prior.uncertainty) & replaced,
+    )  # fmt: skip
 
 
 def _motor_unknown(name: str, prior: Prior) -> Unknown:
