@@ -34,3 +34,9 @@ def test_a_signal_that_swings_from_its_first_sample_does_not_stand_still() -> No
     time = 1e-3 * np.arange(2000)
     signal = 60.0 * np.sin(25.0 * time) + 0.5 * np.random.default_rng(0).standard_normal(time.size)
     assert first_moved(signal) < 30
+
+
+def test_few_rows_of_a_clean_signal_show_at_once_that_it_moves() -> None:
+    """A position in counts that sets off with the first rows and comes to rest: it stood for one sample."""
+    counts = np.round(800.0 * (1.0 - np.exp(-np.arange(50.0) / 6.0)))
+    assert first_moved(0.002 * counts) <= 4

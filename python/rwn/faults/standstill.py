@@ -31,8 +31,9 @@ def first_moved(signal: Array) -> int:
     sums, squares = np.cumsum(off)[half - 1], np.cumsum(off**2)[half - 1]
     middle = sums / half
     least = _least_change(signal)
-    rms = np.minimum(np.sqrt(np.maximum(squares / half - middle**2, 0.0)), COLOURED * least)
-    limit = np.maximum(stdtrit(half, ndtr(CERTAIN)) * rms, CERTAIN * least)
+    rms = np.sqrt(np.maximum(squares / half - middle**2, 0.0))
+    most = CERTAIN * COLOURED * least  # is not estimated from those samples, however few they are
+    limit = np.maximum(np.minimum(stdtrit(half, ndtr(CERTAIN)) * rms, most), CERTAIN * least)
     moved = (int(k) for k in np.flatnonzero(np.abs(off - middle) > limit) if k >= FEWEST)
     lasting = (k for k in moved if np.median(np.abs(off[k : 2 * k + 1] - middle[k])) > limit[k])
     return next(lasting, signal.size - 1)
