@@ -1,4 +1,4 @@
-"""How likely what a fit leaves is, for choosing how recordings were made before it is known what physics is missing.
+"""How likely what a fit leaves is by what is new in each error: how recordings were made, and whether effects act.
 
 What a model leaves out moves slowly against the sample time and is the same under every choice, so the errors are
 compared by what is new in them: their likelihood as autoregressions. Where a choice is made beside an explanation, one
