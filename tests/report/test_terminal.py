@@ -12,6 +12,7 @@ import pytest
 
 import made_up
 from rwn.model.vocabulary import table
+from rwn.report.account_picture import account_picture
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.effect_text import lines as effect_lines
 from rwn.report.progress import Progress, remaining
@@ -39,6 +40,16 @@ def test_the_account_the_findings_and_the_filters_are_said() -> None:
     assert re.search(r"No name here +█{20} +100 % +of the speed", said)
     assert "train_1.csv: 3 single samples of the speed are far off those beside them; left out" in said
     assert "first-order filter of 2.70 ± 0.10 ms" in said
+
+
+def test_shares_that_need_not_add_up_to_the_whole_are_said_to_be_that() -> None:
+    """22 %, 4 % and 100 % without a word read as parts of 126 %."""
+    many, clause = COLOUR.sub("", "\n".join(lines(made_up.unexplained()))), "shares need not add up to 100 %"
+    assert f"without that effect alone; {clause}, and what is left includes what is not stated." in many
+    assert clause not in "\n".join(lines(made_up.found()))  # one row
+    two = (made_up.acting("coulomb-friction", 0.97, 0.9), made_up.acting("unbalance", 0.9, 0.8))
+    assert f"{clause}." in "\n".join(lines(replace(made_up.found(), account=two)))
+    assert f"{clause}, and what is left" in account_picture(made_up.unexplained())
 
 
 def test_warnings_are_kept_apart_from_what_may_be_piped(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 
 from rwn.decide.account import Acting
 from rwn.report import text as words
 from rwn.report.diagnosis_data import DiagnosisData
-from rwn.report.sentences import SLIGHT
+from rwn.report.sentences import SLIGHT, about_shares
 
 DRAWN = 0.02  # probability from which an effect has a bar
 
@@ -17,15 +17,15 @@ def account_picture(found: DiagnosisData) -> str:
     """Bars of equal scale, one for each effect of the leading explanation and one for what is left; empty if none."""
     if found.verdict in ("adequate", "insufficient-excitation") or not (found.account or found.remainder.share):
         return ""
-    rows = "".join(_rows(found))
+    near = [effect for effect in found.account if effect.together >= DRAWN]
+    rows = "".join(_rows(found, near))
     where = found.location.description
     place = f'<p class="where"><b>Where.</b> {escape(words.capital(where))}.</p>' if where else ""
-    note = '<p class="note">Share of the mismatch of the refitted nominal model.</p>'
-    return f'{note}<ul class="account">{rows}</ul>{place}'
+    said = " ".join(("Share of the mismatch of the refitted nominal model.", *([about_shares(near)] if near else ())))
+    return f'<p class="note">{escape(said)}</p><ul class="account">{rows}</ul>{place}'
 
 
-def _rows(found: DiagnosisData) -> Iterator[str]:
-    near = [effect for effect in found.account if effect.together >= DRAWN]
+def _rows(found: DiagnosisData, near: Sequence[Acting]) -> Iterator[str]:
     for effect in near:
         yield _row("acts" if effect.stated else "doubtful", _name(effect), effect.share, _said(effect))
     left = found.remainder

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from rwn.decide.account import Acting
 from rwn.faults.fault import RECORDING
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.name.found_effect import FoundEffect
@@ -77,6 +78,12 @@ def _left(found: DiagnosisData) -> Iterator[str]:
 def _with_parameters(effect: FoundEffect) -> str:
     values = [estimate(value) for value in effect.parameters.values()]
     return plain_name(effect.name) + (f" of {values[0]}" if len(values) == 1 else "")
+
+
+def about_shares(effects: Sequence[Acting]) -> str:
+    """What the shares of these effects and of what is left are of: they are no parts of a whole."""
+    said = "A share is what comes back without that effect alone; shares need not add up to 100 %"
+    return said + ("." if all(e.stated for e in effects) else ", and what is left includes what is not stated.")
 
 
 def _adequate(found: DiagnosisData) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ import typer
 
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.next_steps import next_steps
-from rwn.report.sentences import SLIGHT, sentences
+from rwn.report.sentences import SLIGHT, about_shares, sentences
 from rwn.report.text import (
     capital,
     estimate,
@@ -72,6 +72,8 @@ def _account(found: DiagnosisData) -> Iterator[str]:
         kept = min(max(share, 0.0), 1.0)
         full = round(_BAR * kept)
         yield f"{name:<{width}}  {'█' * full}{'·' * (_BAR - full)} {percent(kept):>8}  {said}"
+    if len(rows) > 1:
+        yield about_shares(found.account)
 
 
 def _parameters(found: DiagnosisData) -> Iterator[str]:
