@@ -17,7 +17,9 @@ VAGUE = 1.0  # relative standard deviation above which an interval leaves open a
 
 def fitted_model(this: Fit, model: Model) -> Model:
     """`model` with the fitted parameters and effects: what corrected.toml holds."""
-    vector = this.vector
+    vector = this.vector.copy()
+    for u in this.hypothesis.unknowns:
+        vector[u.index] = u.within_a_turn(float(vector[u.index]))
     active, known = this.hypothesis.effects, this.hypothesis.table
     replaced = {p.replaces for name in active for p in known[name].parameters}
     names = model.parameters or [p.name for p in model.nominal]  # a transfer function without values: all are fitted
@@ -56,7 +58,7 @@ def _deviation(p: Parameter, value: float, interval: tuple[float, float] | None)
     """A standard deviation by the farther end of a 95 % interval: the nearer one may have been cut at a bound."""
     low, high = interval or (value, value)
     if p.cyclic:
-        std = max(high - value, value - low) / 1.96
+        std = (high - low) / (2.0 * 1.96)  # cut at no bound
     elif value == 0.0:
         return np.inf
     elif p.lower > 0.0:

@@ -169,6 +169,7 @@ def _effect_unknown(effect: Effect, p: Parameter, prior: Prior, scales: Mapping[
         prior=known if has_prior else None,
         prior_std=max(uncertain, 1e-3) if has_prior else np.inf,
         amplitude=_amplitude(effect) if p.cyclic else "",
+        cyclic=p.cyclic,
     )
 
 
@@ -187,7 +188,7 @@ def _declared_unknown(effect: Effect, p: Parameter, value: float, std: float) ->
     return Unknown(
         name=f"{effect.name}.{p.name}", unit=p.unit, index=effect.at(p.name), lower=min(lower, value),
         upper=max(upper, value), logarithmic=logarithmic, prior=value,
-        prior_std=std / abs(value) if p.cyclic and value else std,
+        prior_std=std / abs(value) if p.cyclic and value else std, cyclic=p.cyclic,
     )  # fmt: skip
 
 

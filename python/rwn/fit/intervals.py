@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,7 +57,7 @@ NO_DOUBT = Doubt()
 
 
 def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[str, Estimate]:
-    """Value and 95 % interval of every unknown on which something depends, cut at its bounds.
+    """Value and 95 % interval of every unknown on which something depends, cut at its bounds; phases within a turn.
 
     A doubt widens no interval beyond what was declared of the unknown: that holds whatever the fit does not explain.
     """
@@ -65,20 +66,24 @@ def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[s
     sure = np.hypot(noise, _systematic(this, 0.0))
     doubted = np.hypot(doubt.birge * noise, _systematic(this, doubt.bias))
     found = {}
-    for k, (u, value) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):
+    for k, (u, fitted) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):
         if u.nuisance or not seen[k]:
             continue
-        low, high = _interval(u, float(value), float(doubted[k]))
+        value = u.within_a_turn(float(fitted))
+        low, high = _interval(u, value, float(doubted[k]))
         if u.prior is not None and (weight := prior_weight(u)):
             declared = weight**-0.5 * (u.prior if u.logarithmic else 1.0)
-            ends = [_interval(u, float(value), float(sure[k])), _interval(u, u.prior, declared)]
+            ends = [_interval(u, value, float(sure[k])), _interval(u, u.prior, declared)]
             low, high = max(low, min(e[0] for e in ends)), min(high, max(e[1] for e in ends))
-        found[u.name] = Estimate(value=float(value), unit=u.unit, interval=(low, high))
+        found[u.name] = Estimate(value=value, unit=u.unit, interval=(low, high))
     return found
 
 
 def _interval(u: Unknown, value: float, std: float) -> tuple[float, float]:
-    """The 95 % interval about a value, within the unknown's bounds."""
+    """The 95 % interval about a value, within the unknown's bounds; a phase has none, and is within half a turn."""
+    if u.cyclic:
+        half = min(1.96 * std, math.pi)
+        return value - half, value + half
     if u.logarithmic and value > 0.0:
         factor = float(np.exp(min(1.96 * std / value, 50.0)))
         return max(value / factor, u.lower), min(value * factor, u.upper)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +28,7 @@ class Unknown:
     nuisance: bool = False  # of the recording, not of the drive: fitted, not reported
     level: bool = False  # logarithm of a factor on a quantity in one recording (measurement/levels.py)
     amplitude: str = ""  # the unknown whose oscillation this is the phase of; both are searched as its two parts
+    cyclic: bool = False  # a phase: values a turn apart are one
 
     def coordinate(self, value: float) -> float:
         """Search coordinate of a value."""
@@ -35,6 +37,11 @@ class Unknown:
     def value(self, coordinate: float) -> float:
         """Value at a search coordinate."""
         return float(np.exp(coordinate)) if self.logarithmic else coordinate
+
+    def within_a_turn(self, value: float) -> float:
+        """A phase at most half a turn from what was declared of it, or from 0; the value of anything else."""
+        about = self.prior if self.prior is not None and prior_weight(self) else 0.0
+        return value - math.tau * round((value - about) / math.tau) if self.cyclic else value
 
 
 def ties(unknowns: tuple[Unknown, ...]) -> Array:
