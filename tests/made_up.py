@@ -118,6 +118,7 @@ def found() -> Diagnosis:
         equation="mechanical",
         effects=(effect,),
         set=("coulomb-friction",),
+        explanation=Alternative(effects=("coulomb-friction",), probability=0.94),
         alternatives=(
             Alternative(
                 effects=("stribeck-friction",),
@@ -162,6 +163,7 @@ def adequate() -> Diagnosis:
         equation="",
         effects=(),
         set=(),
+        explanation=Alternative(effects=(), probability=0.96),
         alternatives=(),
         location=Location(),
         heldout=heldout,
@@ -181,6 +183,7 @@ def unexplained() -> Diagnosis:
         verdict="unexplained",
         effects=(),
         set=(),
+        explanation=None,
         alternatives=(),
         location=location,
         curves=(*one.curves[:4], spectrum(np.random.default_rng(2))),
@@ -209,6 +212,7 @@ def ambiguous() -> Diagnosis:
         one,
         effects=(backlash,),
         set=("backlash", "shaft-compliance", "presliding-hysteresis"),
+        explanation=Alternative(effects=("backlash",), probability=0.46),
         alternatives=(
             Alternative(effects=("shaft-compliance",), probability=0.34, separated_by="two reversal amplitudes"),
         ),

@@ -139,11 +139,20 @@ def test_it_is_small(state: str, tmp_path: Path) -> None:
     assert len(_text(made_up.ALL[state](), tmp_path).encode()) < 1_500_000
 
 
+def test_the_stated_explanation_is_the_first_of_the_table_that_others_are_compared_in() -> None:
+    rows = alternative_table(made_up.found()).split("<tr>")
+    assert "Explanation" in rows[1]
+    assert "<b>Coulomb friction</b> <span class=note>(stated)</span>" in rows[2]
+    assert "94 %" in rows[2]
+    assert "Stribeck friction" in rows[3]
+    assert not alternative_table(replace(made_up.found(), alternatives=()))
+
+
 def test_other_explanations_are_not_said_to_explain_where_nothing_does() -> None:
     """Their probabilities are of each other: beside "no effect that has a name comes near" 70 % reads as near."""
     others = replace(made_up.unexplained(), alternatives=made_up.found().alternatives)
     assert "Of what has a name, the likeliest" in alternative_table(others)
-    assert "Other explanation" in alternative_table(made_up.found())
+    assert "Other explanation" in alternative_table(replace(made_up.found(), explanation=None))  # of an older file
     assert "Refitted alone: The fit converged." in page(
         replace(made_up.found(), nominal_fit=replace(made_up.found().nominal_fit, advice="The fit converged."))
     )

@@ -26,7 +26,7 @@ from rwn.mismatch_map.regions import regions
 from rwn.model.model import Model
 from rwn.name.found_effect import found_effects
 from rwn.name.ranking import Ranking
-from rwn.name.weights import RankedFit
+from rwn.name.weights import RankedFit, log_odds
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report import figures
@@ -69,6 +69,7 @@ def assemble(
         effects=effects,
         set=said.names,
         beneath=Beneath(verdict=said.beneath.verdict, set=said.beneath.names) if said.beneath else None,
+        explanation=_explanation(decision),
         alternatives=alternatives,
         location=Location(equation=equation, regions=where, description=place),
         nominal_fit=nominal_fit(ranking, chosen, model, doubt=doubt),
@@ -96,6 +97,18 @@ def _unknown_to(this: Fit, problem: Problem) -> list[UnknownInputs]:
         unknown_inputs(problem.drive, problem.simulator, r, problem.started(r, this.vector, this.active), this.active)
         for r in problem.runs
     ]
+
+
+def _explanation(decision: Decision) -> Alternative | None:
+    """What is stated, weighed as its alternatives are; None where that is nothing at all."""
+    if decision.verdict not in ("missing-physics", "adequate"):
+        return None
+    ranking, chosen, leading = decision.ranking, decision.chosen, decision.account.leading
+    probability = chosen.probability
+    if chosen is not leading and not any(r is chosen for r in ranking.fits):  # fitted for this alone
+        lost = log_odds(leading.final, chosen.final, ranking.counted)
+        probability = leading.probability * float(np.exp(min(-lost, 0.0)))
+    return Alternative(effects=chosen.added, probability=probability)
 
 
 def _alternatives(ranking: Ranking, chosen: RankedFit) -> tuple[Alternative, ...]:

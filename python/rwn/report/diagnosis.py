@@ -33,6 +33,7 @@ class Diagnosis(DiagnosisData):
     effects: those that are stated, each with its probability and its parameters with 95 % intervals.
     set: names that these recordings cannot tell apart; the first is that of the first effect.
     beneath: what is said of the drive once a mistake in its recordings is undone; None where there is none.
+    explanation: the one that is stated, with its probability among those that were tried; None where none is.
     alternatives: other explanations with their probabilities, and the experiment that would tell.
     sensor_filters: found in the noise, and fitted as part of how the signals were measured.
     findings: what the check of the recordings found, and what was done about it.

@@ -30,11 +30,11 @@ LEFT_OUT = ("command", "corrected", "curves", "elapsed")  # of diagnosis.json
 
 @dataclass(frozen=True, kw_only=True)
 class Alternative:
-    """Another explanation of the same recordings, with its probability."""
+    """An explanation of the recordings, with its probability among all that were tried."""
 
     effects: tuple[str, ...]
     probability: float
-    separated_by: str = ""  # the experiment that would tell it from the first
+    separated_by: str = ""  # the experiment that would tell it from the stated one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,6 +74,7 @@ class DiagnosisData:
     effects: tuple[FoundEffect, ...] = ()
     set: tuple[str, ...] = ()  # names that these recordings cannot tell apart, the first is the first name
     beneath: Beneath | None = None  # where the verdict is recording-mistake
+    explanation: Alternative | None = None  # that is stated, as the alternatives are; None where none is
     alternatives: tuple[Alternative, ...] = ()
     sensor_filters: tuple[FittedFilter, ...] = ()  # found in the noise, fitted as part of the measurement
     findings: tuple[Finding, ...] = ()  # what the check of the recordings found

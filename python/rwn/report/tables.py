@@ -10,7 +10,7 @@ from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding
 from rwn.report import text as words
-from rwn.report.diagnosis_data import DiagnosisData, Source
+from rwn.report.diagnosis_data import Alternative, DiagnosisData, Source
 from rwn.report.sentences import error_in_words, row_prefix, worse
 
 UNLIKELY = 0.01  # probability below which another explanation is none
@@ -72,23 +72,23 @@ def _parameter(effect: str, parameter: str) -> str:
 
 
 def alternative_table(found: DiagnosisData) -> str:
-    """The other explanations and what would tell them apart."""
-    rows = [
-        [
-            escape(
-                words.capital(words.listing([words.plain_name(name) for name in other.effects]))
-                if other.effects
-                else "nothing missing"
-            ),
-            bar(other.probability, words.likelihood(other.probability)),
-            escape(other.separated_by) or "–",
-        ]
-        for other in found.alternatives
-        if other.probability >= UNLIKELY
-    ]
+    """The stated explanation, the others, and what would tell them apart; empty where there are no others."""
+    others = [_explanation(other) for other in found.alternatives if other.probability >= UNLIKELY]
+    stated = found.explanation
+    rows = [_explanation(stated, stated=True), *others] if stated and others else others
     nameless = "unexplained" in (found.verdict, found.beneath.verdict if found.beneath else "")
-    head = "Of what has a name, the likeliest" if nameless else "Other explanation"
-    return table((head, "Probability", "What would tell them apart"), rows, numbers_from=9)
+    head = "Of what has a name, the likeliest" if nameless else "Explanation" if stated else "Other explanation"
+    return table((head, "Probability among those tried", "What would tell them apart"), rows, numbers_from=9)
+
+
+def _explanation(this: Alternative, *, stated: bool = False) -> list[str]:
+    names = words.listing([words.plain_name(name) for name in this.effects]) if this.effects else "nothing missing"
+    name = escape(words.capital(names))
+    return [
+        f"<b>{name}</b> <span class=note>(stated)</span>" if stated else name,
+        bar(this.probability, words.likelihood(this.probability)),
+        escape(this.separated_by) or "–",
+    ]
 
 
 def region_table(regions: Sequence[Region]) -> str:
