@@ -55,6 +55,13 @@ def test_judging_by_the_fitted_recording(refuse: Refuse) -> None:
     assert "given twice" in refuse(csv_text(), extra=("--heldout", "TMP/run.csv"))
 
 
+def test_a_misspelt_profile_is_said_where_it_was_written(refuse: Refuse) -> None:
+    line = refuse(csv_text(), extra=("--profile", "odriv"))
+    assert "--profile: unknown profile 'odriv'" in line
+    assert "did you mean 'odrive'?" in line
+    assert "Layout" not in line
+
+
 def test_two_files_after_one_heldout(refuse: Refuse) -> None:
     line = refuse(csv_text(), extra=("--heldout", "b.csv", "c.csv"))
     assert "'c.csv' follows --heldout b.csv" in line

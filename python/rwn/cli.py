@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import importlib.util
 import shlex
 import shutil
@@ -274,9 +273,10 @@ def _progress() -> Any:
 
 def _model(path: Path, profile: str | None) -> Model:
     from rwn.model.files import read_model
+    from rwn.recording.profiles import known_profile
 
-    model = read_model(path)
-    return replace(model, recording=replace(model.recording, profile=profile)) if profile else model
+    model, name = read_model(path), known_profile(profile, where="--profile")
+    return replace(model, recording=replace(model.recording, profile=name)) if name else model
 
 
 def _mount(name: str, module: str) -> None:

@@ -18,7 +18,7 @@ from rwn.model.toml_schema import ColumnEntry, File, LoadTable, Number, Recordin
 from rwn.recording import units
 from rwn.recording.columns import Column, Layout
 from rwn.recording.intersample import known_law
-from rwn.recording.profiles import profile
+from rwn.recording.profiles import known_profile
 from rwn.recording.signals import COLUMNS, MEASURED, TIME
 
 _MOST_ROWS = 10**6  # that one row stands for: what is fitted has at least 50 of them, and no bench records 5e7
@@ -215,17 +215,11 @@ def _layout(given: RecordingTable, where: str) -> Layout:
         )
     return Layout(
         columns=columns, sample_time=time, initial=given.initial, initial_samples=given.initial_samples,
-        start=start, end=end, decimate=given.decimate, profile=_profile(given.profile, where),
+        start=start, end=end, decimate=given.decimate, profile=known_profile(given.profile, where=f"{where} profile"),
         intersample=known_law(given.intersample, where=f"{where} intersample"),
         delays=_delays(given.delays, f"{where} delays"),
         filters=_filters(given.filters, f"{where} filters"),
     )  # fmt: skip
-
-
-def _profile(name: str | None, where: str) -> str | None:
-    if name is not None:
-        profile(name, where=f"{where} profile")
-    return name
 
 
 def _by_signal(given: dict[str, Number], where: str) -> dict[str, float]:

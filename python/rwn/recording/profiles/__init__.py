@@ -62,6 +62,13 @@ def profile(name: str, *, where: object = "profile") -> Profile:
     return _read(name)
 
 
+def known_profile(name: str | None, *, where: object) -> str | None:
+    """The name as it is, where there is such a profile or none is meant. Raises InputError."""
+    if name is not None:
+        profile(name, where=where)
+    return name
+
+
 @cache
 def _read(name: str) -> Profile:
     text = files("rwn.recording.profiles").joinpath(f"{name}.toml").read_text(encoding="utf-8")
