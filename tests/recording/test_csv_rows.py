@@ -46,6 +46,28 @@ def test_what_messages_call_a_line_is_said_by_who_reads() -> None:
     assert read.row(3) == "row 5"
 
 
+@pytest.mark.parametrize(
+    ("lines", "row"),
+    [
+        ([HEADER, *FILLED[:30], "30,x,-30", *FILLED[31:]], 32),  # no number
+        ([HEADER, *FILLED[:30], "30,,-30", *FILLED[31:]], 32),  # an empty cell
+        ([HEADER, *FILLED[:30], "30,31", *FILLED[31:]], 32),  # a cell too few
+        ([HEADER, *FILLED[:30], '"30,31,32', *FILLED[31:]], 32),  # an open quote
+        (["time [s],voltage [V,speed [rpm]", *FILLED], 1),  # no name
+        (["time [s],voltage [V,speed [rpm]", "a,b,c"], 1),  # nor numbers
+        (FILLED, 1),  # no header
+    ],
+)
+def test_every_refusal_of_a_spreadsheet_is_of_a_row(lines: list[str], row: int) -> None:
+    with pytest.raises(InputError) as refused:
+        read_lines("run.xlsx", iter([(0, lines)]), WANTED, line="row")
+    assert refused.value.where.startswith(f"run.xlsx, row {row}")
+    assert "line" not in str(refused.value).replace("line breaks", "")
+    with pytest.raises(InputError) as refused:
+        _lines(*lines)
+    assert refused.value.where.startswith(f"run.csv, line {row}")
+
+
 def test_columns_that_are_not_wanted_are_named_and_not_read() -> None:
     read = _lines(HEADER, *[line.replace(".5", " V") for line in FILLED], wanted=("speed",))
     assert list(read.columns) == ["speed"]

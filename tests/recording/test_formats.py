@@ -14,7 +14,7 @@ import scipy.io
 from one_recording import NAMED, RPM, TIME, UNITS, VOLTAGE, as_meant, imported, pandas_timetable
 from rwn.errors import InputError
 from rwn.recording.columns import Column, Layout
-from rwn.recording.formats import FORMATS
+from rwn.recording.formats import FORMATS, read_table
 from rwn.recording.formats.nested import nested_table
 from rwn.recording.recording import read_recording
 
@@ -77,6 +77,11 @@ def test_instants_and_durations_of_a_spreadsheet_are_times(times: list[Any], tmp
 def test_a_sheet_that_says_who_recorded_is_passed_over(tmp_path: Path) -> None:
     path = _excel_of(tmp_path / "a.xlsx", STEPS, cover=[["Operator", "Smith"], ["Bench", "3"]])
     as_meant(read_recording(path))
+
+
+def test_a_row_of_a_parquet_file_is_called_a_row(tmp_path: Path) -> None:
+    _parquet(tmp_path / "run.parquet")
+    assert read_table(tmp_path / "run.parquet", ("time",)).row(3) == "row 4"
 
 
 def _mat(path: Path) -> None:

@@ -56,7 +56,7 @@ def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, 
     first = next(blocks, (0, []))
     if separated_by_blanks(_sample(first[1])):
         first, blocks = _tabbed(first), map(_tabbed, blocks)
-    dialect = dialect_of(_sample(first[1]), wanted, where)
+    dialect = dialect_of(_sample(first[1]), wanted, where, line)
     names = dialect.names
     used = [j for j, name in enumerate(names) if name in wanted]
     refuse_doubles(where, names, wanted)
@@ -155,7 +155,7 @@ def _numbers(
     except csv.Error as error:
         raise InputError(
             f"the rows cannot be split into cells ({error})",
-            where=f"{where}, line {numbers[0]} and below",
+            where=f"{where}, {dialect.called} {numbers[0]} and below",
             expected="rows of numbers",
             fix="close the quotes, or export without them",
         ) from error
@@ -165,17 +165,17 @@ def _numbers(
         odd = next((k for k, n in enumerate(quotes) if n % 2), next(k for k, n in enumerate(quotes) if n))
         raise InputError(
             "a quote is left open",
-            where=f"{where}, line {numbers[odd]}",
-            expected="one row in each line, with quotes in pairs",
+            where=f"{where}, {dialect.called} {numbers[odd]}",
+            expected="quotes in pairs, each within its row",
             fix="close the quote; remove line breaks within cells",
         )
     if set(widths) - {width}:
         k = next(k for k, w in enumerate(widths) if w != width)
         raise InputError(
             f"{widths[k]} values in {width} columns",
-            where=f"{where}, line {numbers[k]}",
+            where=f"{where}, {dialect.called} {numbers[k]}",
             expected=f"one value for each of {', '.join(dialect.names)}",
-            fix="complete the line or remove it",
+            fix=f"complete the {dialect.called} or remove it",
         )
     if not used:
         return np.empty((len(lines), 0))
@@ -199,24 +199,25 @@ def _first_bad_cell(
     numbers: Sequence[int], rows: Sequence[Sequence[str]], dialect: Dialect, used: Sequence[int], where: str,
     stamps: Mapping[int, Stamps],
 ) -> InputError:
+    called = dialect.called
     for line, row in zip(numbers, rows, strict=True):
         for j in used:
             cell, name = row[j].strip(), dialect.names[j]
             if j in stamps and instant(cell) is None:
                 return InputError(
-                    f"'{cell[:40]}' in column '{name}' is no instant", where=f"{where}, line {line}",
+                    f"'{cell[:40]}' in column '{name}' is no instant", where=f"{where}, {called} {line}",
                     expected="such as 2024-01-01T12:00:00.001, as in the first row",
-                    fix="correct it or remove the line",
+                    fix=f"correct it or remove the {called}",
                 )  # fmt: skip
             if j in stamps:
                 continue
             if not is_number(cell) or (dialect.delimiter != "," and cell.count(",") + cell.count(".") > 1):
                 what = f"'{cell[:40]}' in column '{name}' is not a number" if cell else f"column '{name}' is empty"
-                mend = "correct it, or remove the line" if cell else "complete the line or remove it"
+                mend = f"correct it, or remove the {called}" if cell else f"complete the {called} or remove it"
                 separated = is_number(cell.replace(",", "").replace(".", "").replace(" ", "").replace("_", ""))
                 return InputError(
                     what,
-                    where=f"{where}, line {line}",
+                    where=f"{where}, {called} {line}",
                     expected="a number without separators of thousands" if separated else "a number",
                     fix="export without them" if separated else mend,
                 )

@@ -32,12 +32,16 @@ _JUDGED = 100  # lines from the end of the sample that tell how rows look
 
 @dataclass(frozen=True, kw_only=True)
 class Dialect:
-    """`names` and `units` (None: not said) of the columns; `first`: lines above the first row of numbers."""
+    """`names` and `units` (None: not said) of the columns; `first`: lines above the first row of numbers.
+
+    `called`: what messages call a line; a spreadsheet has rows.
+    """
 
     delimiter: str
     names: tuple[str, ...]
     units: tuple[str | None, ...]
     first: int
+    called: str = "line"
 
 
 def encoding_of(start: bytes, where: object) -> str:
@@ -76,14 +80,16 @@ def without_blanks(line: str) -> str:
     return mark + _BLANKS.sub("\t", line[len(mark) :].strip())
 
 
-def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str) -> Dialect:
+def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str, called: str = "line") -> Dialect:
     """The dialect of the first `lines` of a file; `wanted` names tell a row of names from one of units.
 
     Raises InputError where no row of names is found, or columns are not told apart.
     """
     block = scope_block(lines)
     if block is not None:
-        return Dialect(delimiter=block.delimiter, names=block.names, units=block.units, first=block.first)
+        return Dialect(
+            delimiter=block.delimiter, names=block.names, units=block.units, first=block.first, called=called
+        )
     told = [(k, line) for k, line in enumerate(lines) if line.strip(" \t,;#")]
     if not told:
         raise InputError("the file is empty", where=where, expected="a header row and rows of numbers", fix=HOW)
@@ -91,37 +97,38 @@ def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str) -> Dia
     delimiter = max(",;\t|", key=lambda d: (_numbers_in(tail, d), _outside_brackets(told[-1][1]).count(d)))
     width, numeric = _columns(tail, delimiter, where)
     if not numeric:
-        return _without_numbers(told, delimiter, where)
+        return _without_numbers(told, delimiter, where, called)
     at = next(
         j for j, (_, line) in enumerate(told)
         if not line.startswith("#") and _is_data(split(line, delimiter, where), width, numeric)
     )  # fmt: skip
     above = _named_rows(told[:at], delimiter, width, where)
     if not above:
-        return _without_header(told, at, delimiter, width, wanted, where)
+        return _without_header(told, at, delimiter, width, wanted, where, called)
     best = 0 if len(above) == 1 else max(range(len(above)), key=lambda j: _likely_names(above[j][1], j, wanted))
     (line, cells), below = above[best], [cells for _, cells in above[best + 1 :]]
-    names, given = _header(cells, f"{where}, line {line}")
+    names, given = _header(cells, f"{where}, {called} {line}")
     if below:
         given = [u or _BRACKETS.sub(r"\1", b) or None for u, b in zip(given, below[0], strict=True)]
-    return Dialect(delimiter=delimiter, names=names, units=tuple(given), first=told[at][0])
+    return Dialect(delimiter=delimiter, names=names, units=tuple(given), first=told[at][0], called=called)
 
 
-def _without_numbers(told: Sequence[tuple[int, str]], delimiter: str, where: str) -> Dialect:
+def _without_numbers(told: Sequence[tuple[int, str]], delimiter: str, where: str, called: str) -> Dialect:
     """A header that nothing readable follows."""
     first, line = next(((k, line) for k, line in told if not line.startswith("#")), told[0])
-    names, given = _header(split(line, delimiter, where), f"{where}, line {first + 1}")
-    return Dialect(delimiter=delimiter, names=names, units=tuple(given), first=first + 1)
+    names, given = _header(split(line, delimiter, where), f"{where}, {called} {first + 1}")
+    return Dialect(delimiter=delimiter, names=names, units=tuple(given), first=first + 1, called=called)
 
 
 def _without_header(
-    told: Sequence[tuple[int, str]], at: int, delimiter: str, width: int, wanted: Collection[str], where: str
-) -> Dialect:
+    told: Sequence[tuple[int, str]], at: int, delimiter: str, width: int, wanted: Collection[str], where: str,
+    called: str,
+) -> Dialect:  # fmt: skip
     """Columns called 1, 2, .. where the map names some of them so; else the reason why no row names them."""
-    place, line = f"{where}, line {told[at][0] + 1}", told[at][1]
+    place, line = f"{where}, {called} {told[at][0] + 1}", told[at][1]
     names = tuple(str(j + 1) for j in range(width))
     if any(name in wanted for name in names):
-        return Dialect(delimiter=delimiter, names=names, units=(None,) * width, first=told[at][0])
+        return Dialect(delimiter=delimiter, names=names, units=(None,) * width, first=told[at][0], called=called)
     above = split(told[at - 1][1].lstrip("# "), delimiter, where) if at else []
     if delimiter == "," and len(above) + 1 < width <= 2 * len(above):
         raise InputError(
@@ -135,7 +142,7 @@ def _without_header(
             f"{width} values in {len(above)} columns",
             where=place,
             expected=f"one value for each of {', '.join(above)}",
-            fix="name every column, or complete the lines",
+            fix=f"name every column, or complete the {called}s",
         )
     raise InputError(
         f"no row names the columns: the first row of numbers begins with {split(line, delimiter, where)[0]}",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +44,8 @@ def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
     units = {name: unit or _in_metadata(schema.field(column)) for column, (name, unit) in told.items()}
     arrays = {name: None for name, _ in told.values()}
     arrays |= {told[column][0]: content.column(column).to_numpy() for column in content.column_names}
-    return table_of(str(path), arrays, units, wanted)
+    table = table_of(str(path), arrays, units, wanted)
+    return replace(table, row=lambda k: f"row {k + 1}")
 
 
 def _named(field: Any) -> str:
