@@ -12,8 +12,9 @@ from rwn.mismatch_map.regions import Region
 from rwn.prove.proof import LEFT_OUT
 from rwn.report import text as words
 from rwn.report.assemble import from_near
-from rwn.report.diagnosis_data import Alternative
+from rwn.report.diagnosis_data import Alternative, Location
 from rwn.report.next_steps import next_steps
+from rwn.report.page import page
 from rwn.report.sentences import before_after, headline, verdict_sentence
 
 
@@ -158,10 +159,25 @@ def test_a_place_is_said_in_words() -> None:
     fast = Region(coordinate="acceleration", low=403, high=6500, unit="rad/s^2", share=0.89, samples_share=0.17)
     named = replace(fast, name="high acceleration")
     assert words.located([named], [], linear=False) == (
-        "strongest at high acceleration, where 17 % of the samples hold 89 % of the mismatch"
+        "the torque that the refitted equation of motion leaves over is strongest at high acceleration, where 17 % of "
+        "the samples hold 89 % of its square"
     )
     assert "from 403 rad/s² to 6500 rad/s²" in words.located([fast], [], linear=False)
     assert words.located([replace(fast, share=0.2)], [], linear=False) == ""
+    assert words.located([fast], [], linear=True).startswith("the force that the refitted equation of motion leaves")
+    assert "output is strongest" in words.located([fast], [], linear=False, motion=False)  # of a transfer function
+
+
+def test_a_place_says_that_it_is_not_that_of_the_errors_in_the_proof() -> None:
+    """Strongest at low speed in the equation of motion, and in free run less off there than elsewhere."""
+    slow = Region(coordinate="speed", low=0, high=2, unit="rad/s", share=0.7, samples_share=0.1, name="low speed")
+    place = Location(regions=(slow,), description=words.located([slow], [], linear=False))
+    found = replace(made_up.unexplained(), location=place)
+    assert verdict_sentence(found).startswith(
+        "Something is missing that has no name here: the torque that the refitted equation of motion leaves over is "
+        "strongest at low speed, where 10 % of the samples hold 70 % of its square."
+    )
+    assert "The proof compares free runs: their errors may be largest elsewhere." in page(found)
 
 
 @pytest.mark.parametrize(

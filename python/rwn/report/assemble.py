@@ -58,7 +58,7 @@ def assemble(
     where = regions(unknown, linear=model.linear)
     torque_unknown = said.verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
-    place = located(where, depends, linear=model.linear)
+    place = located(where, depends, linear=model.linear, motion=not model.drive.coefficients)
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
     filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
     shown = correction.by_free_run or chosen

@@ -144,12 +144,19 @@ def _proof(found: DiagnosisData) -> str:
 
 
 def _place(found: DiagnosisData) -> str:
-    said = f"Of what the refitted model leaves: {found.location.description}."
-    text = f"<p>{escape(said)}</p>" if found.location.description else ""
+    said = words.capital(found.location.description)
+    text = f"<p>{escape(said)}.</p>" if said else ""
+    rows = tables.region_table(found.location.regions)
+    if rows:
+        rows += (
+            '<p class="note">Shares of the square of what the refitted model leaves on the fitted recordings (of a '
+            "motor or an axis: in its equation of motion). The proof compares free runs: their errors may be largest "
+            "elsewhere.</p>"
+        )
     kept_back = any(plot.use == "heldout" for plot in found.curves)
     return (
         text
-        + tables.region_table(found.location.regions)
+        + rows
         + figures(found, ("residual-speed",))
         + (_recordings(found, "fit") if kept_back else "")
     )

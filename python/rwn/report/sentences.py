@@ -14,7 +14,6 @@ from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.text import (
-    STRONGEST,
     estimate,
     likelihood,
     listing,
@@ -115,8 +114,7 @@ def _unexplained(found: DiagnosisData) -> tuple[str, ...]:
     somewhere = f"something in the {found.equation} equation" if found.equation else "the motion is not followed"
     what = found.location.description or somewhere
     drawn = (f"In corrected.toml stands for it: {found.stand_in}.",) if found.stand_in else ()
-    joint = "; it is" if what.startswith(STRONGEST) else ":"
-    return (f"Something is missing that has no name here{joint} {what}.", *drawn, *_proof(found, "Adding that"))
+    return (f"Something is missing that has no name here: {what}.", *drawn, *_proof(found, "Adding that"))
 
 
 def _insufficient(found: DiagnosisData) -> tuple[str, ...]:

@@ -10,8 +10,7 @@ from rwn.mismatch_map.dependence import CLEAR, Law
 from rwn.mismatch_map.regions import Region
 from rwn.model.vocabulary import table
 
-STRONGEST = "strongest"  # begins what is said of the place alone
-EXCESS = 0.1  # share of the mismatch beyond that of the samples, from which a region is worth naming
+EXCESS = 0.1  # share of the residual's energy beyond that of the samples, from which a region is worth naming
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _PREFIXABLE = (
     "V",
@@ -178,12 +177,17 @@ def region_in_words(region: Region) -> str:
     return ("" if region.coordinate == "time" else f"at {region.coordinate} ") + f"from {low_text} to {high_text}"
 
 
-def located(where: Sequence[Region], laws: Sequence[Law], *, linear: bool) -> str:
-    """What the mismatch depends on and where it is strongest, as one clause; empty where neither is clear."""
+def located(where: Sequence[Region], laws: Sequence[Law], *, linear: bool, motion: bool = True) -> str:
+    """What the mismatch depends on and where it is strongest, as one clause; empty where neither is clear.
+
+    `motion`: the regions are of what an equation of motion leaves over, and not of the error of an output.
+    """
     parts = [law_in_words(laws[0], linear=linear)] if laws and laws[0].share > CLEAR else []
     standing_out = [r for r in where if r.share - r.samples_share > EXCESS]
     if standing_out:
         r = standing_out[0]
-        much = f"{percent(r.samples_share)} of the samples hold {percent(r.share)} of the mismatch"
-        parts.append(f"{STRONGEST} {region_in_words(r)}, where {much}")
+        left = f"the {'force' if linear else 'torque'} that the refitted equation of motion leaves over"
+        what = left if motion else "the error of the refitted model's output"
+        much = f"{percent(r.samples_share)} of the samples hold {percent(r.share)} of its square"
+        parts.append(f"{what} is strongest {region_in_words(r)}, where {much}")
     return "; ".join(parts)
