@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,7 +18,10 @@ from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
+from rwn.name import forward
+from rwn.name.forward import _grown
 from rwn.name.measurement import CHANGES, Measurement
+from rwn.name.ranking import NO_PAIRS, Fits
 from rwn.recording.filters import as_filtered
 
 STEP, SHARE = 1e-3, 0.6
@@ -29,9 +34,13 @@ def _filter(share: float) -> SensorFilter:
 
 @pytest.fixture(scope="module")
 def recorded() -> Problem:
+    return _recorded(3.0)
+
+
+def _recorded(volts: float) -> Problem:
     """A drive with friction, whose speed and the noise of it went through a filter of samples."""
     rng, time = np.random.default_rng(7), STEP * np.arange(4000)
-    voltage = np.repeat(3.0 * rng.uniform(-1.0, 1.0, 80), 50)
+    voltage = np.repeat(volts * rng.uniform(-1.0, 1.0, 80), 50)
     run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
     real = replace(MODEL, effects={"coulomb-friction": {"coulomb_torque": 4e-3}})
     speed = rwn.simulate(real, run).signals["speed"] + 0.2 * rng.standard_normal(time.size)
@@ -52,6 +61,20 @@ def test_a_filter_that_is_not_known_is_asked_of_any_explanation(recorded: Proble
     assert found.changes == 0
 
 
+def test_a_filter_is_asked_early_where_the_noise_itself_shows_it(recorded: Problem) -> None:
+    """Where the motion is large, what the filter makes of it hides what it makes of the noise."""
+    made, slow = Measurement(as_prepared=recorded), Measurement(as_prepared=_recorded(0.3))
+    assert made.in_noise(*_rubbed(made)) is None
+    found = slow.in_noise(*_rubbed(slow))
+    assert found is not None
+    assert [f.signal for f in found.filters] == ["speed"]
+    assert found.in_noise(*_rubbed(found)) is None  # it is known
+
+
+def test_white_noise_shows_no_filter_that_could_be_known_early(problem: Problem) -> None:
+    assert Measurement(as_prepared=problem).in_noise(*weighted_by_nominal(problem)) is None
+
+
 def test_a_known_filter_is_asked_again_of_a_complete_explanation(recorded: Problem) -> None:
     made = Measurement(as_prepared=recorded, filters=(_filter(0.3),))
     assert made.otherwise(*_rubbed(made), completely=False) is None
@@ -66,3 +89,23 @@ def test_a_known_filter_is_asked_again_of_a_complete_explanation(recorded: Probl
 def test_filters_change_so_many_times_at_most(recorded: Problem) -> None:
     made = Measurement(as_prepared=recorded, filters=(_filter(0.3),), changes=CHANGES)
     assert made.otherwise(*_rubbed(made), completely=True) is None
+
+
+def test_nothing_is_built_on_what_another_measurement_shows(
+    problem: Problem, fit_with: Callable[[str], Fit], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """How recordings were made is asked of the best single effect, before pairs of effects are tried."""
+    single, asked = fit_with("coulomb-friction"), list[Fit]()
+    monkeypatch.setattr(forward, "_beside", lambda *_: pytest.fail("pairs were tried"))
+    nominal = replace(single, minimum=replace(single.minimum, cost=9.0 * single.cost))
+    another = Measurement(as_prepared=problem)
+
+    def otherwise(best: Fit) -> Measurement:
+        asked.append(best)
+        return another
+
+    alone = Fits(problem, nominal, [single])
+    monkeypatch.setattr(forward, "_best_of", lambda _, fits: (fits[-1], SimpleNamespace(at_the_floor=False)))
+    grown = _grown(alone, [single], [], NO_PAIRS, at_once=4, begun=0, progress=lambda *_: None, otherwise=otherwise)
+    assert grown.measured is another
+    assert (asked, grown.complete, grown.paired) == ([single], False, False)

@@ -40,6 +40,12 @@ def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
     return filters_and_likelihood(problem, this)[0]
 
 
+def shown_in_noise(problem: Problem, this: Fit) -> bool:
+    """Whether the noise itself shows a filter, whatever a fit leaves beside it."""
+    seen = coloured_signals(problem, problem.residuals(this.vector, this.active))
+    return any(one.share < MOST for one in seen)
+
+
 def filters_again(problem: Problem, explanation: Fit, known: Sequence[SensorFilter]) -> tuple[SensorFilter, ...]:
     """The filters beside an explanation that was found under those that are `known`, which the problem is without."""
     bare, this = under_own_noise(explanation, problem)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -45,6 +46,7 @@ class _Grown(NamedTuple):
     paired: bool  # some have several effects
     complete: bool  # more effects at once would not help
     cut_short: int  # so many effects at once were tried beside the best alone, for what that costs; 0: none
+    measured: Measurement | None = None  # otherwise than thought, which showed before all was tried
 
 
 def rank(
@@ -76,13 +78,14 @@ def _ranked(
     problem, nominal, fits = alone.problem, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
     before = statistics(problem, nominal)
     pairs = after.pairs if after else NO_PAIRS
-    grown = _grown(alone, fits, wanted, pairs, at_once=at_once, begun=begun, progress=progress)
+    in_noise = partial(made.in_noise, problem) if names is None and not after else None
+    grown = _grown(alone, fits, wanted, pairs, at_once=at_once, begun=begun, progress=progress, otherwise=in_noise)
     again = refitted_beside(known, problem)
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
         problem, nominal, fits, _ = _under_own_noise(problem, nominal, fits)
     best = min([nominal, *fits], key=lambda f: f.cost)
-    measured = made.otherwise(problem, best, completely=at_once == MOST_EFFECTS)
+    measured = grown.measured or made.otherwise(problem, best, completely=at_once == MOST_EFFECTS)
     if measured:  # otherwise than thought, beside whatever is missing
         renew(problem.work, begun)
         alone_again = _ranked(measured, progress=progress, at_once=1)
@@ -117,18 +120,23 @@ def _ranked(
 
 
 def _grown(
-    alone: Fits, fits: list[Fit], wanted: Sequence[str], pairs: Pairs, *, at_once: int, begun: int, progress: Progress
-) -> _Grown:
+    alone: Fits, fits: list[Fit], wanted: Sequence[str], pairs: Pairs, *, at_once: int, begun: int, progress: Progress,
+    otherwise: Callable[[Fit], Measurement | None] | None = None,
+) -> _Grown:  # fmt: skip
     """Single effects, then the best of them with more beside, as long as that helps.
 
-    `pairs` are known already. `begun`: what the meter of the search had counted when it began.
+    `pairs` are known already. `begun`: what the meter of the search had counted when it began. `otherwise`: how the
+    recordings were made, by the best of each number of effects; None: as thought. Under another measurement than theirs
+    nothing is built on.
     """
     problem = alone.problem
     best, left = _best_of(problem, [alone.nominal, *fits])
     bases, windowed = _diverse([f for f in fits if adds(f, problem)]), alone.windowed
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
+    measured = None
     for size in range(2, at_once + 1):
-        if complete:
+        measured = otherwise(best) if otherwise and not complete else None
+        if complete or measured:
             break
         known = pairs if size == 2 else NO_PAIRS
         renew(problem.work, begun)
@@ -145,7 +153,7 @@ def _grown(
         best, left = _best_of(problem, fits)
         bases = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2]
         complete = left.at_the_floor or _at_its_floor(problem, best)
-    return _Grown(fits, pairs, paired, complete, cut_short)
+    return _Grown(fits, pairs, paired, complete, cut_short, measured)
 
 
 def _beside_and_in_windows(

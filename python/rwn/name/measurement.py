@@ -9,7 +9,7 @@ from rwn.fit.problem import Problem
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
 from rwn.measurement.levels import can_differ, friction, with_levels
-from rwn.measurement.sensor_filter import filters_again, sensor_filters
+from rwn.measurement.sensor_filter import filters_again, sensor_filters, shown_in_noise
 from rwn.name.uneven import uneven_beside
 
 CHANGES = 2  # times that filters which are known may be found to be others; each costs a search
@@ -41,6 +41,13 @@ class Measurement:
             return None
         uneven = uneven_beside(problem, best, level).is_decisive
         return replace(self, as_prepared=with_levels(self.as_prepared, level)) if uneven else None
+
+    def in_noise(self, problem: Problem, best: Fit) -> Measurement | None:
+        """The measurement with filters that the noise itself shows beside an explanation that may lack effects."""
+        if self.filters or problem.drive.coefficients or not shown_in_noise(problem, best):
+            return None
+        filters = sensor_filters(problem, best)
+        return replace(self, filters=filters) if filters else None
 
     def _filters(self, problem: Problem, best: Fit, completely: bool) -> tuple[SensorFilter, ...]:
         if problem.drive.coefficients:
