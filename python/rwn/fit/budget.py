@@ -44,6 +44,11 @@ def one_stage(work: _core.Work) -> float:
     return STAGE * left(work)
 
 
+def first_stage() -> float:
+    """What a stage may cost of which nothing has been spent: comparisons made early and late are alike."""
+    return STAGE * TOTAL
+
+
 def equal_shares(work: _core.Work, count: int) -> list[float]:
     """What each of `count` fits may cost where none is more promising than another."""
     return [one_stage(work) / max(count, 1)] * count

@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.budget import one_stage
+from rwn.fit.budget import first_stage, one_stage
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.part import screening_part
@@ -29,6 +29,7 @@ from rwn.parallel import side_by_side
 Array = NDArray[np.float64]
 
 SHARES = 24  # values of phi that are compared: at few rows a time constant the right one is told to a few per cent
+COMPARED = 48  # fits that a filter is found by, about; they may cost a stage together
 DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
 LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
 SIMPLEX = 0.2  # step of the logarithms of time constants, from which those of several filters are fitted together
@@ -194,7 +195,7 @@ def _refitted(this: Fit, problem: Problem) -> Fit:
     starts = {name: this.values_of(name) for name in this.added}
     motor = this.motor if this.farthest_move < BELIEVABLE else None
     begun = hypothesis(problem.prior, this.added, problem.scales, starts, motor)
-    return fit(problem, begun, max_iterations=NEAR_ITS_END)
+    return fit(problem, begun, max_iterations=NEAR_ITS_END, share=first_stage() / COMPARED)
 
 
 def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter | None:
