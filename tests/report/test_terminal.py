@@ -52,6 +52,13 @@ def test_shares_that_need_not_add_up_to_the_whole_are_said_to_be_that() -> None:
     assert f"{clause}, and what is left" in account_picture(made_up.unexplained())
 
 
+def test_what_hardly_acts_is_shown_neither_here_nor_on_the_page() -> None:
+    faint = (made_up.acting("coulomb-friction", 0.97, 0.9), made_up.acting("unbalance", 0.01, 0.0))
+    found = replace(made_up.found(), account=faint)
+    assert "Unbalance" not in "\n".join(lines(found))
+    assert "Unbalance" not in account_picture(found)
+
+
 def test_warnings_are_kept_apart_from_what_may_be_piped(capsys: pytest.CaptureFixture[str]) -> None:
     print_verdict(replace(made_up.found(), warnings=("a gap of 4 samples",)), Path("out"))
     said = capsys.readouterr()

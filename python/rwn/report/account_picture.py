@@ -10,14 +10,19 @@ from rwn.report import text as words
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.sentences import SLIGHT, about_shares
 
-DRAWN = 0.02  # probability from which an effect has a bar
+SHOWN = 0.02  # probability from which an account shows an effect
+
+
+def shown(account: Sequence[Acting]) -> list[Acting]:
+    """The effects that an account shows; diagnosis.json has all."""
+    return [effect for effect in account if effect.together >= SHOWN]
 
 
 def account_picture(found: DiagnosisData) -> str:
     """Bars of equal scale, one for each effect of the leading explanation and one for what is left; empty if none."""
     if found.verdict in ("adequate", "insufficient-excitation") or not (found.account or found.remainder.share):
         return ""
-    near = [effect for effect in found.account if effect.together >= DRAWN]
+    near = shown(found.account)
     rows = "".join(_rows(found, near))
     where = found.location.description
     place = f'<p class="where"><b>Where.</b> {escape(words.capital(where))}.</p>' if where else ""

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import typer
 
+from rwn.report.account_picture import shown
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.next_steps import next_steps
 from rwn.report.sentences import SLIGHT, about_shares, sentences
@@ -60,7 +61,7 @@ def _account(found: DiagnosisData) -> Iterator[str]:
     if found.verdict in ("adequate", "insufficient-excitation"):
         return
     rows = []
-    for effect in found.account:
+    for effect in shown(found.account):
         names = listing([plain_name(name) for name in (effect.name, *effect.rivals)], "or")
         said = "" if effect.stated else ", not stated"
         rows.append((capital(names), effect.share, f"probability {likelihood(effect.together)}{said}"))
@@ -73,7 +74,7 @@ def _account(found: DiagnosisData) -> Iterator[str]:
         full = round(_BAR * kept)
         yield f"{name:<{width}}  {'█' * full}{'·' * (_BAR - full)} {percent(kept):>8}  {said}"
     if len(rows) > 1:
-        yield about_shares(found.account)
+        yield about_shares(shown(found.account))
 
 
 def _parameters(found: DiagnosisData) -> Iterator[str]:
