@@ -155,6 +155,10 @@ def test_a_part_that_was_left_out_does_not_read_as_an_error_in_seconds() -> None
     assert "the speed error on last 30 % of train_1.csv, left out of the fit, from 6.31 rad/s" in said
 
 
+def test_what_the_data_sheet_says_and_is_none_is_zero() -> None:
+    assert [words.times_given(x) for x in (2.5, 0.0)] == ["2.5 times what was given", "zero"]
+
+
 def test_a_place_is_said_in_words() -> None:
     fast = Region(coordinate="acceleration", low=403, high=6500, unit="rad/s^2", share=0.89, samples_share=0.17)
     named = replace(fast, name="high acceleration")

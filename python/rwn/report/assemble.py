@@ -35,7 +35,7 @@ from rwn.report.diagnosis_data import Alternative, Beneath, Location
 from rwn.report.next_steps import NEAR
 from rwn.report.nominal_fit import nominal_fit
 from rwn.report.sensor_filter import FittedFilter, fitted_filters
-from rwn.report.text import listing, located, plain_name, unknown_name
+from rwn.report.text import listing, located, plain_name, times_given, unknown_name
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
@@ -200,6 +200,6 @@ def _contradictions(chosen: RankedFit, model: Model) -> Iterator[str]:
         if u.prior is not None and u.prior > 0.0 and 0.0 < declared < np.inf:
             off = abs(np.log(value / u.prior)) / declared if value > 0.0 else np.inf
             if off > BELIEVABLE:
-                to = f"{value / u.prior:.2g} times what was given, {off:.1f} declared deviations"
                 said = f"data sheet and recordings contradict each other in {unknown_name(u.name)}"
-                yield f"{said}: it moved to {to if value > 0.0 else 'zero'}"
+                far = f", {off:.1f} declared deviations" if np.isfinite(off) else ""
+                yield f"{said}: it moved to {times_given(value / u.prior)}{far}"

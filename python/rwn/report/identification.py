@@ -17,7 +17,7 @@ from rwn.recording.recording import Recording
 from rwn.recording.signals import COLUMNS
 from rwn.recording.units import factor
 from rwn.report.nominal_fit import FittedParameter
-from rwn.report.text import estimate, listing, number, percent, symbol, unknown_name
+from rwn.report.text import estimate, listing, number, percent, symbol, times_given, unknown_name
 from rwn.simulate.simulation import simulate
 
 CUT = 1e-6  # relative; intervals are wider than AGREEMENT of a value on either side
@@ -108,7 +108,7 @@ def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
             if moved > BELIEVABLE:
                 factor = value.value / nominal.parameters[name]
                 yield (
-                    f"{unknown_name(name)} moved to {number(factor, 2)} times what was given, {number(moved, 2)} "
+                    f"{unknown_name(name)} moved to {times_given(factor)}, {number(moved, 2)} "
                     "declared deviations: check data sheet and units"
                 )
 

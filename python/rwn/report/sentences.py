@@ -21,6 +21,7 @@ from rwn.report.text import (
     percent,
     plain_name,
     prefix_for,
+    times_given,
     unknown_name,
 )
 
@@ -57,7 +58,7 @@ def _missing(found: DiagnosisData) -> tuple[str, ...]:
 def _contradiction(found: DiagnosisData) -> str:
     """A data sheet that is wrong is no measure of what is missing: said first."""
     far = [
-        f"{plain_name(name)} ({number(p.corrected.value / p.nominal, 2)} times what was given)"
+        f"{plain_name(name)} ({times_given(p.corrected.value / p.nominal)})"
         for name, p in found.nominal_fit.parameters.items()
         if p.corrected is not None and p.contradicted
     ]

@@ -59,6 +59,11 @@ def number(value: float, digits: int = 3) -> str:
     return text.replace("-", "−")
 
 
+def times_given(factor: float) -> str:
+    """What became of a value of the data sheet, as a multiple of it."""
+    return f"{number(factor, 2)} times what was given" if factor > 0.0 else "zero"
+
+
 def quantity(value: float, unit: str, digits: int = 3) -> str:
     """A value in SI as people read it: 0.0124 "A" as "12.4 mA"."""
     scale, shown = prefix_for(abs(value), unit)
