@@ -12,10 +12,10 @@ TIME = np.linspace(0.0, 10.0, 4000)
 SPEED = 100.0 * np.sin(2.0 * np.pi * 0.5 * TIME)
 
 
-def found(torque: np.ndarray, *, linear: bool = False) -> tuple[Region, ...]:
+def found(torque: np.ndarray, *, linear: bool = False, speed: np.ndarray = SPEED) -> tuple[Region, ...]:
     still = np.zeros(TIME.size)
     unknown = UnknownInputs(
-        time=TIME, speed=SPEED, acceleration=np.gradient(SPEED, TIME), current=still, angle=still, torque=torque,
+        time=TIME, speed=speed, acceleration=np.gradient(speed, TIME), current=still, angle=still, torque=torque,
         voltage=np.empty(0),
     )  # fmt: skip
     return regions([unknown], linear=linear)
@@ -28,6 +28,13 @@ def test_a_torque_at_low_speed_is_found_there() -> None:
     assert low.high == pytest.approx(20.0, rel=0.5)
     assert low.samples_share < 0.3
     assert places["reversals"].share > places["reversals"].samples_share
+
+
+def test_a_shaft_at_rest_has_no_speed_that_rounding_made() -> None:
+    """A tenth of the samples are at 0 and as many at 1e-14 rad/s, which alone have a torque: both are low speed."""
+    at_rest = np.where(TIME < 1.0, 0.0, np.where(TIME < 2.0, 1e-14, SPEED + 100.0))
+    places = [r for r in found(np.where((TIME >= 1.0) & (TIME < 2.0), 1.0, 0.0), speed=at_rest) if r.coordinate == "speed"]
+    assert [r.low for r in places if r.name == "low speed"] == [0.0]
 
 
 def test_a_torque_of_one_stretch_of_time_comes_first() -> None:

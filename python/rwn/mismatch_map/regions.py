@@ -13,6 +13,9 @@ from rwn.simulate.unknown_inputs import UnknownInputs
 Array = NDArray[np.float64]
 
 
+NO_STEP = 1e-9  # of the largest value: two that lie as near are one, but for rounding
+
+
 @dataclass(frozen=True, kw_only=True)
 class Region:
     """The samples with `low <= coordinate < high`; their share of the residual energy and of the samples."""
@@ -55,6 +58,7 @@ def regions(unknown: Sequence[UnknownInputs], *, linear: bool = False) -> tuple[
 def _stretch(name: str, x: Array, energy: Array, unit: str, bins: int = 12) -> Region | None:
     """The run of quantile bins with the largest excess of energy share over sample share."""
     edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
+    edges = edges[np.diff(edges, prepend=-np.inf) > NO_STEP * np.max(np.abs(edges))]
     if edges.size < 3:
         return None
     place = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, edges.size - 2)
