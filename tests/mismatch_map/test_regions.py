@@ -33,7 +33,8 @@ def test_a_torque_at_low_speed_is_found_there() -> None:
 def test_a_shaft_at_rest_has_no_speed_that_rounding_made() -> None:
     """A tenth of the samples are at 0 and as many at 1e-14 rad/s, which alone have a torque: both are low speed."""
     at_rest = np.where(TIME < 1.0, 0.0, np.where(TIME < 2.0, 1e-14, SPEED + 100.0))
-    places = [r for r in found(np.where((TIME >= 1.0) & (TIME < 2.0), 1.0, 0.0), speed=at_rest) if r.coordinate == "speed"]
+    torque = np.where((TIME >= 1.0) & (TIME < 2.0), 1.0, 0.0)
+    places = [r for r in found(torque, speed=at_rest) if r.coordinate == "speed"]
     assert [r.low for r in places if r.name == "low speed"] == [0.0]
 
 
