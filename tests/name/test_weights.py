@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rwn.fit.residuals import Statistics
-from rwn.name.weights import LOST, weigh
+from rwn.name.weights import LOST, weigh, weighed_beside
 
 LEFT = Statistics(count=1000, variance=4.0, correlation_time=10.0, coloured=9.0)
 AWAY = Statistics(count=1000, variance=np.inf, correlation_time=1000.0, coloured=np.inf)
@@ -41,3 +41,15 @@ def test_no_fit_that_can_be_simulated_is_weighed_below_one_that_ran_away() -> No
     assert [r.fit.cost for r in rows][:2] == [1.0, 1e30]
     assert rows[1].score == pytest.approx(rows[2].score)
     assert rows[1].score > -1.01 * LOST
+
+
+@pytest.mark.parametrize(("less", "is_less_likely"), [(5000.0, True), (3990.0, False)])
+def test_a_fit_that_was_not_ranked_is_weighed_as_those_that_were(less: float, is_less_likely: bool) -> None:
+    """By the same evidence; a simpler one that was fitted later is no likelier than what it takes its effects from."""
+    best, *_ = weigh([_fit(4000.0, "a", "b"), _fit(9000.0)], LEFT, rivals=1)
+    found = weighed_beside(_fit(less, "a"), best, LEFT)
+    gained = found.score - best.score
+    ranked = {r.added: r.score for r in weigh([_fit(4000.0, "a", "b"), _fit(less, "a")], LEFT, rivals=1)}
+    assert gained == pytest.approx(ranked[("a",)] - ranked[("a", "b")])
+    assert (gained < 0.0) is is_less_likely
+    assert found.probability == pytest.approx(best.probability * np.exp(min(gained, 0.0)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from rwn.decide.account import Account, Remainder, account, remainder
 from rwn.decide.other_law import curve_beside
@@ -12,7 +12,7 @@ from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
-from rwn.name.weights import RankedFit
+from rwn.name.weights import RankedFit, weighed_beside
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
@@ -51,8 +51,7 @@ def together(ranking: Ranking, leading: RankedFit, names: Collection[str]) -> Ra
     known = next((r for r in ranking.fits if set(r.added) == set(names)), None)
     if known is not None:
         return known
-    plain = _without_the_rest(ranking, leading.fit, names)
-    return replace(leading, fit=plain, final=plain)
+    return weighed_beside(_without_the_rest(ranking, leading.fit, names), leading, ranking.counted)
 
 
 def _without_the_rest(ranking: Ranking, this: Fit, names: Collection[str]) -> Fit:

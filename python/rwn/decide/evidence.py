@@ -23,7 +23,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics, variances
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
-from rwn.name.weights import RankedFit, effective_samples, log_odds
+from rwn.name.weights import RankedFit, effective_samples, weighed_beside
 from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
@@ -99,8 +99,7 @@ class Validation:
 
     def _best_without(self, names: set[str], less: Fit) -> RankedFit:
         """The best explanation without effects; the leading one without the first of them need not be ranked."""
-        lost = log_odds(self._leading.final, less, self._ranking.counted)
-        weighed = RankedFit(fit=less, final=less, score=self._leading.score - lost, probability=0.0)
+        weighed = weighed_beside(less, self._leading, self._ranking.counted)
         ranked = (r for r in self._ranking.fits if not names & set(r.added))
         return max((weighed, *ranked), key=lambda r: r.score)
 

@@ -40,6 +40,16 @@ def log_odds(this: Fit, other: Fit, left: Statistics) -> float:
     return score[id(this)] - score[id(other)]
 
 
+def weighed_beside(this: Fit, best: RankedFit, left: Statistics) -> RankedFit:
+    """A fit that was not ranked, by the same evidence as one that was and that it takes effects from.
+
+    `left`: what all are counted by. A fit by fewer effects is no likelier than the one that was preferred to it.
+    """
+    lost = log_odds(best.final, this, left)
+    probability = best.probability * float(np.exp(min(-lost, 0.0)))
+    return RankedFit(fit=this, final=this, score=best.score - lost, probability=probability)
+
+
 def weigh(
     fits: Sequence[Fit], left: Statistics, *, rivals: int, prior: Mapping[str, float] | None = None,
     finals: Sequence[Fit] | None = None,

@@ -26,7 +26,7 @@ from rwn.mismatch_map.regions import regions
 from rwn.model.model import Model
 from rwn.name.found_effect import found_effects
 from rwn.name.ranking import Ranking
-from rwn.name.weights import RankedFit, log_odds
+from rwn.name.weights import RankedFit
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report import figures
@@ -103,12 +103,7 @@ def _explanation(decision: Decision) -> Alternative | None:
     """What is stated, weighed as its alternatives are; None where that is nothing at all."""
     if decision.verdict not in ("missing-physics", "adequate"):
         return None
-    ranking, chosen, leading = decision.ranking, decision.chosen, decision.account.leading
-    probability = chosen.probability
-    if chosen is not leading and not any(r is chosen for r in ranking.fits):  # fitted for this alone
-        lost = log_odds(leading.final, chosen.final, ranking.counted)
-        probability = leading.probability * float(np.exp(min(-lost, 0.0)))
-    return Alternative(effects=chosen.added, probability=probability)
+    return Alternative(effects=decision.chosen.added, probability=decision.chosen.probability)
 
 
 def _alternatives(ranking: Ranking, chosen: RankedFit) -> tuple[Alternative, ...]:
