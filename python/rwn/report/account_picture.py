@@ -8,14 +8,7 @@ from html import escape
 from rwn.decide.account import Acting
 from rwn.report import text as words
 from rwn.report.diagnosis_data import DiagnosisData
-from rwn.report.sentences import SLIGHT, about_shares
-
-SHOWN = 0.02  # probability from which an account shows an effect
-
-
-def shown(account: Sequence[Acting]) -> list[Acting]:
-    """The effects that an account shows; diagnosis.json has all."""
-    return [effect for effect in account if effect.together >= SHOWN]
+from rwn.report.sentences import SLIGHT, about_shares, shown
 
 
 def account_picture(found: DiagnosisData) -> str:

@@ -26,6 +26,7 @@ from rwn.report.text import (
 )
 
 STANDS_OUT = 2.0  # error in units of the noise, from which three quarters of its square are something else
+SHOWN = 0.02  # probability from which an account shows an effect
 SLIGHT = 0.005  # share of a mismatch or an error that is not worth a sentence
 
 
@@ -78,6 +79,11 @@ def _left(found: DiagnosisData) -> Iterator[str]:
 def _with_parameters(effect: FoundEffect) -> str:
     values = [estimate(value) for value in effect.parameters.values()]
     return plain_name(effect.name) + (f" of {values[0]}" if len(values) == 1 else "")
+
+
+def shown(account: Sequence[Acting]) -> list[Acting]:
+    """The effects that an account shows; diagnosis.json has all."""
+    return [effect for effect in account if effect.together >= SHOWN]
 
 
 def about_shares(effects: Sequence[Acting]) -> str:

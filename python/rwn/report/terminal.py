@@ -8,10 +8,9 @@ from pathlib import Path
 
 import typer
 
-from rwn.report.account_picture import shown
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.next_steps import next_steps
-from rwn.report.sentences import SLIGHT, about_shares, sentences
+from rwn.report.sentences import SLIGHT, about_shares, sentences, shown
 from rwn.report.text import (
     capital,
     estimate,
