@@ -29,7 +29,7 @@ from rwn.parallel import side_by_side
 Array = NDArray[np.float64]
 
 SHARES = 24  # values of phi that are compared: at few rows a time constant the right one is told to a few per cent
-COMPARED = 48  # fits that a filter is found by, about; they may cost a stage together
+COMPARED = 2 * SHARES  # fits that a filter is found by, as many refine it; they may cost a stage together
 DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
 LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
 SIMPLEX = 0.2  # step of the logarithms of time constants, from which those of several filters are fitted together
