@@ -61,9 +61,9 @@ def test_a_filter_that_is_not_known_is_asked_of_any_explanation(recorded: Proble
     assert found.changes == 0
 
 
-def test_a_filter_is_asked_early_where_the_noise_itself_shows_it(recorded: Problem) -> None:
+def test_a_filter_is_asked_early_where_the_noise_itself_shows_it() -> None:
     """Where the motion is large, what the filter makes of it hides what it makes of the noise."""
-    made, slow = Measurement(as_prepared=recorded), Measurement(as_prepared=_recorded(0.3))
+    made, slow = Measurement(as_prepared=_recorded(30.0)), Measurement(as_prepared=_recorded(0.3))
     assert made.in_noise(*_rubbed(made)) is None
     found = slow.in_noise(*_rubbed(slow))
     assert found is not None

@@ -53,7 +53,7 @@ def _as_nuisance(problem: Problem, f: SensorFilter) -> Problem:
     """The problem with an analog filter among what every hypothesis fits, and with noise that went through it."""
     lag = analog_filters(problem.prior.table)[f.signal]
     (p,) = lag.parameters
-    own = Nuisance(effect=lag.name, values={p.name: f.time_constant}, spread={p.name: 1.0})
+    own = Nuisance(effect=lag.name, values={p.name: f.time_constant}, spread={p.name: f.spread})
     prior = replace(problem.prior, nuisance=(*problem.prior.nuisance, own))
     return replace(
         problem, prior=prior, noise={**problem.noise, f.signal: replace(problem.noise[f.signal], reflection=(f.share,))}

@@ -20,15 +20,17 @@ from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, losses, statistics
-from rwn.measurement.filter_colour import LEAST, MOST, SensorFilter, coloured_signals, is_noise_alone
-from rwn.measurement.known_filters import filtered, share_kept, undone
+from rwn.measurement.filter_colour import MOST, SensorFilter, coloured_signals, is_noise_alone
+from rwn.measurement.known_filters import filtered, share_kept
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior
+from rwn.measurement.noise_spectrum import LEAST
 from rwn.model.vocabulary import analog_filters
 from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
 
 SHARES = 24  # values of phi that are compared: at few rows a time constant the right one is told to a few per cent
+LIKELY = 4.0  # standard deviations from what the noise tells, within which they lie
 COMPARED = 2 * SHARES  # fits that a filter is found by, as many refine it; they may cost a stage together
 DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
 LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
@@ -66,24 +68,32 @@ def filters_and_likelihood(
     if hidden and not statistics(problem, this).at_the_floor:
         slow = _with_lags(problem, this)
         residuals = problem.residuals(slow.vector, slow.active)
-        seen = coloured_signals(problem, residuals) or seen
-    seen = [*seen, *(replace(f, digital=False) for f in known if f.signal not in {s.signal for s in seen})]
+        seen = coloured_signals(problem, residuals, certainly=False) or seen
+    told = {one.signal: one for one in seen}
+    seen = [*seen, *(replace(f, digital=False) for f in known if f.signal not in told)]
     if not seen:
         return (), _likelihood(problem, this, ())
-    found = [_filters_beside(problem, base, seen, residuals) for base in _bases(problem, this)]
-    likeliest = max(found, key=lambda pair: pair[1])
+    found = [_filters_beside(problem, base, seen, residuals, told) for base in _bases(problem, this)]
+    filters, score, likelihood = max(found, key=lambda one: one[1])
     if known:
         stays = _likelihood(problem, this, known)
-        on = filtered(problem, likeliest[0])
-        if not is_decisive(likeliest[1] - stays, statistics(on, _refitted(this, on))):
+        on = filtered(problem, filters)
+        if not is_decisive(score - stays - _by_noise(told, known), statistics(on, _refitted(this, on))):
             return tuple(known), stays
-    return likeliest
+    return filters, likelihood
+
+
+def _by_noise(told: Mapping[str, SensorFilter], filters: Sequence[SensorFilter]) -> float:
+    """How likely (log) the noise by itself is with these filters; `told`: what it shows of each signal."""
+    shares = {f.signal: f.share for f in filters}
+    return sum(one.log_likelihood(shares.get(signal, 0.0)) for signal, one in told.items())
 
 
 def _filters_beside(
-    problem: Problem, base: Fit, seen: Sequence[SensorFilter], residuals: Sequence[Mapping[str, Array]]
-) -> tuple[tuple[SensorFilter, ...], float]:
-    """The filters beside an explanation, and how likely both are (log, BIC)."""
+    problem: Problem, base: Fit, seen: Sequence[SensorFilter], residuals: Sequence[Mapping[str, Array]],
+    told: Mapping[str, SensorFilter],
+) -> tuple[tuple[SensorFilter, ...], float, float]:  # fmt: skip
+    """The filters beside an explanation, what speaks for them, and how likely both are (log, BIC)."""
     found: dict[str, SensorFilter] = {}
     asked: dict[str, list[SensorFilter]] = {}
     known = list(seen)
@@ -94,15 +104,18 @@ def _filters_beside(
                 continue
             asked[one.signal] = others
             on = filtered(problem, others)
-            best = _likeliest_kind(on, _refitted(base, on), found.get(one.signal, one))
+            best = _likeliest_kind(on, _refitted(base, on), found.get(one.signal, one), told)
             if best is None and is_noise_alone(problem, residuals, one):
                 best = one
             found = {f.signal: f for f in (*others, best) if f is not None}
-        known += _uncovered(problem, base, tuple(found.values()), known)
+        uncovered = _uncovered(problem, base, tuple(found.values()), known)
+        known += uncovered
+        told = {**told, **{one.signal: one for one in uncovered}}
         if len(known) == 1:
             break
-    filters = _together(problem, base, tuple(found.values()))
-    return filters, _likelihood(problem, base, filters)
+    filters = _together(problem, base, tuple(found.values()), told)
+    likelihood = _likelihood(problem, base, filters)
+    return filters, likelihood + _by_noise(told, filters), likelihood
 
 
 def _uncovered(
@@ -117,7 +130,9 @@ def _uncovered(
     return [one for one in seen if one.signal not in {k.signal for k in known} and one.share < MOST]
 
 
-def _together(problem: Problem, base: Fit, found: tuple[SensorFilter, ...]) -> tuple[SensorFilter, ...]:
+def _together(
+    problem: Problem, base: Fit, found: tuple[SensorFilter, ...], told: Mapping[str, SensorFilter]
+) -> tuple[SensorFilter, ...]:  # fmt: skip
     """The digital filters at the time constants that are likeliest together.
 
     One after the other they stop short of it beside a delay, which takes up for each what the other lacks.
@@ -135,7 +150,7 @@ def _together(problem: Problem, base: Fit, found: tuple[SensorFilter, ...]) -> t
     def negative_likelihood(logarithms: Array) -> float:
         filters = at(logarithms)
         inside = all(LEAST <= f.share <= MOST for f in filters)
-        return -_likelihood(problem, base, filters) if inside else np.inf
+        return -_likelihood(problem, base, filters) - _by_noise(told, filters) if inside else np.inf
 
     start = np.log([f.time_constant for f in digital])
     simplex = np.vstack([start, start + SIMPLEX * np.eye(start.size)])
@@ -198,7 +213,9 @@ def _refitted(this: Fit, problem: Problem) -> Fit:
     return fit(problem, begun, max_iterations=NEAR_ITS_END, share=first_stage() / COMPARED)
 
 
-def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter | None:
+def _likeliest_kind(
+    problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, SensorFilter]
+) -> SensorFilter | None:
     """The filter, digital or analog, under which the errors are likelier than as coloured noise alone; None: neither.
 
     By BIC: a filter has a time constant more. An autoregression may have been any other filtered, so that where much is
@@ -207,10 +224,14 @@ def _likeliest_kind(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFi
     likelier than one that filters all the time, or it is taken for that: what drives log is filtered at a faster rate.
     What is missing lasts and is left by both: the difference counts in as many samples as are independent.
     """
-    analog, digital = replace(seen, digital=False), _digital(problem, this, seen)
-    scores = {f: _likelihood(problem, this, [f]) for f in (analog, digital) if _accuracy_lost(problem, this, f) < 0.0}
-    without = _likelihood(problem, this, [])
-    likely = {f: score for f, score in scores.items() if score > without}
+    analog, digital = replace(seen, digital=False), _digital(problem, this, seen, told)
+
+    def score(filters: Sequence[SensorFilter]) -> float:
+        return _likelihood(problem, this, filters) + _by_noise(told, filters)
+
+    scores = {f: score([f]) for f in (analog, digital) if _accuracy_lost(problem, this, f) < 0.0}
+    without = score([])
+    likely = {f: found for f, found in scores.items() if found > without}
     if len(likely) == 2:
         on = filtered(problem, [digital])
         left = statistics(on, _refitted(this, on))
@@ -251,26 +272,26 @@ def _as_recorded(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) -
     return left
 
 
-def _digital(problem: Problem, this: Fit, seen: SensorFilter) -> SensorFilter:
+def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, SensorFilter]) -> SensorFilter:
     """The digital filter under which the errors are likeliest."""
     from scipy.optimize import minimize_scalar  # late: the command line starts without it
 
-    def negative_log_posterior(problem: Problem, logarithm: float) -> float:
-        time_constant = float(np.exp(logarithm))
-        on = undone(problem, seen.signal, time_constant)
-        shown = 1.0 - share_kept(problem, seen.signal, time_constant)  # of what is new in a sample
-        return _samples(problem, seen.signal) * float(np.log(shown)) - log_posterior(on, _refitted(this, on))
+    def negative_score(problem: Problem, logarithm: float) -> float:
+        f = _of_time(problem, replace(seen, digital=True), float(np.exp(logarithm)))
+        return -_likelihood(problem, this, [f]) - _by_noise(told, [f])
 
     def refined(between: Array) -> tuple[float, float]:
         best = minimize_scalar(
-            partial(negative_log_posterior, problem), bounds=between, method="bounded", options={"xatol": LOG_TOLERANCE}
+            partial(negative_score, problem), bounds=between, method="bounded", options={"xatol": LOG_TOLERANCE}
         )
         return float(best.fun), float(best.x)
 
     one = float(np.log(seen.time_constant * -np.log(seen.share)))  # of the time of a sample
-    tried = one - np.log(-np.log(np.linspace(LEAST, MOST, SHARES)))
+    least = max(seen.in_noise - LIKELY * seen.deviation, LEAST)
+    most = min(seen.in_noise + LIKELY * seen.deviation, MOST)
+    tried = one - np.log(-np.log(np.linspace(least, most, SHARES)))
     part = screening_part(problem, this)
-    scores = np.array(side_by_side(lambda t: negative_log_posterior(part, float(t)), tried))
+    scores = np.array(side_by_side(lambda t: negative_score(part, float(t)), tried))
     beside = np.concatenate([[np.inf], scores, [np.inf]])
     dips = np.flatnonzero((scores <= beside[:-2]) & (scores <= beside[2:]))  # another motor may do with another filter
     around = [tried[[max(k - 1, 0), min(k + 1, SHARES - 1)]] for k in dips[np.argsort(scores[dips])][:DIPS]]

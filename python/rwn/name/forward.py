@@ -84,6 +84,7 @@ def _ranked(
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
         problem, nominal, fits, _ = _under_own_noise(problem, nominal, fits)
+    fits = with_simpler(problem, nominal, fits) if names is None and not grown.measured else fits
     best = min([nominal, *fits], key=lambda f: f.cost)
     measured = grown.measured or made.otherwise(problem, best, completely=at_once == MOST_EFFECTS)
     if measured:  # otherwise than thought, beside whatever is missing
@@ -94,7 +95,6 @@ def _ranked(
         renew(problem.work, begun)
         several = [f for f in best_few(fits) if len(f.added) > 1]  # what a second search may not afford to find
         return _ranked(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
-    fits = with_simpler(problem, nominal, fits) if names is None else fits
     at_a_limit = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not f.limits_met and adds(f, problem)]
     best, left = _best_of(problem, [nominal, *fits])
