@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.measurement.filter_colour import MOST
+from rwn.measurement.filter_colour import SLOWEST
 from rwn.model.initial_state import CERTAIN
 from rwn.recording.quantisation import resolution
 
 Array = NDArray[np.float64]
 
 # Deviation of noise that the slowest filter of a sensor has passed, over what its second differences show of it.
-COLOURED = float(np.sqrt(6.0 / (6.0 - 8.0 * MOST + 2.0 * MOST**2)))
+COLOURED = float(np.sqrt(6.0 / (6.0 - 8.0 * SLOWEST + 2.0 * SLOWEST**2)))
 FEWEST = 3  # samples that stand still: fewer are what an inductance and an inertia take
 
 

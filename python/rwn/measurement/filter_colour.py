@@ -20,7 +20,7 @@ from rwn.simulate.run import Run
 Array = NDArray[np.float64]
 
 CERTAINLY, MAYBE = 0.9, 0.75  # probability that noise went through a filter, from which it did, and may have
-MOST = 0.95  # of phi: a slower filter is physics
+SLOWEST = 0.95  # of phi: a slower filter is physics
 NOISE_ALONE = 2.0  # variance of what is new in a residual against its rough noise, up to which it is noise alone
 
 
@@ -63,7 +63,7 @@ def coloured_signals(
         colour = noise_colour([run.masked(signal, x) for run, x in parts])
         certain |= colour.filtered > CERTAINLY
         if colour.filtered > MAYBE:
-            share, tells = min(colour.share, MOST), colour.share < MOST
+            share, tells = min(colour.share, SLOWEST), colour.share < SLOWEST
             step = float(np.median([run.sample_time for run, _ in parts]))
             found.append(SensorFilter(signal=signal, share=share, time_constant=-step / float(np.log(share)),
                                       in_noise=share, deviation=colour.deviation if tells else np.inf,

@@ -25,7 +25,7 @@ WINDOWS = (32, 64)  # samples: the shorter are freer of steps of the input, the 
 QUIET = 0.3  # quantile of the windows that is taken: in three of ten little is missing
 LOWEST = 3  # first frequency that counts: the trend taken off and the taper have changed those below
 BANDWIDTH = 1.5  # of a Hann taper, in frequencies: so many estimates beside each other are one
-LEAST = 0.1  # of phi: a filter faster than half a sample changes nothing
+FASTEST = 0.1  # of phi: a filter faster than half a sample changes nothing
 SLOPES = np.array([2.0, 3.0, 4.0, 6.0, 8.0])  # p: of a jump, of a bend and of what is smoother
 SHARES = np.linspace(0.0, 0.98, 50)  # phi
 STEPS = 100  # of the levels s and m towards their likeliest values: they are known to a per cent by then
@@ -38,7 +38,7 @@ class NoiseColour:
     share: float = 0.0  # phi: of a sample's noise that was in the sample before
     deviation: float = 1.0  # standard deviation of it
     evidence: float = 0.0  # log likelihood against white noise
-    filtered: float = 0.0  # probability that phi is above LEAST
+    filtered: float = 0.0  # probability that phi is above FASTEST
 
 
 def noise_colour(residuals: Sequence[Array]) -> NoiseColour:
@@ -56,7 +56,7 @@ def noise_colour(residuals: Sequence[Array]) -> NoiseColour:
         share=share,
         deviation=float(np.sqrt(variance)),
         evidence=float(np.log(of_share.max() / max(of_share[0], 1e-300))),
-        filtered=float(of_share[SHARES > LEAST].sum()),
+        filtered=float(of_share[SHARES > FASTEST].sum()),
     )
 
 

@@ -20,11 +20,10 @@ from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, losses, statistics
-from rwn.measurement.filter_colour import MOST, SensorFilter, coloured_signals, is_noise_alone
+from rwn.measurement.filter_colour import SLOWEST, SensorFilter, coloured_signals, is_noise_alone
 from rwn.measurement.known_filters import filtered, share_kept
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior
-from rwn.measurement.noise_spectrum import LEAST
-from rwn.model.vocabulary import analog_filters
+from rwn.measurement.noise_spectrum import FASTEST
 from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
@@ -46,7 +45,7 @@ def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
 def shown_in_noise(problem: Problem, this: Fit) -> bool:
     """Whether the noise itself shows a filter, whatever a fit leaves beside it."""
     seen = coloured_signals(problem, problem.residuals(this.vector, this.active))
-    return any(one.share < MOST for one in seen)
+    return any(one.share < SLOWEST for one in seen)
 
 
 def filters_again(problem: Problem, explanation: Fit, known: Sequence[SensorFilter]) -> tuple[SensorFilter, ...]:
@@ -64,11 +63,8 @@ def filters_and_likelihood(
     """
     residuals = problem.residuals(this.vector, this.active)
     seen = coloured_signals(problem, residuals)
-    hidden = not seen or any(one.share >= MOST for one in seen)
-    if hidden and not statistics(problem, this).at_the_floor:
-        slow = _with_lags(problem, this)
-        residuals = problem.residuals(slow.vector, slow.active)
-        seen = coloured_signals(problem, residuals, certainly=False) or seen
+    if not seen and not statistics(problem, this).at_the_floor:
+        seen = coloured_signals(problem, residuals, certainly=False)
     told = {one.signal: one for one in seen}
     seen = [*seen, *(replace(f, digital=False) for f in known if f.signal not in told)]
     if not seen:
@@ -127,7 +123,7 @@ def _uncovered(
     on = filtered(problem, found)
     this = _refitted(base, on)
     seen = coloured_signals(on, on.residuals(this.vector, this.active))
-    return [one for one in seen if one.signal not in {k.signal for k in known} and one.share < MOST]
+    return [one for one in seen if one.signal not in {k.signal for k in known} and one.share < SLOWEST]
 
 
 def _together(
@@ -149,7 +145,7 @@ def _together(
 
     def negative_likelihood(logarithms: Array) -> float:
         filters = at(logarithms)
-        inside = all(LEAST <= f.share <= MOST for f in filters)
+        inside = all(FASTEST <= f.share <= SLOWEST for f in filters)
         return -_likelihood(problem, base, filters) - _by_noise(told, filters) if inside else np.inf
 
     start = np.log([f.time_constant for f in digital])
@@ -176,28 +172,11 @@ def _samples(problem: Problem, signal: str) -> int:
     return sum(r.signal(signal).size for r in problem.runs)
 
 
-def _with_lags(problem: Problem, this: Fit) -> Fit:
-    """The fit with the lag of every sensor: a filter that is not fitted hides its own noise."""
-    lags = (lag.name for s, lag in analog_filters(problem.prior.table).items() if s in problem.noise)
-    added = tuple(dict.fromkeys((*this.added, *(lag for lag in lags if lag not in problem.prior.effects))))
-    starts = this.starts(this.added)
-    begun = hypothesis(problem.prior, added, problem.scales, starts, this.motor)
-    return fit(problem, begun, share=one_stage(problem.work))
-
-
 def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
-    """An explanation, without lags of the sensors, without delays too, and the nominal model.
-
-    Any of them may stand in for a filter. At few samples per time constant a spring behind the motor does as well as a
-    lag, and then a filter of samples is never met beside the model that needs nothing else.
-    """
-    table = problem.prior.table
-    without_lags = tuple(name for name in this.added if not table[name].filters)
-    without_ends = tuple(name for name in without_lags if not table[name].at_an_end)
-    for kept in dict.fromkeys((this.added, without_lags, without_ends, ())):
-        if kept == this.added:
-            yield this
-            continue
+    """An explanation, and the same without lags and delays: any of them may stand in for a filter."""
+    yield this
+    kept = tuple(name for name in this.added if not problem.prior.table[name].at_an_end)
+    if kept != this.added:
         begun = hypothesis(problem.prior, kept, problem.scales, this.starts(kept), this.motor)
         yield fit(problem, begun, share=one_stage(problem.work))
 
@@ -287,8 +266,8 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str,
         return float(best.fun), float(best.x)
 
     one = float(np.log(seen.time_constant * -np.log(seen.share)))  # of the time of a sample
-    least = max(seen.in_noise - LIKELY * seen.deviation, LEAST)
-    most = min(seen.in_noise + LIKELY * seen.deviation, MOST)
+    least = max(seen.in_noise - LIKELY * seen.deviation, FASTEST)
+    most = min(seen.in_noise + LIKELY * seen.deviation, SLOWEST)
     tried = one - np.log(-np.log(np.linspace(least, most, SHARES)))
     part = screening_part(problem, this)
     scores = np.array(side_by_side(lambda t: negative_score(part, float(t)), tried))
