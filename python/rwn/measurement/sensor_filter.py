@@ -28,9 +28,9 @@ from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
 
-SHARES = 24  # values of phi that are compared: at few rows a time constant the right one is told to a few per cent
+SPACING = 0.035  # of the values of phi that are compared: at few rows a time constant it is told to a few per cent
 LIKELY = 4.0  # standard deviations from what the noise tells, within which they lie
-COMPARED = 2 * SHARES  # fits that a filter is found by, as many refine it; they may cost a stage together
+COMPARED = 50  # fits that a filter is found by at most, half of which refine it; they may cost a stage together
 DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
 LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
 SIMPLEX = 0.2  # step of the logarithms of time constants, from which those of several filters are fitted together
@@ -268,11 +268,11 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str,
     one = float(np.log(seen.time_constant * -np.log(seen.share)))  # of the time of a sample
     least = max(seen.in_noise - LIKELY * seen.deviation, FASTEST)
     most = min(seen.in_noise + LIKELY * seen.deviation, SLOWEST)
-    tried = one - np.log(-np.log(np.linspace(least, most, SHARES)))
+    tried = one - np.log(-np.log(np.linspace(least, most, max(round((most - least) / SPACING), 2) + 1)))
     part = screening_part(problem, this)
     scores = np.array(side_by_side(lambda t: negative_score(part, float(t)), tried))
     beside = np.concatenate([[np.inf], scores, [np.inf]])
     dips = np.flatnonzero((scores <= beside[:-2]) & (scores <= beside[2:]))  # another motor may do with another filter
-    around = [tried[[max(k - 1, 0), min(k + 1, SHARES - 1)]] for k in dips[np.argsort(scores[dips])][:DIPS]]
+    around = [tried[[max(k - 1, 0), min(k + 1, tried.size - 1)]] for k in dips[np.argsort(scores[dips])][:DIPS]]
     _, logarithm = min(side_by_side(refined, around))
     return _of_time(problem, replace(seen, digital=True), float(np.exp(logarithm)))
