@@ -27,7 +27,8 @@ class EncoderDifference(Imperfection):
 
     @property
     def like(self) -> frozenset[str]:
-        return frozenset({"speed-sensor-lag", "input-delay", "sensor-quantization"})
+        # a difference of positions is the mean of the speed since, as is a moving average of differences
+        return frozenset({"speed-moving-average", "speed-sensor-lag", "input-delay", "sensor-quantization"})
 
     def speed_error(self, rate: float) -> float:
         """Rms of the rounding in the speed [rad/s]: what is rounded is evenly spread over a count."""
