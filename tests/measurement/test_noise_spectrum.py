@@ -7,6 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
+from rwn.measurement.filter_colour import CERTAINLY
 from rwn.measurement.noise_spectrum import WINDOWS, NoiseColour, noise_colour
 
 SEEDS = range(12)
@@ -42,7 +43,7 @@ def test_the_share_is_told_as_well_as_it_is_said_to_be(share: float, beside: flo
 def test_white_noise_has_passed_no_filter(beside: float, typical: float) -> None:
     """Beside a large motion less of it is seen, so that less can be excluded."""
     found = [noise_colour([_noise(0.0, seed) + beside * _motion(seed)]) for seed in SEEDS]
-    assert max(f.filtered for f in found) < 0.95
+    assert max(f.filtered for f in found) < CERTAINLY
     assert np.median([f.filtered for f in found]) < typical
     assert max(f.evidence for f in found) < 3.0
 

@@ -6,13 +6,13 @@ Noise that a filter y_k = phi y_{k-1} + (1 - phi) x_k has passed goes from sampl
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.problem import Problem
-from rwn.measurement.noise_spectrum import noise_colour
+from rwn.measurement.noise_spectrum import NoiseColour, noise_colour
 from rwn.model.vocabulary import analog_filters
 from rwn.recording.noise import noise_from_differences
 from rwn.simulate.run import Run
@@ -31,44 +31,41 @@ class SensorFilter:
     signal: str
     share: float  # phi: of a sample's noise that was in the sample before
     time_constant: float  # [s]
-    in_noise: float = 0.0  # phi as the noise alone shows it
-    deviation: float = np.inf  # standard deviation of that
-    evidence: float = 0.0  # log likelihood of it against white noise
+    noise: NoiseColour = field(default_factory=NoiseColour)  # what the noise alone shows of it
     digital: bool = False  # it takes samples, as a drive's program does; else it is fitted as a law of the sensor
-
-    def log_likelihood(self, share: float) -> float:
-        """How likely the noise by itself is with another phi than it shows; 0: with none."""
-        return -0.5 * ((share - self.in_noise) / self.deviation) ** 2 if share else -self.evidence
 
     @property
     def spread(self) -> float:
         """Standard deviation of the logarithm of the time constant by the noise alone; 1 where that tells less."""
-        return min(self.deviation / (self.share * -float(np.log(self.share))), 1.0)
+        return min(self.noise.deviation / (self.share * -float(np.log(self.share))), 1.0)
 
 
-def coloured_signals(
-    problem: Problem, residuals: Sequence[Mapping[str, Array]], *, certainly: bool = True
-) -> list[SensorFilter]:
+def coloured_signals(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[SensorFilter]:
     """The signals whose noise may have passed a filter, with the filter that would have coloured it so.
 
-    `residuals`: (n,) of each run, by signal. `certainly`: none unless the noise of one of them hardly can be otherwise;
-    what is missing may hide it.
+    `residuals`: (n,) of each run, by signal.
     """
-    found, certain = [], not certainly
+    found = []
     for signal, lag in analog_filters(problem.prior.table).items():
         parts = [(run, left[signal]) for run, left in zip(problem.runs, residuals, strict=True) if signal in left]
         parts = [(run, x) for run, x in parts if _is_sensor_noise(run, signal, x)]
         if not parts or signal in problem.filters or lag.name in problem.prior.effects:
             continue
         colour = noise_colour([run.masked(signal, x) for run, x in parts])
-        certain |= colour.filtered > CERTAINLY
         if colour.filtered > MAYBE:
-            share, tells = min(colour.share, SLOWEST), colour.share < SLOWEST
+            share = min(colour.share, SLOWEST)
             step = float(np.median([run.sample_time for run, _ in parts]))
-            found.append(SensorFilter(signal=signal, share=share, time_constant=-step / float(np.log(share)),
-                                      in_noise=share, deviation=colour.deviation if tells else np.inf,
-                                      evidence=colour.evidence if tells else 0.0))  # fmt: skip
-    return found if certain else []
+            if colour.share >= SLOWEST:  # it is physics that is seen, which tells nothing of a filter
+                colour = replace(colour, deviation=np.inf, evidence=0.0)
+            found.append(
+                SensorFilter(signal=signal, share=share, time_constant=-step / float(np.log(share)), noise=colour)
+            )
+    return found
+
+
+def certain(seen: Sequence[SensorFilter]) -> bool:
+    """Whether the noise of a signal did pass a filter; then all that may have are worth asking."""
+    return any(f.noise.filtered > CERTAINLY for f in seen)
 
 
 def is_noise_alone(problem: Problem, residuals: Sequence[Mapping[str, Array]], seen: SensorFilter) -> bool:

@@ -1,7 +1,7 @@
 """The noise of a sensor beside what a model leaves out, told apart by their spectra.
 
-Noise that a filter y_k = phi y_{k-1} + (1 - phi) x_k has passed is level towards the sampling rate, while what a model
-leaves out falls off steeply: it is a motion. Of the periodograms of short windows a low quantile is taken at each
+Noise that a filter y_k = phi y_{k-1} + (1 - phi) x_k has passed is level towards half the sampling rate, while what a
+model leaves out falls off steeply: it is a motion. Of the periodograms of short windows a low quantile is taken at each
 frequency, since it is of the windows where little is missing; Whittle's likelihood of
 
     S(w) = s (1 - phi)^2 / |1 - phi e^{-iw}|^2  +  m (2 sin(w / 2))^-p
@@ -36,9 +36,13 @@ class NoiseColour:
     """What the noise shows of a filter."""
 
     share: float = 0.0  # phi: of a sample's noise that was in the sample before
-    deviation: float = 1.0  # standard deviation of it
+    deviation: float = np.inf  # standard deviation of it
     evidence: float = 0.0  # log likelihood against white noise
     filtered: float = 0.0  # probability that phi is above FASTEST
+
+    def log_likelihood(self, share: float) -> float:
+        """How likely the noise is with another phi than it shows; 0: with no filter."""
+        return -0.5 * ((share - self.share) / self.deviation) ** 2 if share else -self.evidence
 
 
 def noise_colour(residuals: Sequence[Array]) -> NoiseColour:

@@ -20,17 +20,18 @@ from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, losses, statistics
-from rwn.measurement.filter_colour import SLOWEST, SensorFilter, coloured_signals, is_noise_alone
+from rwn.measurement.filter_colour import SLOWEST, SensorFilter, certain, coloured_signals, is_noise_alone
 from rwn.measurement.known_filters import filtered, share_kept
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior
-from rwn.measurement.noise_spectrum import FASTEST
+from rwn.measurement.noise_spectrum import FASTEST, NoiseColour
 from rwn.parallel import side_by_side
 
 Array = NDArray[np.float64]
 
 SPACING = 0.035  # of the values of phi that are compared: at few rows a time constant it is told to a few per cent
 LIKELY = 4.0  # standard deviations from what the noise tells, within which they lie
-COMPARED = 50  # fits that a filter is found by at most, half of which refine it; they may cost a stage together
+# Fits that a filter is found by at most, as many refine it as scan phi; they may cost a stage together.
+COMPARED = 2 * (round((SLOWEST - FASTEST) / SPACING) + 1)
 DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
 LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
 SIMPLEX = 0.2  # step of the logarithms of time constants, from which those of several filters are fitted together
@@ -45,7 +46,7 @@ def sensor_filters(problem: Problem, this: Fit) -> tuple[SensorFilter, ...]:
 def shown_in_noise(problem: Problem, this: Fit) -> bool:
     """Whether the noise itself shows a filter, whatever a fit leaves beside it."""
     seen = coloured_signals(problem, problem.residuals(this.vector, this.active))
-    return any(one.share < SLOWEST for one in seen)
+    return certain(seen) and any(one.share < SLOWEST for one in seen)
 
 
 def filters_again(problem: Problem, explanation: Fit, known: Sequence[SensorFilter]) -> tuple[SensorFilter, ...]:
@@ -63,9 +64,9 @@ def filters_and_likelihood(
     """
     residuals = problem.residuals(this.vector, this.active)
     seen = coloured_signals(problem, residuals)
-    if not seen and not statistics(problem, this).at_the_floor:
-        seen = coloured_signals(problem, residuals, certainly=False)
-    told = {one.signal: one for one in seen}
+    if not certain(seen) and statistics(problem, this).at_the_floor:  # else what is missing may hide it
+        seen = []
+    told = {one.signal: one.noise for one in seen}
     seen = [*seen, *(replace(f, digital=False) for f in known if f.signal not in told)]
     if not seen:
         return (), _likelihood(problem, this, ())
@@ -79,7 +80,7 @@ def filters_and_likelihood(
     return filters, likelihood
 
 
-def _by_noise(told: Mapping[str, SensorFilter], filters: Sequence[SensorFilter]) -> float:
+def _by_noise(told: Mapping[str, NoiseColour], filters: Sequence[SensorFilter]) -> float:
     """How likely (log) the noise by itself is with these filters; `told`: what it shows of each signal."""
     shares = {f.signal: f.share for f in filters}
     return sum(one.log_likelihood(shares.get(signal, 0.0)) for signal, one in told.items())
@@ -87,7 +88,7 @@ def _by_noise(told: Mapping[str, SensorFilter], filters: Sequence[SensorFilter])
 
 def _filters_beside(
     problem: Problem, base: Fit, seen: Sequence[SensorFilter], residuals: Sequence[Mapping[str, Array]],
-    told: Mapping[str, SensorFilter],
+    told: Mapping[str, NoiseColour],
 ) -> tuple[tuple[SensorFilter, ...], float, float]:  # fmt: skip
     """The filters beside an explanation, what speaks for them, and how likely both are (log, BIC)."""
     found: dict[str, SensorFilter] = {}
@@ -106,7 +107,7 @@ def _filters_beside(
             found = {f.signal: f for f in (*others, best) if f is not None}
         uncovered = _uncovered(problem, base, tuple(found.values()), known)
         known += uncovered
-        told = {**told, **{one.signal: one for one in uncovered}}
+        told = {**told, **{one.signal: one.noise for one in uncovered}}
         if len(known) == 1:
             break
     filters = _together(problem, base, tuple(found.values()), told)
@@ -123,11 +124,12 @@ def _uncovered(
     on = filtered(problem, found)
     this = _refitted(base, on)
     seen = coloured_signals(on, on.residuals(this.vector, this.active))
-    return [one for one in seen if one.signal not in {k.signal for k in known} and one.share < SLOWEST]
+    new = [one for one in seen if one.signal not in {k.signal for k in known} and one.share < SLOWEST]
+    return new if certain(seen) else []
 
 
 def _together(
-    problem: Problem, base: Fit, found: tuple[SensorFilter, ...], told: Mapping[str, SensorFilter]
+    problem: Problem, base: Fit, found: tuple[SensorFilter, ...], told: Mapping[str, NoiseColour]
 ) -> tuple[SensorFilter, ...]:  # fmt: skip
     """The digital filters at the time constants that are likeliest together.
 
@@ -193,7 +195,7 @@ def _refitted(this: Fit, problem: Problem) -> Fit:
 
 
 def _likeliest_kind(
-    problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, SensorFilter]
+    problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, NoiseColour]
 ) -> SensorFilter | None:
     """The filter, digital or analog, under which the errors are likelier than as coloured noise alone; None: neither.
 
@@ -251,7 +253,7 @@ def _as_recorded(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) -
     return left
 
 
-def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, SensorFilter]) -> SensorFilter:
+def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, NoiseColour]) -> SensorFilter:
     """The digital filter under which the errors are likeliest."""
     from scipy.optimize import minimize_scalar  # late: the command line starts without it
 
@@ -266,8 +268,8 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str,
         return float(best.fun), float(best.x)
 
     one = float(np.log(seen.time_constant * -np.log(seen.share)))  # of the time of a sample
-    least = max(seen.in_noise - LIKELY * seen.deviation, FASTEST)
-    most = min(seen.in_noise + LIKELY * seen.deviation, SLOWEST)
+    least = max(seen.noise.share - LIKELY * seen.noise.deviation, FASTEST)
+    most = min(seen.noise.share + LIKELY * seen.noise.deviation, SLOWEST)
     tried = one - np.log(-np.log(np.linspace(least, most, max(round((most - least) / SPACING), 2) + 1)))
     part = screening_part(problem, this)
     scores = np.array(side_by_side(lambda t: negative_score(part, float(t)), tried))
