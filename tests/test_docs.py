@@ -112,3 +112,9 @@ def test_every_effect_has_its_page() -> None:
         assert effect.equation in page
         assert all(f"`{p.name}`" in page for p in effect.parameters)
         assert f"(effects/{name}.md)" in pages["effects.md"]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_a_page_has_every_heading_once(page: Path) -> None:
+    headings = re.findall(r"^#+ .*$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    assert sorted(set(headings)) == sorted(headings)
