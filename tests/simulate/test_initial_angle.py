@@ -10,10 +10,13 @@ import pytest
 
 import rwn
 from rwn.fit.fit import fit_nominal
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
+from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.model import Model
-from rwn.model.vocabulary import table
+from rwn.model.vocabulary import motor_index, table
 from rwn.name.forward import rank
+from rwn.name.initial_guesses.initial_angle import aligned
 from rwn.name.initial_guesses.spectra import angle_spectrum
 from rwn.simulate.initial_angle import angles_to_try
 
@@ -73,6 +76,25 @@ def test_a_recording_from_rest_beside_one_in_motion_has_a_phase_of_its_own() -> 
                 for r, left in zip(problem.runs, residuals, strict=True)]  # fmt: skip
         energy = [float(np.sum((left["speed"] - left["speed"].mean()) ** 2)) for left in residuals]
         np.testing.assert_allclose(spectrum, np.average(each, axis=0, weights=energy), rtol=1e-6)
+
+
+@pytest.mark.parametrize(("name", "guess"), [
+    ("cogging-torque", {"amplitude": 2e-3, "periods_per_rev": 5.0, "phase": -1.0}),
+    ("unbalance", {"amplitude": 2e-3, "phase": 2.0}),
+])  # fmt: skip
+def test_a_start_is_aligned_with_what_the_nominal_model_leaves(name: str, guess: dict[str, float]) -> None:
+    truth = {name: guess | {"phase": 0.4}}
+    problem = prepare([seen(truth, 433, 1), seen(truth, 571, 2)], SHEET)
+    begun = hypothesis(problem.prior, (name,), problem.scales, {name: guess})
+    start = aligned(problem, begun, problem.prior.table[name])
+    nominal = problem.error(problem.as_given().vector, [])
+    assert problem.error(start.vector, start.active) < 0.1 * nominal
+    for run in problem.runs:
+        place = next(k for k, parameter in run.start_unknowns if parameter == motor_index(INITIAL_POSITION))
+        for off in (-0.1, 0.1):  # of a turn of the effect
+            moved = start.vector.copy()
+            moved[place] += off * 2.0 * np.pi / guess.get("periods_per_rev", 1.0)
+            assert problem.error(start.vector, start.active) < problem.error(moved, start.active)
 
 
 def test_a_simulation_begins_at_the_angle_that_fits_what_was_recorded() -> None:

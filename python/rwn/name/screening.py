@@ -14,7 +14,7 @@ import numpy as np
 from rwn.fit.budget import shares_by_rank, shares_of_steps
 from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, cost_of_a_step, fit, refit
 from rwn.fit.levenberg_marquardt import FitStatus
-from rwn.fit.part import part, screening_part
+from rwn.fit.part import first_part, screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.fit.secant import down_secants
@@ -34,7 +34,6 @@ from rwn.parallel import side_by_side
 RESOLUTION = 0.1  # changes of the cost below this decide nothing between explanations
 ITERATIONS = 4  # iterations of every start in the first round, which is made on the screening part
 FURTHER = 6  # iterations after these, before the promising ones are chosen
-FIRST_ROUND_SAMPLES = 2500  # of the first round of starts beside other effects; alone it is the screening part
 NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a non-smooth error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
 OF_THE_MACHINE = 3  # most effects of the machine itself in one explanation, as in every set of trials
@@ -75,8 +74,9 @@ def _first_round(problem: Problem, base: Fit, these: Sequence[Start], keep: int,
     competing = [s for s in these if counts[kind_of(s)] > keep]
     if not competing:
         return list(these)
-    competing = _before_fitting(competing, part(problem, base, FIRST_ROUND_SAMPLES))
-    on = part(problem, base, FIRST_ROUND_SAMPLES) if base.added or patience > 1 else screening_part(problem, base)
+    shortest = first_part(problem, base)
+    competing = _before_fitting(competing, shortest)
+    on = shortest if base.added or patience > 1 else screening_part(problem, base)
     attempts = _round(competing, iterations=patience, on=on, problem=problem, roughly=True)
     began = {id(attempt): start for start, attempt in zip(competing, attempts, strict=True)}
     kept = [(a.start, began[id(a)]) for a in best_of_each(attempts, keep, orders=keep + 1)]

@@ -11,6 +11,7 @@ import numpy as np
 from rwn.fit.fit import FAR_BEHIND, Fit
 from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING
+from rwn.fit.part import first_part
 from rwn.fit.problem import Problem
 from rwn.name.initial_guesses.guess import Guess
 from rwn.name.initial_guesses.guesses import initial_guesses
@@ -68,9 +69,10 @@ def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start
 
     def begun(guess: Guess, motor: Mapping[str, float]) -> Hypothesis:
         this = hypothesis(problem.prior, (*base.added, name), problem.scales, {**known, name: guess}, motor)
-        return aligned(problem, this, effect) if turned else this
+        return aligned(on, this, effect) if turned else this
 
     turned = free_to_turn(problem, base, effect)
+    on = first_part(problem, base) if turned else problem
     guesses = initial_guesses(problem, base, effect, count=orders)
     return [
         Start(name, guess.get(periodic, 0.0), min(k, 1) if effect.at_an_end else 0, begun(guess, motor))

@@ -49,9 +49,14 @@ def aligned(problem: Problem, start: Hypothesis, effect: Effect) -> Hypothesis:
         if place is not None:
             vector[place] = _best_angle(problem, [run], start, effect) - turned
     if phase:
-        order = next((float(vector[effect.at(p.name)]) for p in effect.parameters if p.order), 1.0)
-        vector[effect.at(phase.name)] = np.angle(np.exp(1j * (vector[effect.at(phase.name)] + order * turned)))
+        at = effect.at(phase.name)
+        vector[at] = np.angle(np.exp(1j * (vector[at] + _order(effect, vector) * turned)))
     return replace(start, vector=vector)
+
+
+def _order(effect: Effect, vector: Array) -> float:
+    """Periods per revolution of an effect."""
+    return next((float(vector[effect.at(p.name)]) for p in effect.parameters if p.order), 1.0)
 
 
 def _place(run: Run) -> int | None:
@@ -63,21 +68,42 @@ def _place(run: Run) -> int | None:
 def _best_angle(problem: Problem, runs: Sequence[Run], start: Hypothesis, effect: Effect) -> float:
     """The angle [rad] at which what the effect adds, growing from nothing, explains most of what some runs leave."""
     strengths = [effect.at(p.name) for p in effect.parameters if p.strength and not p.replaces]
+    phases = [effect.at(p.name) for p in effect.parameters if p.cyclic]
     vectors = []
     for run in runs:
         vector = problem.simulator.started(run, start.vector)
         vector[strengths] *= FAINT
         vectors.append(vector)
 
-    def gain(angle: float) -> float:
-        """Squared error that strengths of the right sign remove, to first order."""
-        slope, curvature = np.zeros(len(strengths)), np.full(len(strengths), 1e-300)
+    def normal(angle: float, by: Sequence[int]) -> tuple[Array, Array]:
+        """Gradient (p,) and curvature (p, p) of the squared error by parameters, runs begun at an angle."""
+        slope, curvature = np.zeros(len(by)), np.zeros((len(by), len(by)))
         for run, vector in zip(runs, vectors, strict=True):
             vector[motor_index(INITIAL_POSITION)] = angle
-            normal = problem.normal_at(run, vector, start.active, strengths)
-            if not normal.finite:
-                return -np.inf
-            slope, curvature = slope + normal.gradient, curvature + np.diag(normal.curvature)
-        return float(np.sum(np.maximum(slope, 0.0) ** 2 / curvature))
+            one = problem.normal_at(run, vector, start.active, by)
+            if not one.finite:
+                return np.full(len(by), -np.inf), curvature
+            slope, curvature = slope + one.gradient, curvature + one.curvature
+        return slope, curvature
 
+    def gain(angle: float) -> float:
+        """Squared error that strengths of the right sign remove, to first order."""
+        slope, curvature = normal(angle, strengths)
+        return float(np.sum(np.maximum(slope, 0.0) ** 2 / np.maximum(np.diag(curvature), 1e-300)))
+
+    if len(phases) == len(strengths) == 1:
+        return _of_a_sine(*normal(0.0, [*strengths, *phases]), vectors[0][strengths[0]]) / _order(effect, vectors[0])
     return float(max(angles_to_try([effect], vectors[0]), key=gain))
+
+
+def _of_a_sine(slope: Array, curvature: Array, amplitude: float) -> float:
+    """The phase [rad] of A sin or A cos, beside its own, at which it removes most of the squared error.
+
+    By normal equations (2,), (2, 2) by amplitude and phase: the derivative by the phase is A times the same law a
+    quarter of a period on, so that any phase is a combination of the two.
+    """
+    unit = np.array([1.0, 1.0 / amplitude])
+    if not (amplitude and np.isfinite(slope).all()):
+        return 0.0
+    cosine, sine = np.linalg.lstsq(curvature * np.outer(unit, unit), slope * unit)[0]
+    return float(np.arctan2(sine, cosine))
