@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,7 +75,12 @@ class Beginning:
         return refit(self.this, self._with_power_from(time), iterations=NEAR_ITS_END).cost
 
     def _with_power_from(self, time: float) -> Problem:
-        return replace(self.problem, runs=(windowed(run_powered_from(time, self.run).until(2 * self.samples)),))
+        return replace(self.problem, runs=(run_powered_from(time, self._run),))
+
+    @cached_property
+    def _run(self) -> Run:
+        """The beginning as it is simulated, with power from the first sample on."""
+        return windowed(self.run.until(2 * self.samples))
 
     def enabling_time(self) -> float:
         """When power came [s]: where the fit errs least."""

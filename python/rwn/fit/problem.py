@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ from rwn.recording.noise import Noise
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.run import Run, windowed
 from rwn.simulate.simulator import Output, Simulator
+from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
 Array = NDArray[np.float64]
 
@@ -70,6 +72,12 @@ class Problem:
     def on(self, runs: Sequence[Run]) -> Problem:
         """The same on other recordings, simulated from their input alone."""
         return replace(self, runs=tuple(r.following_nothing() for r in runs))
+
+    @cached_property
+    def recorded_motion(self) -> tuple[UnknownInputs, ...]:
+        """The motion along each whole recording, with what the nominal model leaves over at its given values."""
+        vector = self.as_given().vector
+        return tuple(unknown_inputs(self.drive, self.simulator, run, vector) for run in self.whole)
 
     def as_given(self) -> Hypothesis:
         """The nominal model at its given values."""

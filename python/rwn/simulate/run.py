@@ -207,6 +207,10 @@ class Run:
 
     def motion(self) -> tuple[Array, Array]:
         """Smoothed speed [rad/s or m/s] and acceleration [rad/s^2 or m/s^2], (n,) each."""
+        return self._motion
+
+    @cached_property
+    def _motion(self) -> tuple[Array, Array]:
         step, length = self.sample_time, self.smoothing_length()
         if self.position.size and not self.speed.size:
             speed = smooth(self.position, length, derivative=1, step=step)
@@ -215,9 +219,11 @@ class Run:
 
     def smoothing_length(self) -> int:
         """Samples over which it is smoothed: what its speed allows; for the derivatives of a position the most."""
-        if not self.speed.size:
-            return LENGTHS[0]
-        return smoothing_length(self.speed, resolution=self.quantisation("speed"))
+        return self._smoothing_length
+
+    @cached_property
+    def _smoothing_length(self) -> int:
+        return smoothing_length(self.speed, resolution=self.quantisation("speed")) if self.speed.size else LENGTHS[0]
 
 
 def run_of(recording: Recording, model: Model) -> Run:

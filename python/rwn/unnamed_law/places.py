@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.model.own_effects import TERMS, VARIABLES
-from rwn.simulate.unknown_inputs import unknown_inputs
 
 Array = NDArray[np.float64]
 
@@ -154,9 +153,7 @@ def _along(problem: Problem, state: str) -> Array:
     recorded = {"input": "input", "position": "angle", "time": "time"}
     if state in recorded:
         return np.concatenate([getattr(r, recorded[state]) for r in problem.whole])
-    vector = problem.as_given().vector
-    unknown = [unknown_inputs(problem.drive, problem.simulator, r, vector) for r in problem.whole]
-    return np.concatenate([getattr(u, state) for u in unknown])
+    return np.concatenate([getattr(motion, state) for motion in problem.recorded_motion])
 
 
 def unit_of_state(problem: Problem, place: Place) -> str:
