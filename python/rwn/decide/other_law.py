@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
-
-import numpy as np
+from typing import NamedTuple
 
 from rwn.fit.budget import one_stage
-from rwn.fit.fit import Fit, fit
+from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
@@ -24,10 +23,20 @@ from rwn.unnamed_law.law import has_room, with_network
 from rwn.unnamed_law.places import Place, all_places
 from rwn.unnamed_law.screening import most_promising
 
-ITERATIONS = 6  # the weights are linear but for the motion that they change
+BRIEFLY = 2  # iterations of every curve: the weights are linear but for the motion that they change
+ITERATIONS = 4  # further ones of those that leave least
+GO_ON = 3  # so many
 SHARES = 16  # of the work of a stage, for each curve
 SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights at the best of all places
 MOST = 0.5  # share of the squared error above the noise that the curve has to explain
+
+
+class _Fitted(NamedTuple):
+    """The curve at a place, fitted in a problem that knows it."""
+
+    place: Place
+    on: Problem
+    fit: Fit
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,15 +90,15 @@ def _best_curve(
     """
     share = one_stage(part.work) / SHARES
 
-    def left_by(place: Place) -> Statistics:
+    def begun(place: Place) -> _Fitted:
         on, with_it = with_network(part, model, place, PART, motor=this.motor, effects=effects)
-        return statistics(on, fit(on, this.carried_to(with_it), max_iterations=ITERATIONS, share=share), drift=False)
+        return _Fitted(place, on, fit(on, this.carried_to(with_it), max_iterations=BRIEFLY, share=share))
+
+    def gone_on(one: _Fitted) -> _Fitted:
+        return one._replace(fit=refit(one.fit, one.on, iterations=ITERATIONS, share=share))
 
     found = all_places(part, model)
     tried = list(dict.fromkeys(chain.from_iterable(most_promising(part, one, found, PART) for one in leaving)))
-    left = side_by_side(left_by, tried)
-    return min(zip(tried, left, strict=True), key=lambda row: _finite_or_worst(row[1].variance))
-
-
-def _finite_or_worst(variance: float) -> float:
-    return variance if np.isfinite(variance) else np.inf
+    first = sorted(side_by_side(begun, tried), key=lambda one: one.fit.cost)
+    left = [(one.place, statistics(one.on, one.fit, drift=False)) for one in side_by_side(gone_on, first[:GO_ON])]
+    return min(left, key=lambda row: row[1].variance)
