@@ -66,10 +66,13 @@ def _errors(time: Array, speed: Array, position: Array, rows: NDArray[np.intp]) 
     Infinite where width and delay make no whole rows, or reach further than the recording is looked at.
     """
     errors = np.full((LONGEST_WINDOW, 2 * LONGEST_WINDOW + 1), np.inf)
+    shifts = range(-2 * LONGEST_WINDOW, LONGEST_WINDOW + 1)
+    positions, times = ({k: signal[rows + k] for k in shifts} for signal in (position, time))
+    own = speed[rows]
     for width in range(1, LONGEST_WINDOW + 1):
         for delay in range(width % 2, 2 * LONGEST_WINDOW + 1, 2):
             first, last = (-delay - width) // 2, (width - delay) // 2
             if first >= -2 * LONGEST_WINDOW and last <= LONGEST_WINDOW:
-                mean = (position[rows + last] - position[rows + first]) / (time[rows + last] - time[rows + first])
-                errors[width - 1, delay] = np.median(np.abs(speed[rows] - mean))
+                mean = (positions[last] - positions[first]) / (times[last] - times[first])
+                errors[width - 1, delay] = np.median(np.abs(own - mean))
     return errors
