@@ -44,7 +44,7 @@ def test_a_run_goes_on_from_the_recorded_motion() -> None:
     assert later.time[0] == 0.0
     assert later.time.size == run.time.size - 1500
     np.testing.assert_array_equal(later.position, run.position[1500:])
-    assert later.start[1] == pytest.approx(run.motion()[0][1500])
+    assert later.start[1] == pytest.approx(run.motion[0][1500])
     assert later.start[2] == run.position[1500]
     assert later.input_before == run.input[1499]
     problem = prepare([_turned()], TRUTH).in_free_run()

@@ -20,7 +20,7 @@ from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name import screening
 from rwn.name.forward import _weighted_beforehand, rank
-from rwn.name.screening import FURTHER, MUCH_WORSE, _further, _has_room, _to_the_end, _unless_much_worse, screen
+from rwn.name.screening import FURTHER, _further, _has_room, _to_the_end, screen
 from rwn.name.starts import Attempt, Start, starts
 
 TRUE = {
@@ -83,20 +83,6 @@ def test_a_delay_of_any_part_of_a_sample_is_found_where_the_winding_is_fast(late
     problem, nominal = _weighted_beforehand(prepare([replace(run, signals={**run.signals, **signals})], sheet))
     found = screen(problem, nominal, ["input-delay"])[0]
     assert found.value("input-delay.delay") == pytest.approx(1e-3 * late, abs=2e-5)
-
-
-@pytest.mark.parametrize(("factor", "much_worse"), [(1.0, False), (1.02, False), (1.2, True)])
-def test_a_start_that_a_round_on_a_part_made_much_worse_goes_on_from_where_it_began(
-    lagging: Problem, factor: float, much_worse: bool
-) -> None:
-    before = starts(lagging, fit_nominal(lagging), "quadratic-drag", orders=3)[0]
-    values = before.hypothesis.start.copy()
-    values[0] *= factor
-    after = before._replace(hypothesis=before.hypothesis.starting_at(values))
-    errors = [lagging.error(s.hypothesis.vector, s.hypothesis.active) for s in (after, before)]
-    assert errors[0] >= errors[1]
-    assert (errors[0] > MUCH_WORSE * errors[1]) == much_worse
-    assert _unless_much_worse([(after, before)], lagging) == [before if much_worse else after]
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import Path
 from typing import Any, cast
 
@@ -11,16 +10,11 @@ import pytest
 
 import rwn
 from rwn.fit.fit import Fit
-from rwn.fit.hypothesis import hypothesis
 from rwn.fit.levenberg_marquardt import FitStatus, Minimum
-from rwn.fit.preparation import prepare
 from rwn.name.starts import (
-    KEPT_OF_AN_ORDER,
-    KEPT_UNFITTED,
     Attempt,
     Start,
     best_of_each,
-    best_unfitted,
     distinct_ends,
 )
 
@@ -68,21 +62,3 @@ def test_of_a_periodic_effect_the_best_start_of_the_best_orders_goes_on() -> Non
     attempts = [*ripple, *(_attempt("drag", BEST, cost) for cost in (9.0, 7.0, 8.0))]
     kept = [(a.start.name, a.start.order, a.cost) for a in best_of_each(attempts, 2, orders=2)]
     assert kept == [("ripple", 14.0, 3.0), ("ripple", 7.0, 4.0), ("drag", 0.0, 7.0), ("drag", 0.0, 8.0)]
-
-
-def test_the_best_few_of_each_kind_get_an_iteration() -> None:
-    model = rwn.read_model(DEMO / "model.toml")
-    problem = prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model)
-
-    def starts(name: str, count: int, order: float = 0.0) -> list[Start]:
-        return [Start(name, order, 0, hypothesis(problem.prior, (name,), problem.scales))] * count
-
-    these = [
-        *starts("cogging-torque", 5, 7.0), *starts("cogging-torque", 1, 14.0), *starts("backlash", KEPT_UNFITTED + 1),
-        *starts("quadratic-drag", 2),
-    ]  # fmt: skip
-    kept = Counter((s.name, s.order) for s in best_unfitted(these))
-    assert kept == {
-        ("cogging-torque", 7.0): KEPT_OF_AN_ORDER, ("cogging-torque", 14.0): 1, ("backlash", 0.0): KEPT_UNFITTED,
-        ("quadratic-drag", 0.0): 2,
-    }  # fmt: skip

@@ -38,7 +38,7 @@ def advice(runs: Sequence[Run]) -> str:
 
 def missing(runs: Sequence[Run]) -> list[str]:
     """What no recording shows, in words."""
-    speeds = [r.motion()[0] for r in runs]
+    speeds = [r.motion[0] for r in runs]
     peak = max((float(np.percentile(np.abs(w), 99.5)) for w in speeds if w.size), default=0.0)
     together = np.concatenate(speeds) if speeds else np.zeros(1)
     noise = max((noise_from_differences(r.speed) for r in runs if r.speed.size), default=0.0)

@@ -142,7 +142,7 @@ def _similarity(recordings: Sequence[Recording], model: Model) -> dict[str, Simi
 
 
 def _slope(run: Run) -> Array:
-    return smooth(run.position, run.smoothing_length(), derivative=1, step=run.sample_time)
+    return smooth(run.position, run.smoothing_length, derivative=1, step=run.sample_time)
 
 
 def _candidates(seen: Mapping[str, Similarity], model: Model) -> Iterator[Fault]:
@@ -272,7 +272,7 @@ def _force_similarity(recordings: Sequence[Recording], model: Model) -> Similari
     given = problem.as_given()
     pairs = []
     for run in problem.whole:
-        speed, acceleration = run.motion()
+        speed, acceleration = run.motion
         needed = needed_force(
             problem.simulator, given.vector, given.active, time=run.time, speed=speed, acceleration=acceleration,
             position=run.position if run.position.size else np.zeros(run.time.size),

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +50,7 @@ class BalancedRun(Run):
         """Smoothed values are multiples of no step."""
         return 0.0
 
+    @cached_property
     def motion(self) -> tuple[Array, Array]:
         """Speed [rad/s or m/s] and acceleration [rad/s^2 or m/s^2], (n,) each."""
         return self.velocity, self.acceleration

@@ -108,5 +108,5 @@ def _with_motion(run: Run, simulated: Mapping[str, Array]) -> dict[str, Array]:
     """Simulated signals, with the recorded motion where it is recorded."""
     own = dict(simulated)
     if run.position.size and not run.speed.size:
-        own["speed"] = run.motion()[0]
+        own["speed"] = run.motion[0]
     return own

@@ -78,29 +78,37 @@ def _by_secants(problem: Problem, this: Hypothesis, relative: float, share: floa
     Or where the problem's meter has come to `share`.
     """
 
-    def slope(values: Array, k: int) -> Array | float:
-        low, high = _sides(this.unknowns[k], float(values[k]), relative)
-        if high <= low:
-            return 0.0
-        below, above = (_weighted(problem, this, _with(values, k, v)) for v in (low, high))
-        return (below - above) / (high - low)  # the error is recorded minus simulated
-
     def probe(values: Array) -> CountedNormal:
-        error = _weighted(problem, this, values)
+        error = weighted_errors(problem, this, values)
         return _normal(error, np.empty((error.size, 0)))
 
     def evaluate(values: Array) -> CountedNormal:
-        error = _weighted(problem, this, values)
-        slopes = np.zeros((error.size, values.size))
-        for k, column in enumerate(side_by_side(lambda k: slope(values, k), range(values.size))):
-            slopes[:, k] = column
-        return _normal(error, slopes)
+        error = weighted_errors(problem, this, values)
+        return _normal(error, slopes_by_secants(problem, this, values, relative))
 
     with _overflowing():
         return minimise(
             evaluate, this.start, this.unknowns, max_iterations=STEPS, tolerance=GAIN * problem.samples,
             prior_scale=problem.inflation, probe=probe, doubt=0, enough=lambda: problem.work.done >= share,
         )  # fmt: skip
+
+
+def slopes_by_secants(problem: Problem, this: Hypothesis, values: Array, relative: float) -> Array:
+    """Derivatives (n, p) of what is simulated by the unknowns, in units of the noise: secants over `relative` steps."""
+
+    def slope(k: int) -> Array | None:
+        low, high = _sides(this.unknowns[k], float(values[k]), relative)
+        if high <= low:
+            return None
+        below, above = (weighted_errors(problem, this, _with(values, k, v)) for v in (low, high))
+        return (below - above) / (high - low)  # the error is recorded minus simulated
+
+    columns = side_by_side(slope, range(values.size))
+    slopes = np.zeros((problem.samples, values.size))
+    for k, column in enumerate(columns):
+        if column is not None:
+            slopes[:, k] = column
+    return slopes
 
 
 def _normal(error: Array, slopes: Array) -> CountedNormal:
@@ -131,8 +139,8 @@ def _with(values: Array, k: int, value: float) -> Array:
     return moved
 
 
-def _weighted(problem: Problem, this: Hypothesis, values: Array) -> Array:
-    """Weighted errors of all recordings and signals, end to end; nothing where nothing was recorded."""
+def weighted_errors(problem: Problem, this: Hypothesis, values: Array) -> Array:
+    """Errors (n,) of all recordings and signals in units of the noise, end to end; 0 where nothing was recorded."""
     with _overflowing():  # of every thread its own
         errors = join(problem, problem.residuals(this.with_values(values), this.active))
         weighted: Array = np.nan_to_num(np.concatenate(list(errors.values())))

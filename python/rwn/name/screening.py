@@ -18,11 +18,12 @@ from rwn.fit.part import first_part, screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.fit.secant import down_secants
+from rwn.name.first_order import FirstOrder
 from rwn.name.starts import (
     Attempt,
     Start,
+    Unfitted,
     best_of_each,
-    best_unfitted,
     distinct_ends,
     far_behind,
     kind_of,
@@ -37,7 +38,6 @@ FURTHER = 6  # iterations after these, before the promising ones are chosen
 NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a non-smooth error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
 OF_THE_MACHINE = 3  # most effects of the machine itself in one explanation, as in every set of trials
-MUCH_WORSE = 10.0  # a round on a part is undone where the error on the rest grows by more than this factor
 
 
 def screen(
@@ -51,8 +51,8 @@ def screen(
     fitting = [n for n in names if n not in base.hypothesis.effects and _has_room(base, n)]
     begun = side_by_side(lambda name: starts(problem, base, name, orders=keep + 1), fitting)
     on = screening_part(problem, base)
-    first = _first_round(problem, base, [start for of_one in begun for start in of_one], keep, patience)
-    attempts = _round(first, iterations=ITERATIONS * patience, on=on, problem=problem)
+    chosen = _chosen(problem, base, [start for of_one in begun for start in of_one], keep)
+    attempts = _round(chosen, iterations=ITERATIONS * patience, on=on, problem=problem)
     here = base.cost if on is problem else refit(base, on).cost
     best_here = best * here / base.cost if np.isfinite(best) else best
     attempts = _further(problem, best_of_each(attempts, keep, orders=keep), on, best_here)
@@ -65,53 +65,24 @@ def screen(
     return list(best_of.values())
 
 
-def _first_round(problem: Problem, base: Fit, these: Sequence[Start], keep: int, patience: int) -> list[Start]:
-    """At most `keep` starts of each kind: those that an iteration brings furthest.
-
-    A part of the recordings has to do; alone a longer one, since a soft bristle is lost on a short one.
-    """
+def _chosen(problem: Problem, base: Fit, these: Sequence[Start], keep: int) -> list[Start]:
+    """The `keep` starts of each kind that leave least to first order, of a periodic effect that of each best order."""
     counts = Counter(map(kind_of, these))
     competing = [s for s in these if counts[kind_of(s)] > keep]
     if not competing:
         return list(these)
-    shortest = first_part(problem, base)
-    competing = _before_fitting(competing, shortest)
-    on = shortest if base.added or patience > 1 else screening_part(problem, base)
-    attempts = _round(competing, iterations=patience, on=on, problem=problem, roughly=True)
-    began = {id(attempt): start for start, attempt in zip(competing, attempts, strict=True)}
-    kept = [(a.start, began[id(a)]) for a in best_of_each(attempts, keep, orders=keep + 1)]
-    return [*(s for s in these if counts[kind_of(s)] <= keep), *_unless_much_worse(kept, screening_part(problem, base))]
+    first_order = FirstOrder(first_part(problem, base), base)
+    left = side_by_side(lambda start: first_order.left_by(start.hypothesis), competing)
+    best = best_of_each([Unfitted(*pair) for pair in zip(competing, left, strict=True)], keep, orders=keep + 1)
+    return [*(s for s in these if counts[kind_of(s)] <= keep), *(one.start for one in best)]
 
 
-def _unless_much_worse(pairs: Sequence[tuple[Start, Start]], on: Problem) -> list[Start]:
-    """Of each pair, after and before a round on a part, the latter where the round made the error on `on` much larger.
-
-    A start whose error grew a little has often come nearer all the same.
-    """
-
-    def chosen(pair: tuple[Start, Start]) -> Start:
-        after, before = (on.error(s.hypothesis.vector, s.hypothesis.active) for s in pair)
-        return pair[1] if after > MUCH_WORSE * before else pair[0]
-
-    return side_by_side(chosen, pairs)
-
-
-def _before_fitting(these: Sequence[Start], on: Problem) -> list[Start]:
-    """The few best of each kind before anything is fitted, of a periodic effect those of each order."""
-    ends = side_by_side(lambda s: on.error(s.hypothesis.vector, s.hypothesis.active), these)
-    ranked = sorted(zip(these, ends, strict=True), key=lambda pair: pair[1])
-    return best_unfitted([start for start, _ in ranked])
-
-
-def _round(
-    these: Sequence[Start], *, iterations: int, on: Problem, problem: Problem, roughly: bool = False
-) -> list[Attempt]:
+def _round(these: Sequence[Start], *, iterations: int, on: Problem, problem: Problem) -> list[Attempt]:
     """Some iterations of every start; each attempt holds the start of the next round where this one ended."""
     costs = side_by_side(lambda s: cost_of_a_step(on, s.hypothesis), these)
     shares = shares_of_steps(problem.work, costs)
     return side_by_side(
-        lambda pair: _attempt(pair[0], iterations, on, share=pair[1], roughly=roughly),
-        zip(these, shares, strict=True),
+        lambda pair: _attempt(pair[0], iterations, on, share=pair[1], roughly=True), zip(these, shares, strict=True)
     )
 
 

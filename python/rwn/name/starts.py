@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -13,12 +13,11 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING
 from rwn.fit.part import first_part
 from rwn.fit.problem import Problem
+from rwn.name.first_order import Left
 from rwn.name.initial_guesses.guess import Guess
 from rwn.name.initial_guesses.guesses import initial_guesses
 from rwn.name.initial_guesses.initial_angle import aligned, free_to_turn, without_phases
 
-KEPT_UNFITTED = 8  # starts of a kind that get an iteration: the best of all is among six in 99 % (docs/method-details)
-KEPT_OF_AN_ORDER = 2  # starts kept of each order of a periodic effect
 SAME_END = 1.0  # two starts have reached the same minimum within this squared distance, in units of its variance
 REDUCED_INERTIA = 1.0 / 3.0  # of the inertia, in a start beside which a delay or a lag may take the place of the rest
 MOVED = 0.5  # declared deviations by which a parameter may move while the motor counts as the one given
@@ -55,7 +54,15 @@ class Attempt(NamedTuple):
         return self.fit.cost
 
 
+class Unfitted(NamedTuple):
+    """A start, and what it leaves to first order."""
+
+    start: Start
+    cost: Left
+
+
 Kind = tuple[str, float, int]
+Tried = TypeVar("Tried", Attempt, Unfitted)
 
 
 def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start]:
@@ -102,24 +109,13 @@ def kind_of(start: Start) -> Kind:
     return start.name, start.order, start.motor
 
 
-def best_unfitted(ranked: Sequence[Start]) -> list[Start]:
-    """Of starts, by what they leave, least first, the best few of each kind."""
-    met: Counter[Kind] = Counter()
-    kept = []
-    for start in ranked:
-        met[kind_of(start)] += 1
-        if met[kind_of(start)] <= (KEPT_OF_AN_ORDER if start.order else KEPT_UNFITTED):
-            kept.append(start)
-    return kept
-
-
-def best_of_each(attempts: Sequence[Attempt], keep: int, orders: int) -> list[Attempt]:
+def best_of_each(attempts: Sequence[Tried], keep: int, orders: int) -> list[Tried]:
     """The `keep` best starts of each kind, of a periodic effect the best of each of its `orders` best orders."""
-    groups: dict[Kind, list[Attempt]] = {}
+    groups: dict[Kind, list[Tried]] = {}
     for attempt in sorted(attempts, key=lambda a: a.cost):
         groups.setdefault(kind_of(attempt.start), []).append(attempt)
     met: Counter[tuple[str, int]] = Counter()
-    kept: list[Attempt] = []
+    kept: list[Tried] = []
     for (name, order, motor), group in groups.items():
         if not order:
             kept += group[:keep]

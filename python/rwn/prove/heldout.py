@@ -131,7 +131,7 @@ def _errors(problem: Problem, run: Run, this: Hypothesis) -> dict[str, Array]:
 
 
 def _slow(run: Run) -> NDArray[np.bool_]:
-    speed = np.abs(run.motion()[0])
+    speed = np.abs(run.motion[0])
     result: NDArray[np.bool_] = speed < 0.1 * np.percentile(speed, 99.5)
     return result
 

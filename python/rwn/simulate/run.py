@@ -137,7 +137,7 @@ class Run:
         """Its samples from `begin`, from the smoothed motion that was recorded there."""
         arrays = ("input", "current", "speed", "position", "angle", "restart_speed", "restart_position")
         cut = {name: getattr(self, name)[begin:] for name in arrays}
-        speed, position = float(self.motion()[0][begin]), float(self.angle[begin]) if self.angle.size else 0.0
+        speed, position = float(self.motion[0][begin]), float(self.angle[begin]) if self.angle.size else 0.0
         first = float(self.time[begin])
         if self.angle_from_speed and self.angle.size:  # it is counted from the first sample
             cut["angle"] = cut["angle"] - position
@@ -205,24 +205,18 @@ class Run:
         difference = signal == "speed" and self.speed_measured.is_difference
         return float(quantum(self.measured(signal)) / np.sqrt(6.0 if difference else 12.0))
 
+    @cached_property
     def motion(self) -> tuple[Array, Array]:
         """Smoothed speed [rad/s or m/s] and acceleration [rad/s^2 or m/s^2], (n,) each."""
-        return self._motion
-
-    @cached_property
-    def _motion(self) -> tuple[Array, Array]:
-        step, length = self.sample_time, self.smoothing_length()
+        step, length = self.sample_time, self.smoothing_length
         if self.position.size and not self.speed.size:
             speed = smooth(self.position, length, derivative=1, step=step)
             return speed, smooth(self.position, length, derivative=2, step=step)
         return smooth(self.speed, length), smooth(self.speed, length, derivative=1, step=step)
 
+    @cached_property
     def smoothing_length(self) -> int:
         """Samples over which it is smoothed: what its speed allows; for the derivatives of a position the most."""
-        return self._smoothing_length
-
-    @cached_property
-    def _smoothing_length(self) -> int:
         return smoothing_length(self.speed, resolution=self.quantisation("speed")) if self.speed.size else LENGTHS[0]
 
 
@@ -295,7 +289,7 @@ def windowed(run: Run, length: int = WINDOW) -> Run:
     """
     if not run.can_restart:
         return run
-    speed, position = run.motion()[0], run.angle
+    speed, position = run.motion[0], run.angle
     return replace(
         run,
         restart_every=length,

@@ -40,7 +40,7 @@ def unknown_inputs(
     voltage and speed alone the current is at rest with the speed, so both carry the mismatch. A transfer function has
     no torque: its place is taken by the error of the output; `vector` then holds the state at the start of the run.
     """
-    speed, acceleration = run.motion()
+    speed, acceleration = run.motion
     none = np.zeros(speed.size)
     if drive.coefficients:
         left = simulator.simulate(run, vector, active).signals["speed"]
@@ -48,7 +48,7 @@ def unknown_inputs(
             time=run.time, speed=speed, acceleration=acceleration, current=none, angle=none,
             torque=run.speed - left, voltage=np.empty(0),
         )  # fmt: skip
-    length = run.smoothing_length()  # the same for all signals: then the linear equations still hold
+    length = run.smoothing_length  # the same for all signals: then the linear equations still hold
     given = np.ascontiguousarray(smooth(run.input, length))
     current = smooth(run.current, length) if run.current.size else np.empty(0)
     torque, voltage = along_motion(

@@ -180,7 +180,7 @@ def torque_spectrum(problem: Problem, vector: Array, active: Sequence[int], orde
 def _lacking_torque(problem: Problem, vector: Array, active: Sequence[int], run: Run) -> Array:
     if not problem.drive.force:
         return unknown_inputs(problem.drive, problem.simulator, run, vector).torque
-    speed, acceleration = run.motion()
+    speed, acceleration = run.motion
     needed = needed_force(
         problem.simulator, vector, active, time=run.time, position=np.ascontiguousarray(run.position), speed=speed,
         acceleration=acceleration,
