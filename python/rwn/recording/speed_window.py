@@ -7,6 +7,8 @@ over any other time, with any other delay, or a first-order filter, which other 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +16,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 LONGEST_WINDOW = 40  # rows of a window
+WIDTHS = range(1, LONGEST_WINDOW + 1)
 JUDGED = 4000  # rows that are looked at
 LIKELIER = float(np.log(1000.0))  # than every other window, delay and filter
 MEMORIES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)  # of first-order filters, from update to update
@@ -32,19 +35,21 @@ def window_of(time: Array, speed: Array, position: Array, new: Flags) -> int:
     if moving.sum() < 2 * LONGEST_WINDOW:
         return 0
     update = max(round(float(np.median(np.diff(rows)))), 1)
-    filtered = _filtered(time, speed, position, rows, moving, update)
-    rows = rows[moving][:JUDGED]
-    errors = _errors(time, speed, position, rows)
-    best = 1 + int(np.argmin([errors[width - 1, width] for width in range(1, LONGEST_WINDOW + 1)]))
+    judged = rows[moving][:JUDGED]
+    backward = _errors(time, speed, position, judged, [(width, width) for width in WIDTHS])
+    best = 1 + int(np.argmin(np.min(backward, axis=1)))
     if best <= 2 * update:  # not distinguished from its neighbours
         return 0
-    widths, delays = np.arange(1, LONGEST_WINDOW + 1)[:, None], np.arange(2 * LONGEST_WINDOW + 1)
+    whole = [(width, delay) for width in WIDTHS for delay in range(width % 2, 2 * LONGEST_WINDOW + 1, 2)]
+    errors = _errors(time, speed, position, judged, whole)
+    filtered = _filtered(time, speed, position, rows, moving, update)
+    widths, delays = np.array(WIDTHS)[:, None], np.arange(2 * LONGEST_WINDOW + 1)
     other = (np.abs(widths - best) > update) | (
         np.abs(delays - best) > 2 * update
     )  # out of step by more than an update
     own, rival = float(np.min(errors[~other])), min(float(np.min(errors[other])), filtered)
     floor = 1e-12 * float(np.max(np.abs(speed)))
-    independent = rows.size * min(update / best, 1.0)
+    independent = judged.size * min(update / best, 1.0)
     return best if independent * np.log(max(rival, floor) / max(own, floor)) > LIKELIER else 0
 
 
@@ -60,19 +65,20 @@ def _filtered(time: Array, speed: Array, position: Array, rows: NDArray[np.intp]
     return best
 
 
-def _errors(time: Array, speed: Array, position: Array, rows: NDArray[np.intp]) -> Array:
+def _errors(
+    time: Array, speed: Array, position: Array, rows: NDArray[np.intp], pairs: Iterable[tuple[int, int]]
+) -> Array:
     """Median error of the mean speed over each width (rows), with each delay of its middle (columns, half rows).
 
-    Infinite where width and delay make no whole rows, or reach further than the recording is looked at.
+    Infinite at what is not among the `pairs` of both, or reaches further than the recording is looked at.
     """
     errors = np.full((LONGEST_WINDOW, 2 * LONGEST_WINDOW + 1), np.inf)
     shifts = range(-2 * LONGEST_WINDOW, LONGEST_WINDOW + 1)
     positions, times = ({k: signal[rows + k] for k in shifts} for signal in (position, time))
     own = speed[rows]
-    for width in range(1, LONGEST_WINDOW + 1):
-        for delay in range(width % 2, 2 * LONGEST_WINDOW + 1, 2):
-            first, last = (-delay - width) // 2, (width - delay) // 2
-            if first >= -2 * LONGEST_WINDOW and last <= LONGEST_WINDOW:
-                mean = (positions[last] - positions[first]) / (times[last] - times[first])
-                errors[width - 1, delay] = np.median(np.abs(own - mean))
+    for width, delay in pairs:
+        first, last = (-delay - width) // 2, (width - delay) // 2
+        if first >= -2 * LONGEST_WINDOW and last <= LONGEST_WINDOW:
+            mean = (positions[last] - positions[first]) / (times[last] - times[first])
+            errors[width - 1, delay] = np.median(np.abs(own - mean))
     return errors
