@@ -51,6 +51,18 @@ def test_spikes_among_such_peaks_are_found() -> None:
     assert set(np.flatnonzero(SPIKES.flags(_recording(current=current), "current"))) == set(at)
 
 
+@pytest.mark.parametrize("fastest", [1.5, 60.0])
+def test_under_a_sweep_no_sample_is_after_a_step(fastest: float) -> None:
+    """Nor need a spike be beyond all of the motion: that a sine changes fast is no step."""
+    voltage = 15.0 * np.sin(2.0 * np.pi * (0.3 + (fastest - 0.3) * TIME / 8.0) * TIME)
+    speed = 120.0 * np.sin(2.0 * np.pi * 0.4 * TIME) + 0.25 * np.random.default_rng(2).standard_normal(TIME.size)
+    at = np.arange(150, TIME.size, 400)
+    speed[at] -= 200.0 * np.sign(speed[at])  # within the motion
+    assert np.abs(speed[at]).max() < 200.0
+    run = Recording(name="run", time=TIME, signals={"voltage": voltage, "speed": speed})
+    assert np.flatnonzero(SPIKES.flags(run, "speed")).tolist() == at.tolist()
+
+
 def test_a_dropout_on_a_steep_flank_is_found_by_the_value_that_others_have() -> None:
     current = _peaks(0.02)
     flank = 501 + int(np.argmax(np.diff(current)[500:]))

@@ -19,14 +19,18 @@ BESIDE = 0.25  # most that a signal may move beside a spike, in units of the jum
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
 FEWEST = 8  # samples among which one is found
 SETTLING = 3  # samples after a step of the input in which a current may peak by itself
+NEARBY = 25  # samples whose changes a step of the input stands out from: a sine has none
 
 
 def _after_steps(recording: Recording) -> Flags:
-    """Samples at or shortly after a step of the input that stands out from its other changes."""
+    """Samples at or shortly after a step of the input that stands out from its changes nearby and from small ones."""
+    from scipy.ndimage import median_filter  # late: the command line starts without it
+
     flags = np.zeros(len(recording), dtype=bool)
     for name in (s for s in recording.signals if s not in MEASURED):
         change = np.abs(np.diff(recording.signals[name], prepend=recording.signals[name][0]))
-        stepped = change > BESIDE * float(np.max(change, initial=0.0))
+        usual = np.maximum(median_filter(change, NEARBY) / BESIDE, BESIDE * float(np.max(change, initial=0.0)))
+        stepped = change > usual
         for late in range(SETTLING + 1):
             flags[late:] |= stepped[: flags.size - late]
     return flags
