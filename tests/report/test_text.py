@@ -61,6 +61,19 @@ def test_what_a_name_leaves_is_said_beside_it() -> None:
     assert "What it leaves of the speed, 12 % of the mismatch, is not noise" in verdict_sentence(left)
 
 
+@pytest.mark.parametrize(("added", "who"), [
+    (("coulomb-friction", "unbalance"), "them"), ((), "them"), (("unbalance",), "unbalance alone"),
+    (("stribeck-friction", "unbalance"), "Stribeck friction and unbalance"),
+])  # fmt: skip
+def test_the_proof_is_of_what_the_corrected_model_holds(added: tuple[str, ...], who: str) -> None:
+    both = Alternative(effects=("coulomb-friction", "unbalance"), probability=0.94)
+    effects = made_up.found().effects * 2
+    found = replace(made_up.found(), explanation=both, effects=effects, added=added)
+    assert f"Adding {who} reduces" in verdict_sentence(found)
+    held = who if who != "them" else "the effects that were found"
+    assert any(f"holds the model with {held}:" in step for step in next_steps(found))
+
+
 def test_a_loss_is_not_called_a_gain() -> None:
     found = made_up.found()
     worse = replace(found, heldout=(replace(found.heldout[0], gain=-0.2),))

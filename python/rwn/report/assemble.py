@@ -87,6 +87,7 @@ def assemble(
         version=__version__,
         elapsed=elapsed,
         stand_in=correction.stands_in,
+        added=correction.final.added,
         corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, doubt=doubt)),
     )
 

@@ -48,6 +48,7 @@ class Diagnosis(DiagnosisData):
     remainder: what the stated effects leave of the error.
     sources: the files that were used. command, seed, version: what made this; elapsed [s]: how long it took.
     stand_in: what stands in the corrected model for what has no name; empty where nothing does.
+    added: effects that the corrected model holds beyond those of the model as given.
     corrected: the corrected rwn.Model; None of a diagnosis whose folder has no corrected.toml.
 
     Equal diagnoses are those that are saved alike; how long they took and the command that made them do not count.

@@ -93,6 +93,7 @@ class DiagnosisData:
     version: str = ""
     elapsed: float = field(default=0.0, compare=False)  # [s]; like command, left out of the JSON
     stand_in: str = ""  # what stands in corrected.toml for what has no name: "a wavelet network, a torque over speed"
+    added: tuple[str, ...] = ()  # effects that corrected.toml holds beyond those of the model as given
     corrected: Any = None  # the corrected rwn.Model; written to corrected.toml, left out of the JSON
 
     def to_json(self) -> bytes:

@@ -51,9 +51,18 @@ def _missing(found: DiagnosisData) -> tuple[str, ...]:
     if len(found.set) > 1:
         names = listing([plain_name(name) for name in found.set], "or")
         parts = [f"{names} (these recordings cannot tell which)", *parts[1:]]
-    them = "it" if len(found.effects) == 1 else "them"
+    them = held_part(found) or ("it" if len(found.effects) == 1 else "them")
     said = f"{_contradiction(found)}The model lacks {listing(parts)}."
     return (said, *_proof(found, f"Adding {them}"), *_left(found))
+
+
+def held_part(found: DiagnosisData) -> str:
+    """What corrected.toml holds where that is not the explanation that is stated; empty where it is."""
+    stated = set(found.explanation.effects) if found.explanation else set()
+    if not found.added or stated == set(found.added):
+        return ""
+    names = listing([plain_name(name) for name in found.added])
+    return f"{names} alone" if stated > set(found.added) else names
 
 
 def _contradiction(found: DiagnosisData) -> str:
