@@ -189,7 +189,7 @@ def unexplained() -> Diagnosis:
         curves=(*one.curves[:4], spectrum(np.random.default_rng(2))),
         account=(acting("unbalance", 0.31, 0.22), acting("coulomb-friction", 0.02, 0.04)),
         remainder=Remainder(share=1.0, error=8.0, signals=("speed",)),
-        warnings=("train_1.csv, line 812: 2 gap(s) of up to 4.0 sample times: input taken as held",),
+        warnings=("train_1.csv, line 812: 2 gap(s) of up to 4.0 sample times, where rows are missing",),
         next_experiment="Turn the shaft slowly by hand over two revolutions, drive switched off.",
     )
 

@@ -72,17 +72,17 @@ def test_wanted_is_what_may_hold_a_signal() -> None:
 @pytest.mark.parametrize(
     ("name", "unit", "fix"),
     [
-        ("sped", "rpm", "did you mean 'speed'? rename it, or add to [recording]: rename = { 'sped' = 'speed' }"),
-        ("omega", None, "did you mean 'speed [rad/s]'? add its unit, or to [recording]: columns.speed = "
+        ("sped", "rpm", "did you mean 'speed'? rename it, or add to [recording]: columns.speed = { source = 'sped' }"),
+        ("omega", None, "did you mean 'speed [rad/s]'? add its unit, or add to [recording]: columns.speed = "
                         "{ source = 'omega', unit = 'rad/s' }"),
         ("speed_rpm", None, "write 'speed [rpm]', or add to [recording]: columns.speed = "
                             "{ source = 'speed rpm', unit = 'rpm' }"),
         ("speed_m/s", None, "write 'speed [m/s]', or add to [recording]: columns.speed = "
                              "{ source = 'speed m/s', unit = 'm/s' }"),
         ("rpm", None, "write 'speed [rpm]', or add to [recording]: columns.speed = { source = 'rpm', unit = 'rpm' }"),
-        ("Speed_V", None, "did you mean 'speed [rad/s]'? add its unit, or to [recording]: columns.speed = "
+        ("Speed_V", None, "did you mean 'speed [rad/s]'? add its unit, or add to [recording]: columns.speed = "
                           "{ source = 'Speed V', unit = 'rad/s' }"),
-        ("Voltage", None, "did you mean 'voltage [V]'? add its unit, or to [recording]: columns.voltage = "
+        ("Voltage", None, "did you mean 'voltage [V]'? add its unit, or add to [recording]: columns.voltage = "
                           "{ source = 'Voltage', unit = 'V' }"),
     ],
 )  # fmt: skip
@@ -91,6 +91,15 @@ def test_what_is_nearly_called_like_a_signal_is_a_slip(name: str, unit: str | No
     shown = name.replace("_", " ")
     assert (said.what, said.fix) == (f"column '{shown}' is no known signal", fix)
     assert said.expected == ", ".join(COLUMNS)
+
+
+def test_all_slips_of_a_file_are_said_at_once() -> None:
+    said = _refused(_table(t="s", U="V", w="1/min"), Layout())
+    assert said.what == "columns 't', 'U', 'w' are no known signals"
+    assert said.fix == (
+        "where they are meant so, add to [recording], a line each: columns.time = { source = 't' }; "
+        "columns.voltage = { source = 'U' }; columns.speed = { source = 'w' }"
+    )
 
 
 def test_a_slip_beside_the_signal_itself_is_another_column() -> None:

@@ -88,15 +88,10 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
     known = _by_profile(table, layout)
     mapping |= known | {name: _placed(table, name, column, known) for name, column in layout.columns.items()}
     used = {column.source for column in mapping.values()}
-    for name in table.units:
-        signal = meant(name) if by_name and layout.profile is None and name not in used else None
-        if signal is not None and signal not in mapping:
-            raise InputError(
-                f"column '{name}' is no known signal",
-                where=table.where,
-                expected=", ".join(COLUMNS),
-                fix=_remedy(table, name, signal),
-            )
+    others = [name for name in table.units if by_name and layout.profile is None and name not in used]
+    slips = {name: signal for name in others if (signal := meant(name)) is not None and signal not in mapping}
+    if slips:
+        raise _no_known_signals(table, slips)
     if not mapping:
         parts = [name.rpartition(".")[0] for name in table.units if name.rpartition(".")[2] in COLUMNS]
         if any(parts):
@@ -121,19 +116,36 @@ def _placed(table: Table, name: str, column: Column, known: Mapping[str, Column]
     return replace(column, source=known[name].source) if unsaid and name in known else column
 
 
-def _remedy(table: Table, name: str, signal: str) -> str:
-    """For a column whose name is nearly that of a signal; a unit may stand in the name, or nowhere."""
+def _no_known_signals(table: Table, slips: Mapping[str, str]) -> InputError:
+    """The refusal of columns whose names are nearly those of signals: all at once."""
+    remedies = {name: _remedy(table, name, signal) for name, signal in slips.items()}
+    (name, (said, _)), several = next(iter(remedies.items())), len(slips) > 1
+    entries = "; ".join(entry for _, entry in remedies.values())
+    columns = ", ".join(f"'{name}'" for name in slips)
+    return InputError(
+        f"columns {columns} are no known signals" if several else f"column '{name}' is no known signal",
+        where=table.where,
+        expected=", ".join(COLUMNS),
+        fix=f"where they are meant so, add to [recording], a line each: {entries}" if several else
+        f"{said}, or add to [recording]: {entries}",
+    )  # fmt: skip
+
+
+def _remedy(table: Table, name: str, signal: str) -> tuple[str, str]:
+    """For a column whose name is nearly that of a signal, in words and as an entry of the column map.
+
+    A unit may stand in the name, or nowhere.
+    """
     words = re.split(r"[\s_.-]+", name)
     tail = words[-1] if len(words) > 1 or name.lower() != signal else ""
     si, kinds = si_unit(COLUMNS[signal], False), {COLUMNS[signal].unit, COLUMNS[signal].linear_unit} - {""}
     alike = units.is_unit(tail) and any(units.has_dimension(tail, kind, where=table.where) for kind in kinds)
     if not table.units[name] and alike:
-        column = f"{{ source = '{name}', unit = '{tail}' }}"
-        return f"write '{signal} [{tail}]', or add to [recording]: columns.{signal} = {column}"
+        return f"write '{signal} [{tail}]'", f"columns.{signal} = {{ source = '{name}', unit = '{tail}' }}"
     if not table.units[name]:
-        column = f"{{ source = '{name}', unit = '{si}' }}"
-        return f"did you mean '{signal} [{si}]'? add its unit, or to [recording]: columns.{signal} = {column}"
-    return f"did you mean '{signal}'? rename it, or add to [recording]: rename = {{ '{name}' = '{signal}' }}"
+        entry = f"columns.{signal} = {{ source = '{name}', unit = '{si}' }}"
+        return f"did you mean '{signal} [{si}]'? add its unit", entry
+    return f"did you mean '{signal}'? rename it", f"columns.{signal} = {{ source = '{name}' }}"
 
 
 def _by_profile(table: Table, layout: Layout) -> dict[str, Column]:
