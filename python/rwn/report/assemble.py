@@ -177,8 +177,8 @@ def _warnings(
         )
     if ranking.cut_short:
         texts.append(
-            f"{ranking.cut_short} effects at once were tried with the likeliest alone, since the search had cost what "
-            "it may: --effort 3 leaves room for others, and so do recordings of fewer samples"
+            f"the search ended early: of {ranking.cut_short} effects at once only those with the likeliest one were "
+            "tried; --effort 3, or recordings of fewer samples, leave room for the others"
         )
     for f in ranking.at_a_limit[:1]:
         met = [unknown_name(name) for name in f.limits_met]
