@@ -102,6 +102,7 @@ def simulate(
     from rwn.model.recordings import read_recordings
     from rwn.recording.recording import write_csv
     from rwn.report.files import output_file
+    from rwn.report.simulated import simulated
 
     with output_file(out, overwrite=overwrite, inputs=[model, recording]) as aside:
         drive = _model(model, profile)
@@ -113,7 +114,7 @@ def simulate(
         done = f"The signals in {out} are held from there on." if partial else "Nothing was written."
         typer.echo(f"rwn: {run.status}: {run.advice} {done}", err=True)
         raise typer.Exit(NO_RESULT)
-    typer.echo(f"{len(run.time)} samples of {', '.join(run.signals)} in {out}")
+    typer.echo("\n".join(simulated(run, source, out)))
 
 
 @app.command()
@@ -146,8 +147,7 @@ def identify(
     from rwn.report import identification
     from rwn.report.files import output_file
 
-    inputs = [model, *recordings]
-    with output_file(out, overwrite=overwrite, inputs=inputs) if out else nullcontext() as aside:
+    with output_file(out, overwrite=overwrite, inputs=[model, *recordings]) if out else nullcontext() as aside:
         nominal = _model(model, profile)
         files = read_recordings(recordings, nominal)
         fit = _rwn().identify(files, nominal)
