@@ -12,7 +12,7 @@ from rwn.fit.problem import Problem
 from rwn.simulate.run import Run
 
 SCREENING_SAMPLES = 6000  # samples of a part on which effects are told apart
-FIRST_ROUND_SAMPLES = 2500  # samples of a part on which starts of one effect beside others are told apart
+FIRST_SAMPLES = 2500  # samples of a part on which the starts of one effect are told apart, before they are fitted
 LEAST_SHARE = 0.25  # least share of a run's squared error that has to lie in a part
 
 
@@ -23,8 +23,8 @@ def screening_part(problem: Problem, base: Fit) -> Problem:
 
 
 def first_part(problem: Problem, base: Fit) -> Problem:
-    """The part of the problem on which the starts of one effect beside others are told apart."""
-    return part(problem, base, FIRST_ROUND_SAMPLES)
+    """The part of the problem on which the starts of one effect are told apart, before they are fitted."""
+    return part(problem, base, FIRST_SAMPLES)
 
 
 def part(problem: Problem, base: Fit, samples: int) -> Problem:

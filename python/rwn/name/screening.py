@@ -1,6 +1,7 @@
 """Screens every effect that might be missing: many starts, few iterations each, the promising ones to the end.
 
-Successive halving: after every round, on more samples than the last, the better starts of each effect go on.
+The starts of an effect are told apart before they are fitted (`first_order`); then successive halving: after every
+round, on more samples than the last, the better ones go on.
 """
 
 from __future__ import annotations
