@@ -75,7 +75,7 @@ def _without_level(recorded: Array, simulated: Array) -> tuple[Array, Array]:
     moving = max(float(np.count_nonzero(direction)), 1.0)
     levels = [float(direction @ x) / moving for x in (recorded, simulated)]
     y, x = (values - level * direction for values, level in zip((recorded, simulated), levels, strict=True))
-    slope = float(np.sqrt((y @ y) / max(float(x @ x), 1e-300)))
+    slope = float(np.sqrt((y @ y) / max(float(x @ x), 1e-200)))
     towards = 1.0 if float(y @ x) >= 0.0 else -1.0
     return (y, x) if slope * levels[1] > towards * levels[0] else (recorded, simulated)
 
