@@ -23,8 +23,8 @@ from rwn.unnamed_law.law import has_room, with_network
 from rwn.unnamed_law.places import Place, all_places
 from rwn.unnamed_law.screening import most_promising
 
-BRIEFLY = 2  # iterations of every curve: the weights are linear but for the motion that they change
-ITERATIONS = 4  # further ones of those that leave least
+AT_FIRST = 2  # iterations of every curve: the weights are linear but for the motion that they change
+FURTHER = 4  # further ones of those that leave least
 GO_ON = 3  # so many
 SHARES = 16  # of the work of a stage, for each curve
 SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights at the best of all places
@@ -92,10 +92,10 @@ def _best_curve(
 
     def begun(place: Place) -> _Fitted:
         on, with_it = with_network(part, model, place, PART, motor=this.motor, effects=effects)
-        return _Fitted(place, on, fit(on, this.carried_to(with_it), max_iterations=BRIEFLY, share=share))
+        return _Fitted(place, on, fit(on, this.carried_to(with_it), max_iterations=AT_FIRST, share=share))
 
     def gone_on(one: _Fitted) -> _Fitted:
-        return one._replace(fit=refit(one.fit, one.on, iterations=ITERATIONS, share=share))
+        return one._replace(fit=refit(one.fit, one.on, iterations=FURTHER, share=share))
 
     found = all_places(part, model)
     tried = list(dict.fromkeys(chain.from_iterable(most_promising(part, one, found, PART) for one in leaving)))

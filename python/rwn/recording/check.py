@@ -11,7 +11,7 @@ from rwn.errors import InputError
 
 MIN_SAMPLES = 50
 SMALLEST, LARGEST = 1e-12, 1e12  # of the largest value of a signal in SI that moves: no drive comes near either
-GAP_WARNED, GAP_REFUSED = 2.5, 20.0  # times the median sample time: two rows are missing, eighteen
+GAP_WARNED, GAP_REFUSED = 2.5, 20.0  # times the median sample time: from two lost rows on
 
 Row = Callable[[int], str]
 Array = NDArray[np.float64]

@@ -118,17 +118,14 @@ def _placed(table: Table, name: str, column: Column, known: Mapping[str, Column]
 
 def _no_known_signals(table: Table, slips: Mapping[str, str]) -> InputError:
     """The refusal of columns whose names are nearly those of signals: all at once."""
-    remedies = {name: _remedy(table, name, signal) for name, signal in slips.items()}
-    (name, (said, _)), several = next(iter(remedies.items())), len(slips) > 1
-    entries = "; ".join(entry for _, entry in remedies.values())
+    said, entries = zip(*(_remedy(table, name, signal) for name, signal in slips.items()), strict=True)
     columns = ", ".join(f"'{name}'" for name in slips)
-    return InputError(
-        f"columns {columns} are no known signals" if several else f"column '{name}' is no known signal",
-        where=table.where,
-        expected=", ".join(COLUMNS),
-        fix=f"where they are meant so, add to [recording], a line each: {entries}" if several else
-        f"{said}, or add to [recording]: {entries}",
-    )  # fmt: skip
+    what = f"column {columns} is no known signal"
+    fix = f"{said[0]}, or add to [recording]: {entries[0]}"
+    if len(slips) > 1:
+        what = f"columns {columns} are no known signals"
+        fix = f"where they are meant so, add to [recording], a line each: {'; '.join(entries)}"
+    return InputError(what, where=table.where, expected=", ".join(COLUMNS), fix=fix)
 
 
 def _remedy(table: Table, name: str, signal: str) -> tuple[str, str]:

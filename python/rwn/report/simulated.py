@@ -5,35 +5,27 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-import numpy as np
-
 from rwn.recording.columns import si_unit
-from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
-from rwn.recording.signals import COLUMNS, MEASURED
+from rwn.recording.signals import COLUMNS
 from rwn.recording.units import factor
 from rwn.report.text import number, symbol
+from rwn.simulate.recorded_error import recorded_errors
 from rwn.simulate.simulation import Simulation
 
 
 def simulated(run: Simulation, source: Recording, out: Path) -> Iterator[str]:
-    """What `out` holds, and the rms error of each signal that was recorded too, in the recording's units.
-
-    Samples that measure nothing (spikes, what is held between updates) do not count.
-    """
+    """What `out` holds, and the rms error of each signal that was recorded too, in the recording's units."""
     yield f"{len(run.time)} samples of {', '.join(run.signals)} in {out}"
-    (recording,), _ = inspected([source])
-    errors, left_out = [], 0
-    for signal in (s for s in MEASURED if s in run.signals and s in recording.signals):
-        missing = recording.missing.get(signal, np.zeros(len(recording), dtype=bool))
-        error = (recording.signals[signal] - run.signals[signal])[~missing]
-        if not error.size:
-            continue
-        si = si_unit(COLUMNS[signal], source.linear)
-        unit = source.units.get(signal, si)
-        rms = float(np.sqrt(np.mean(error**2))) / (1.0 if unit == si else factor(unit, si, where=source.name))
-        errors.append(f"{number(rms)} {symbol(unit)} of the {signal}")
-        left_out += int(missing.sum())
+    errors = recorded_errors(run, source)
     if errors:
+        said = [f"{_in_its_unit(error.rms, signal, source)} of the {signal}" for signal, error in errors.items()]
+        left_out = sum(error.left_out for error in errors.values())
         beside = f" ({left_out} samples that measure nothing left out)" if left_out else ""
-        yield f"rms error against {source.name}: {', '.join(errors)}{beside}"
+        yield f"rms error against {source.name}: {', '.join(said)}{beside}"
+
+
+def _in_its_unit(rms: float, signal: str, source: Recording) -> str:
+    si = si_unit(COLUMNS[signal], source.linear)
+    unit = source.units.get(signal, si)
+    return f"{number(rms if unit == si else rms / factor(unit, si, where=source.name))} {symbol(unit)}"

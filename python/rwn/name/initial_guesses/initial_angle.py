@@ -102,8 +102,8 @@ def _of_a_sine(slope: Array, curvature: Array, amplitude: float) -> float:
     By normal equations (2,), (2, 2) by amplitude and phase: the derivative by the phase is A times the same law a
     quarter of a period on, so that any phase is a combination of the two.
     """
-    unit = np.array([1.0, 1.0 / amplitude])
     if not (amplitude and np.isfinite(slope).all()):
         return 0.0
+    unit = np.array([1.0, 1.0 / amplitude])
     cosine, sine = np.linalg.lstsq(curvature * np.outer(unit, unit), slope * unit)[0]
     return float(np.arctan2(sine, cosine))
