@@ -17,8 +17,8 @@ def observable(name: str, problem: Problem) -> bool:
         return False
     if effect.rectifies and not _may_be_rectified(problem):
         return False
-    if effect.guess == "values":
-        return False  # read off the values, not fitted
+    if effect.guess in ("values", "declared"):
+        return False  # read off the values, or known beforehand
     if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
         turns = not problem.drive.linear
         if turns and any(p.replaces for p in effect.parameters):

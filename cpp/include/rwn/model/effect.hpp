@@ -67,11 +67,12 @@ constexpr Hook operator|(Hook a, Hook b) { return Hook{static_cast<unsigned>(a) 
 constexpr bool has(Hook all, Hook one) { return (static_cast<unsigned>(all) & static_cast<unsigned>(one)) != 0; }
 
 /// Where first guesses come from: what the parameters scan; a spectrum over the angle; a change of the residual in time;
-/// a resonance of it; or the recorded values themselves, so that nothing is fitted.
-enum class Guess { scan, spectrum, window, resonance, values };
+/// a resonance of it; the recorded values themselves, so that nothing is fitted; or the model that declares the effect, so
+/// that nothing is sought.
+enum class Guess { scan, spectrum, window, resonance, values, declared };
 
 constexpr std::string_view to_string(Guess guess) {
-  constexpr std::string_view names[] = {"scan", "spectrum", "window", "resonance", "values"};
+  constexpr std::string_view names[] = {"scan", "spectrum", "window", "resonance", "values", "declared"};
   return names[static_cast<int>(guess)];
 }
 

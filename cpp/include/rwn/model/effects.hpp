@@ -27,6 +27,7 @@
 #include "rwn/model/effects/quadratic_drag.hpp"
 #include "rwn/model/effects/resistance_heating.hpp"
 #include "rwn/model/effects/sensor_bias.hpp"
+#include "rwn/model/effects/sensor_gain.hpp"
 #include "rwn/model/effects/sensor_quantization.hpp"
 #include "rwn/model/effects/sensor_rectification.hpp"
 #include "rwn/model/effects/shaft_compliance.hpp"
@@ -49,7 +50,7 @@ using Effects =
                Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation,
                BrushVoltageDrop, CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone,
                VoltageSaturation, SupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag,
-               SpeedMovingAverage, CurrentSensorLag, SensorRectification, SensorBias, SensorQuantization>;
+               SpeedMovingAverage, CurrentSensorLag, SensorRectification, SensorGain, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

@@ -4,21 +4,45 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+if TYPE_CHECKING:
+    from rwn.model.model import Model
+
 Array = NDArray[np.float64]
 
 TASK = "task.json"  # in a trial's folder: {"heldout": true} gives the diagnosis the held-out recordings
+GAINS = ("speed_gain", "current_gain")  # of the sensors, whose stated uncertainty a task may hold
+
+
+def task_of(folder: Path) -> Mapping[str, Any]:
+    """What a trial states beside its model; nothing without a task."""
+    path = folder / TASK
+    found: dict[str, Any] = json.loads(path.read_text()) if path.exists() else {}
+    return found
 
 
 def heldout_given(folder: Path) -> bool:
     """Whether the diagnosis may see the held-out recordings; without a task it may not."""
-    path = folder / TASK
-    return path.exists() and bool(json.loads(path.read_text())["heldout"])
+    return bool(task_of(folder).get("heldout", False))
+
+
+def model_of_trial(folder: Path) -> Model:
+    """The model of a trial, with the uncertainty of its sensors' scales where the task states one."""
+    from rwn.model.files import read_model
+
+    model, stated = read_model(folder / "model.toml"), task_of(folder).get("gain_uncertainty")
+    if stated is None:
+        return model
+    exact = {"sensor-gain": dict.fromkeys(GAINS, 1.0)}
+    doubt = {f"sensor-gain.{gain}": float(stated) for gain in GAINS}
+    return replace(model, effects={**model.effects, **exact}, uncertainty={**model.uncertainty, **doubt})
 
 
 def train_files(folder: Path) -> list[Path]:
@@ -53,13 +77,13 @@ def diagnose_trial(folder: Path, out: Path) -> None:
     from rwn.decide.calibration import calibration
     from rwn.diagnose import diagnose  # heavy, and the score needs only the file names above
     from rwn.faults.late_enable import late_enables, powered
-    from rwn.model.files import read_model, write_model
+    from rwn.model.files import write_model
     from rwn.recording.recording import read_recording
     from rwn.simulate.simulation import simulate
     from rwn.studies.made import made
 
     out.mkdir(parents=True, exist_ok=True)
-    model = read_model(folder / "model.toml")
+    model = model_of_trial(folder)
     begin = time.perf_counter()
     heldout = [read_recording(path) for path in heldout_files(folder)]
     given = heldout if heldout_given(folder) else ()
