@@ -16,6 +16,7 @@ from rwn.errors import InputError
 from rwn.faults.explain import Explained, explained
 from rwn.faults.fault import without_all
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
+from rwn.faults.uneven_files import uneven_unseen
 from rwn.fit.nominal import check_it_runs
 from rwn.fit.preparation import prepare
 from rwn.model.files import model_of
@@ -88,7 +89,8 @@ def diagnose(
         layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
         corrected = replace(made.corrected, recording=layout)
         enabled = (one.as_finding(model.drive.input) for one in case.late)
-        findings = (*findings, *found.findings, *unseen_findings, *common, *enabled)
+        uneven = uneven_unseen(found.ranking, case.unseen)
+        findings = (*findings, *found.findings, *unseen_findings, *common, *enabled, *uneven)
         warnings = (*made.warnings, *remarks((*fitted, *judged)))
         return replace(made, corrected=corrected, findings=findings, warnings=warnings)
 

@@ -14,9 +14,10 @@ from rwn.fit.fit import fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
-from rwn.measurement.levels import SPREAD, can_differ, friction, uneven, with_levels
+from rwn.measurement.levels import SPREAD, can_differ, friction, level_beside, uneven, with_levels
 from rwn.model.model import Model
 from rwn.name.uneven import uneven_beside
+from rwn.simulate.run import judging_run
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
@@ -116,3 +117,29 @@ def test_the_mean_of_all_is_the_parameters_and_no_levels() -> None:
 def test_a_lone_recording_has_no_level() -> None:
     problem = prepare(_recordings((1.0,)), MODEL)
     assert not can_differ(problem, friction(problem))
+
+
+def test_the_level_of_a_recording_that_was_not_fitted_is_the_one_that_fits_it() -> None:
+    """With the exact motor: the friction that the recording was made with, and an error of its noise."""
+    *known, unseen = _recordings((0.95, 1.05, 1.4))
+    problem, _ = weighted_by_nominal(prepare(known, MODEL))
+    on = with_levels(problem, friction(problem))
+    this, run = fit_nominal(on), judging_run(unseen, MODEL)
+    mean = float(np.sqrt(0.95 * 1.05))
+    assert level_beside(on, this, friction(on), run) == pytest.approx(1.4 / mean, rel=0.01)
+    (left,) = on.on([run]).residuals(this.vector, this.active)
+    (at_the_mean,) = problem.on([run]).residuals(this.vector[: _core.parameter_count()], this.active)
+    noise = on.noise["speed"].level
+    assert np.std(left["speed"]) < 1.2 * noise
+    assert np.std(at_the_mean["speed"]) > 2.0 * noise
+
+
+def test_a_level_of_a_recording_that_nothing_fits_is_not_pursued() -> None:
+    """The likelihood of a recording of no motion depends on no friction: the prior's mean stays."""
+    *known, unseen = _recordings((0.95, 1.05, 1.0))
+    problem, _ = weighted_by_nominal(prepare(known, MODEL))
+    on = with_levels(problem, friction(problem))
+    run = judging_run(unseen, MODEL)
+    nothing = np.zeros_like(run.input)
+    still = replace(run, input=nothing, speed=nothing, current=nothing)
+    assert level_beside(on, fit_nominal(on), friction(on), still) == 1.0

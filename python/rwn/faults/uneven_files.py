@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
-from rwn.measurement.levels import Level, can_differ, friction, uneven
+from rwn.measurement.levels import Level, can_differ, friction, level_beside, uneven
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.name.ranking import Ranking
 from rwn.name.uneven import uneven_beside
 from rwn.parallel import side_by_side
 from rwn.recording.inspection import Finding
+from rwn.simulate.run import Run
 
 
 def uneven_files(ranking: Ranking) -> list[Finding]:
@@ -32,6 +35,28 @@ def uneven_files(ranking: Ranking) -> list[Finding]:
         level, apart = max(decisive, key=lambda row: row[1].log_odds)
         together = "one value is fitted to all; leave out what was recorded of another machine, load or temperature"
         found += _said("files-disagree", apart.problem, apart.fit, level, together)
+    return found
+
+
+def uneven_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
+    """What is said, by file, of friction in recordings that were not fitted, where it differs between those that were.
+
+    It is the level that fits each best: that of another recording says nothing of it.
+    """
+    problem, best = ranking.weighted.in_free_run(), ranking.fits[0].final
+    level = friction(problem)
+    if not (level.parameters and problem.prior.levels):
+        return []
+    found = []
+    for run in problem.on(unseen).runs:
+        factor = level_beside(problem, best, level, run)
+        found.append(
+            Finding(
+                kind="uneven-friction", recording=run.name, signals=(), count=0,
+                words=f"its {level.quantity} is {100.0 * (factor - 1.0):+.2g} % off the mean of the fitted recordings",
+                done="judged at this level, which fits it best; rwn simulate has the mean of corrected.toml",
+            )
+        )  # fmt: skip
     return found
 
 

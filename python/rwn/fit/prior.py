@@ -50,6 +50,11 @@ class Prior:
     table: Mapping[str, Effect] = field(default_factory=table)  # every effect that the model knows
     one_numbers: tuple[OneNumber, ...] = ()  # pairs of parameters
 
+    @property
+    def levels(self) -> tuple[tuple[tuple[int, ...], float], ...]:
+        """What differs from recording to recording: the parameters that each level scales, and its deviation."""
+        return tuple(dict.fromkeys((own.parameters, own.spread) for own in self.of_runs if own.level))
+
     @classmethod
     def of(cls, model: Model) -> Prior:
         """The values of a model with their declared uncertainty."""

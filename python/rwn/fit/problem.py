@@ -19,6 +19,7 @@ from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
+from rwn.simulate.level import nearest_level
 from rwn.simulate.run import Run, windowed
 from rwn.simulate.simulator import Output, Simulator
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
@@ -84,11 +85,16 @@ class Problem:
         return hypothesis(self.prior, (), self.scales)
 
     def started(self, run: Run, vector: Array, active: Sequence[int]) -> Array:
-        """The parameter vector (all,) with the start of this run filled in.
+        """The parameter vector (all,) with the start and the levels of this run filled in.
 
-        An angle that nothing tells, of a run that was not fitted, is the one at which it fits best.
+        An angle that nothing tells, of a run that was not fitted, is the one at which it fits best, as is the level of
+        what differs from recording to recording.
         """
         begun = self.simulator.started(run, vector)
+        for parameters, spread in () if run.levels else self.prior.levels:
+            begun = nearest_level(
+                self.simulator, run, begun, active, parameters=parameters, spread=spread, noise=self.noise
+            )
         if not run.angle_unknown or motor_index(INITIAL_POSITION) in dict(run.start_unknowns).values():
             return begun
         effects = [effect for effect in self.prior.table.values() if effect.index in active]

@@ -99,3 +99,10 @@ def uneven(problem: Problem, this: Fit, level: Level) -> dict[str, tuple[float, 
     factors, deviations = np.exp(logarithms), np.hypot(np.sqrt(np.maximum(np.diag(spread), 0.0)), AGREEMENT)
     rows = zip(names, factors, deviations, strict=True)
     return {name: (float(f), float(f * d)) for name, f, d in rows if abs(np.log(f)) > APART * d}
+
+
+def level_beside(problem: Problem, this: Fit, level: Level, run: Run) -> float:
+    """The quantity of one recording over that of the machine, as a fit has both."""
+    mean, own = this.vector, problem.started(run, this.vector, this.active)
+    scaled = [p for p in level.parameters if mean[p] != 0.0]
+    return float(own[scaled[0]] / mean[scaled[0]]) if scaled else 1.0
