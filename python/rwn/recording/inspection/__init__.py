@@ -12,6 +12,7 @@ from rwn.recording.inspection.clipping import CLIPPING
 from rwn.recording.inspection.finding import Check, Finding, Flags
 from rwn.recording.inspection.held import HELD
 from rwn.recording.inspection.hum import without_hum
+from rwn.recording.inspection.input_noise import without_input_noise
 from rwn.recording.inspection.motion import contradictions
 from rwn.recording.inspection.spikes import SPIKES
 from rwn.recording.recording import Recording
@@ -40,6 +41,8 @@ def inspected(recordings: Sequence[Recording]) -> Inspected:
                     recording = _without(recording, signal, flags, bridged=check.bridged)
         recording, hum = without_hum(recording)
         found += hum
+        recording, noisy = without_input_noise(recording)
+        found += noisy
         found += contradictions(recording)
         made.append(recording)
     return Inspected(made, tuple(found))

@@ -1,0 +1,57 @@
+"""An input without the noise of what recorded it: steady between its steps, or as smooth as its noise leaves it."""
+
+from __future__ import annotations
+
+from math import comb
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.recording.quantisation import quantum
+from rwn.recording.smoothing import LENGTHS, UNTOUCHED, smooth, smoothing_length
+
+Array = NDArray[np.float64]
+
+LEAST = 1e-4  # of the largest value: a converter of 13 bits resolves no less
+ALIKE = 8.0  # standard errors that two estimates of white noise may differ by, in parts of 1 / sqrt(n)
+STEP = 6.0  # deviations of the noise beyond which a change from row to row is a step: one in 5e8 by chance
+NOWHERE: NDArray[np.intp] = np.empty(0, dtype=np.intp)
+
+
+def denoised(values: Array) -> Array | None:
+    """Values (n,) without white noise; None where they show none beyond their rounding."""
+    if values.size <= LENGTHS[0]:
+        return None
+    steps = _steps(values, _noise(values, 2))
+    noise, other = (_noise(values, order, steps) for order in (2, 4))
+    # medians of rounded values are multiples of a step: less noise than that is not seen
+    least = max(quantum(values), LEAST * float(np.max(np.abs(values))))
+    # of what is smooth, higher differences show less than of what is white
+    if noise <= least or abs(other / noise - 1.0) > ALIKE / np.sqrt(values.size):
+        return None
+    return np.concatenate([_stretch(x, noise) for x in np.split(values, _steps(values, noise))])
+
+
+def _steps(values: Array, noise: float) -> NDArray[np.intp]:
+    """The first samples after steps of values (n,)."""
+    return np.flatnonzero(np.abs(np.diff(values)) > STEP * np.sqrt(2.0) * noise) + 1
+
+
+def _noise(values: Array, order: int, steps: NDArray[np.intp] = NOWHERE) -> float:
+    """Standard deviation of white noise on values (n,) by their differences of an order, by those over no step."""
+    change = np.diff(values, order)
+    over = np.zeros(change.size + order, dtype=bool)
+    for row in range(order):
+        over[np.maximum(steps - 1 - row, 0)] = True
+    change = change[~over[: change.size]]
+    if not change.size:
+        return 0.0
+    return 1.4826 * float(np.median(np.abs(change - np.median(change)))) / float(np.sqrt(comb(2 * order, order)))
+
+
+def _stretch(x: Array, noise: float) -> Array:
+    """Values (n,) between two steps."""
+    steady = np.full(x.size, np.mean(x))
+    if np.sqrt(np.sum((x - steady) ** 2) / max(x.size - 1, 1)) <= UNTOUCHED * noise:
+        return steady
+    return smooth(x, smoothing_length(x, resolution=noise))
