@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.quantisation import quantum
-from rwn.recording.smoothing import LENGTHS, UNTOUCHED, smooth, smoothing_length
+from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
 
 Array = NDArray[np.float64]
 
 LEAST = 1e-4  # of the largest value: a converter of 13 bits resolves no less
 ALIKE = 8.0  # standard errors that two estimates of white noise may differ by, in parts of 1 / sqrt(n)
+STEADY = 3.0  # deviations of the sum of squares of noise, beyond which a stretch is not steady
 STEP = 6.0  # deviations of the noise beyond which a change from row to row is a step: one in 5e8 by chance
 NOWHERE: NDArray[np.intp] = np.empty(0, dtype=np.intp)
 
@@ -29,7 +31,14 @@ def denoised(values: Array) -> Array | None:
     # of what is smooth, higher differences show less than of what is white
     if noise <= least or abs(other / noise - 1.0) > ALIKE / np.sqrt(values.size):
         return None
-    return np.concatenate([_stretch(x, noise) for x in np.split(values, _steps(values, noise))])
+    stretches = np.split(values, _steps(values, noise))
+    steady = [_is_steady(x, noise) for x in stretches]
+    levels = iter(_levels([x for x, is_steady in zip(stretches, steady, strict=True) if is_steady], noise))
+    smooth_ones = (
+        np.full(x.size, next(levels)) if is_steady else smooth(x, smoothing_length(x, resolution=noise))
+        for x, is_steady in zip(stretches, steady, strict=True)
+    )
+    return np.concatenate(list(smooth_ones))
 
 
 def _steps(values: Array, noise: float) -> NDArray[np.intp]:
@@ -49,9 +58,20 @@ def _noise(values: Array, order: int, steps: NDArray[np.intp] = NOWHERE) -> floa
     return 1.4826 * float(np.median(np.abs(change - np.median(change)))) / float(np.sqrt(comb(2 * order, order)))
 
 
-def _stretch(x: Array, noise: float) -> Array:
-    """Values (n,) between two steps."""
-    steady = np.full(x.size, np.mean(x))
-    if np.sqrt(np.sum((x - steady) ** 2) / max(x.size - 1, 1)) <= UNTOUCHED * noise:
-        return steady
-    return smooth(x, smoothing_length(x, resolution=noise))
+def _is_steady(x: Array, noise: float) -> bool:
+    """Whether values (n,) between two steps are one value and noise."""
+    free = max(x.size - 1, 1)
+    return bool(np.sum((x - np.mean(x)) ** 2) / noise**2 <= free + STEADY * np.sqrt(2.0 * free))
+
+
+def _levels(stretches: Sequence[Array], noise: float) -> Array:
+    """The value of each steady stretch (m,): its mean, or that of all at a level that comes back, as of a PRBS."""
+    means, sizes = np.array([np.mean(x) for x in stretches]), np.array([x.size for x in stretches])
+    order = np.argsort(means)
+    apart = np.diff(means[order]) > STEP * noise * np.sqrt(1.0 / sizes[order][1:] + 1.0 / sizes[order][:-1])
+    for group in np.split(order, np.flatnonzero(apart) + 1):
+        level = float(np.average(means[group], weights=sizes[group])) if group.size else 0.0
+        off = float(np.sum(sizes[group] * (means[group] - level) ** 2)) / noise**2
+        if off < group.size + ALIKE * np.sqrt(group.size):  # else they are many levels, near each other
+            means[group] = level
+    return means

@@ -59,9 +59,12 @@ def _goes_with(noise: Array, other: Array) -> float:
     """Chance that white noise (n,) goes as closely with another signal (n,), some rows before and after, by nothing."""
     from scipy.stats import chi2  # late: the command line starts without it
 
-    lags = range(-LAGS, LAGS + 1)
-    pairs = [(noise[max(k, 0) : noise.size + min(k, 0)], other[max(-k, 0) : noise.size + min(-k, 0)]) for k in lags]
-    spread = float(np.mean(noise**2) * np.sum(other**2))
-    if spread <= 0.0:
+    lags = np.arange(-LAGS, LAGS + 1)
+    every = [int(k) for k in lags]
+    pairs = [(noise[max(k, 0) : noise.size + min(k, 0)], other[max(-k, 0) : noise.size + min(-k, 0)]) for k in every]
+    along = np.array([float(a @ b) for a, b in pairs])
+    alike = np.array([float(other[k:] @ other[: other.size - k]) for k in range(lags.size)])
+    spread = np.mean(noise**2) * alike[np.abs(lags[:, None] - lags[None, :])]  # of white noise beside this signal
+    if not alike[0] > 0.0:
         return 1.0
-    return float(chi2.sf(sum(float(a @ b) ** 2 for a, b in pairs) / spread, len(pairs)))
+    return float(chi2.sf(along @ np.linalg.pinv(spread, hermitian=True) @ along, lags.size))
