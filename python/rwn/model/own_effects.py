@@ -42,6 +42,7 @@ VARIABLES: dict[str, tuple[str, str]] = {
     "drive_torque": ("N m", "N"),
 }
 
+TURN = 6.28  # rad: bounds of a phase that are written with three digits are a turn apart
 MOST_SCANNED = 2  # most parameters that are scanned together; two make nine starts
 
 
@@ -49,7 +50,7 @@ MOST_SCANNED = 2  # most parameters that are scanned together; two make nine sta
 class OwnParameter:
     """A parameter in SI, fitted from `start` within bounds; with equal bounds a constant that carries a unit.
 
-    `strength`: at zero the effect is absent.
+    `strength`: at zero the effect is absent. `phase`: an angle, values a turn apart are one; its bounds are no limits.
     """
 
     name: str
@@ -59,6 +60,7 @@ class OwnParameter:
     start: float
     meaning: str = ""
     strength: bool = False
+    phase: bool = False
 
     @property
     def fixed(self) -> bool:
@@ -171,6 +173,22 @@ def _check_parameter(p: OwnParameter, where: str) -> None:
             expected="finite lower <= start <= upper",
             fix="correct the bounds",
         )
+    if p.phase:
+        _check_phase(p, where)
+
+
+def _check_phase(p: OwnParameter, where: str) -> None:
+    wrong = (
+        f"its unit is {p.unit}" if p.unit not in ("rad", "1")
+        else "it is a strength too" if p.strength
+        else f"{p.lower:g} to {p.upper:g} is no turn" if p.upper - p.lower < TURN else ""
+    )  # fmt: skip
+    if wrong:
+        raise InputError(
+            f"{p.name} is a phase, but {wrong}", where=where,
+            expected="a parameter in rad that is no strength, with bounds a turn apart",
+            fix="write unit = 'rad', lower = -3.1416, upper = 3.1416, or remove phase = true",
+        )  # fmt: skip
 
 
 def check_own_effects(own: Sequence[OwnEffect], drive: Drive, *, where: str) -> None:
@@ -238,14 +256,19 @@ _EQUATIONS = {effect.site: effect.mismatch for effect in table().values()}
 def _as_parameter(p: OwnParameter, among: Sequence[OwnParameter]) -> Parameter:
     return Parameter(
         name=p.name, unit=p.unit, meaning=p.meaning, lower=p.lower, upper=p.upper, start=p.start, scale=Scale(),
-        scan=_scan(p, among), strength=p.strength, fixed=p.fixed, cyclic=False, order=False, idealised=False,
+        scan=_scan(p, among), strength=p.strength, fixed=p.fixed, cyclic=p.phase, order=False, idealised=False,
         natural=False, replaces=None,
     )  # fmt: skip
 
 
 def _scan(p: OwnParameter, among: Sequence[OwnParameter]) -> tuple[float, ...]:
-    """First guesses of a parameter that bends the formula: where it starts, and half way to either bound."""
-    bending = [q for q in among if not q.strength and not q.fixed]
+    """First guesses of a parameter that bends the formula: where it starts, and half way to either bound.
+
+    A phase has four a turn.
+    """
+    if p.phase:
+        return tuple(p.start + quarter * math.pi / 2.0 for quarter in range(4))
+    bending = [q for q in among if not (q.strength or q.fixed or q.phase)]
     if p not in bending or len(bending) > MOST_SCANNED:
         return ()
     if p.lower > 0.0:

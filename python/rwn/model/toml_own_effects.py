@@ -20,6 +20,7 @@ class ParameterEntry(msgspec.Struct, forbid_unknown_fields=True):
     start: float
     meaning: str = ""
     strength: bool = False
+    phase: bool = False
 
 
 class OwnEffectEntry(msgspec.Struct, forbid_unknown_fields=True):
@@ -59,7 +60,7 @@ def to_lines(effect: OwnEffect) -> list[str]:
     for p in effect.parameters:
         given: dict[str, object] = {"unit": p.unit}
         given |= {key: float(getattr(p, key)) for key in ("lower", "upper", "start")}
-        given |= {key: getattr(p, key) for key in ("strength", "meaning") if getattr(p, key)}
+        given |= {key: getattr(p, key) for key in ("strength", "phase", "meaning") if getattr(p, key)}
         values = ", ".join(f"{key} = {text(value)}" for key, value in given.items())
         lines.append(f"parameters.{p.name} = {{ {values} }}")
     return lines

@@ -19,7 +19,7 @@ def observable(name: str, problem: Problem) -> bool:
         return False
     if effect.guess in ("values", "declared"):
         return False  # read off the values, or known beforehand
-    if any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
+    if effect.turns and any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
         turns = not problem.drive.linear
         if turns and any(p.replaces for p in effect.parameters):
             return True  # of a shaft that rubs, a part of a turn shows where it rubs more

@@ -42,7 +42,7 @@ def aligned(problem: Problem, start: Hypothesis, effect: Effect) -> Hypothesis:
     """
     vector = start.vector.copy()
     known = [run for run in problem.runs if _place(run) is None]
-    phase = next((p for p in effect.parameters if p.cyclic), None)
+    phase = None if effect.own else next((p for p in effect.parameters if p.cyclic), None)
     turned = _best_angle(problem, known, start, effect) if known and phase else 0.0
     for run in problem.runs:
         place = _place(run)
@@ -91,7 +91,7 @@ def _best_angle(problem: Problem, runs: Sequence[Run], start: Hypothesis, effect
         slope, curvature = normal(angle, strengths)
         return float(np.sum(np.maximum(slope, 0.0) ** 2 / np.maximum(np.diag(curvature), 1e-300)))
 
-    if len(phases) == len(strengths) == 1:
+    if len(phases) == len(strengths) == 1 and not effect.own:  # whose periods per revolution its formula hides
         return _of_a_sine(*normal(0.0, [*strengths, *phases]), vectors[0][strengths[0]]) / _order(effect, vectors[0])
     return float(max(angles_to_try([effect], vectors[0]), key=gain))
 
