@@ -103,6 +103,13 @@ def test_what_stands_in_for_a_law_has_to_help_materially(corrected: float, worth
     assert helps([sure]) is worth
 
 
+def test_what_is_certainly_worse_at_low_speed_does_not_help() -> None:
+    better = replace(BETTER, refitted=1.0, corrected=0.5, gain=0.5, gain_interval=(0.4, 0.6))
+    slow = replace(better, region="low speed", corrected=1.5, gain=-0.5, gain_interval=(-0.8, -0.2))
+    assert helps([better, replace(slow, gain_interval=(-0.8, 0.1))])
+    assert not helps([better, slow])
+
+
 @pytest.mark.parametrize(("samples", "judged"), [(900, False), (1100, True)])
 def test_the_driving_force_is_judged_where_the_filters_leave_samples(samples: int, judged: bool) -> None:
     """Inverse dynamics filter the position at either end; a short recording has its free run alone."""

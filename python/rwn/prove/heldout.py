@@ -202,7 +202,8 @@ def log_change(rows: Sequence[HeldoutRow]) -> float:
 def helps(rows: Sequence[HeldoutRow]) -> bool:
     """Whether some signal is certainly better on what was not fitted, none certainly worse, and their mean by WORTH.
 
-    What is certain of one recording need not be so of the next.
+    Nor may any be certainly worse at low speed, which a better mean hides. What is certain of one recording need not be
+    so of the next.
     """
     return _any_certainly_better(rows) and not _any_certainly_worse(rows) and heldout_error(rows) < WORTH
 
@@ -229,7 +230,7 @@ def _any_certainly_better(rows: Sequence[HeldoutRow]) -> bool:
 
 
 def _any_certainly_worse(rows: Sequence[HeldoutRow]) -> bool:
-    return any(r.certain_gain[1] < 0.0 for r in rows if r.region == "all")
+    return any(r.certain_gain[1] < 0.0 for r in rows)
 
 
 def gain_interval(before: Array, after: Array, *, seed: int, draws: int = DRAWS) -> tuple[float, float] | None:
