@@ -19,7 +19,7 @@ from rwn.report.next_steps import next_steps
 from rwn.report.plot import Plot
 from rwn.report.plot_text import in_words
 from rwn.report.plots import DARK, figure
-from rwn.report.sentences import before_after, headline, sentences
+from rwn.report.sentences import acting, before_after, headline, sentences
 
 _VERDICTS = {
     "missing-physics": ("Missing physics", "#0b5563"),
@@ -96,8 +96,9 @@ def _facts(found: DiagnosisData) -> str:
     if found.effects:
         equations = dict.fromkeys(effect.equation for effect in found.effects)
         facts.append((words.listing(list(equations)), "equation at fault"))
-        likely = min(effect.probability for effect in found.effects)
-        names = "this name" if len(found.effects) == 1 else "the least sure of these names"
+        likely, rivals = min((acting(found, effect) for effect in found.effects), key=lambda known: known[0])
+        one = "this name" if not rivals else "this name or one in its place"
+        names = one if len(found.effects) == 1 else "the least sure of these names"
         facts.append((words.likelihood(likely), f"probability of {names}"))
     elif found.verdict == "unexplained":
         left = found.remainder.error**0.5
@@ -123,7 +124,7 @@ def _doubts(found: DiagnosisData) -> str:
 
 
 def _findings(found: DiagnosisData) -> str:
-    parts = [tables.effect_table(found.effects)]
+    parts = [tables.effect_table(found)]
     if len(found.set) > 1:
         names = words.listing([words.plain_name(name) for name in found.set], "or")
         parts.append(f"<p>These recordings cannot tell apart: <b>{escape(names)}</b>.</p>")

@@ -50,10 +50,17 @@ def _missing(found: DiagnosisData) -> tuple[str, ...]:
     parts = [f"{_with_parameters(e)} (probability {likelihood(e.probability)})" for e in found.effects]
     if len(found.set) > 1:
         names = listing([plain_name(name) for name in found.set], "or")
-        parts = [f"{names} (these recordings cannot tell which)", *parts[1:]]
+        either = likelihood(acting(found, found.effects[0])[0])
+        parts = [f"{names} (probability {either} of one of them; these recordings cannot tell which)", *parts[1:]]
     them = held_part(found) or ("it" if len(found.effects) == 1 else "them")
     said = f"{_contradiction(found)}The model lacks {listing(parts)}."
     return (said, *_proof(found, f"Adding {them}"), *_left(found))
+
+
+def acting(found: DiagnosisData, effect: FoundEffect) -> tuple[float, tuple[str, ...]]:
+    """The probability that an effect or one that may act in its place does, and the names of these."""
+    known = next((e for e in found.account if e.name == effect.name), None)
+    return (known.together, known.rivals) if known and known.rivals else (effect.probability, ())
 
 
 def held_part(found: DiagnosisData) -> str:

@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from html import escape
 
 from rwn.mismatch_map.regions import Region
-from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding
 from rwn.report import text as words
 from rwn.report.diagnosis_data import Alternative, DiagnosisData, Source
-from rwn.report.sentences import error_in_words, row_prefix, worse
+from rwn.report.sentences import acting, error_in_words, row_prefix, worse
 
 UNLIKELY = 0.01  # probability below which another explanation is none
 
@@ -48,10 +47,10 @@ def bar(share: float, text: str = "") -> str:
     return f'<span class="bar" aria-hidden="true">{fill}</span> {escape(text or words.percent(share))}'
 
 
-def effect_table(effects: Sequence[FoundEffect]) -> str:
-    """Each found effect with its formula, parameters, intervals and probability."""
+def effect_table(found: DiagnosisData) -> str:
+    """Each found effect with its formula, parameters, intervals and probability, with that of its rivals beside it."""
     rows = []
-    for effect in effects:
+    for effect in found.effects:
         values = "<br>".join(
             f"{_parameter(effect.name, name)} = <b>{escape(words.estimate(value))}</b>"
             for name, value in effect.parameters.items()
@@ -60,6 +59,10 @@ def effect_table(effects: Sequence[FoundEffect]) -> str:
         name = f"<b>{escape(title)}</b><div class=note>{escape(effect.meaning)}</div>"
         formula = f"<code>{escape(effect.formula)}</code>" if effect.formula else "–"
         probability = bar(effect.probability, words.likelihood(effect.probability))
+        together, rivals = acting(found, effect)
+        if rivals:
+            either = words.listing([words.plain_name(rival) for rival in rivals], "or")
+            probability += f"<div class=note>{words.likelihood(together)} with {escape(either)}</div>"
         rows.append([name, escape(effect.equation), formula, values or "–", probability])
     return table(("Effect", "Equation", "Law", "Parameters (95 %)", "Probability"), rows, numbers_from=9)
 
