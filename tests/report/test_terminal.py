@@ -90,6 +90,15 @@ def test_an_adequate_model_has_no_account() -> None:
     assert "What acts" not in "\n".join(lines(found))
 
 
+def test_a_search_that_begins_anew_is_counted() -> None:
+    stream = io.StringIO()
+    with Progress(stream) as progress:
+        for stage, fraction in (("effects one by one", 0.4), ("filters", 0.6), ("effects one by one", 0.1)):
+            progress(stage, fraction)
+    last = stream.getvalue().splitlines()[-1]
+    assert last == " 10 %  search 2: effects one by one"
+
+
 def test_piped_progress_is_a_line_for_each_stage() -> None:
     stream = io.StringIO()
     with Progress(stream) as progress:

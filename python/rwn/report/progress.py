@@ -14,20 +14,26 @@ EARLIEST = 0.05  # share that must be done before the time that is left is worth
 
 
 class Progress:
-    """Callable as `progress(stage, fraction)`, fraction 0 to 1; where it falls, something is done once more, and the
-    time that is left is that of this."""
+    """Callable as `progress(stage, fraction)`, fraction 0 to 1; where it falls, a search is done once more.
+
+    The further search is counted where it is shown, and the time that is left is that of it.
+    """
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
         self._began = time.monotonic()
         self._stage, self._done = "", 0.0
+        self._search = 1
         self._bar: Bar | None = None
         self._task: TaskID | None = None
 
     def __call__(self, stage: str, fraction: float) -> None:
         if fraction < self._done:
             self._began = time.monotonic()
+            self._search += 1
         self._done = fraction
+        if self._search > 1:
+            stage = f"search {self._search}: {stage}"
         if self._bar is not None and self._task is not None:
             left = remaining(time.monotonic() - self._began, fraction)
             self._bar.update(self._task, completed=fraction, description=stage, left=left)
