@@ -12,6 +12,9 @@ from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 
+HALF_WIDTH = 1.96  # of a 95 % interval, in standard deviations
+UNTOLD = 0.9**0.5  # of the declared deviation, that is left where a tenth of the information is the recordings'
+
 
 @dataclass(frozen=True, kw_only=True)
 class FittedParameter:
@@ -30,6 +33,13 @@ class FittedParameter:
             return 0.0
         ratio = self.refitted.value / self.nominal
         return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
+
+    def only_declared(self, fitted: Estimate) -> bool:
+        """Whether the recordings tell less than a tenth of what is known of it; the rest was declared."""
+        if not self.uncertainty or fitted.interval is None or fitted.value <= 0.0:
+            return False
+        low, high = fitted.interval
+        return bool((high - low) / (2.0 * HALF_WIDTH * fitted.value) > UNTOLD * self.uncertainty)
 
     @property
     def contradicted(self) -> bool:

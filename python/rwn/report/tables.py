@@ -157,6 +157,8 @@ def parameter_table(found: DiagnosisData) -> str:
         doubt = "unknown" if p.uncertainty is None else declared
         nominal = words.quantity(p.nominal, p.refitted.unit, 4)
         label = escape(words.capital(words.unknown_name(name)))
+        if p.only_declared(p.corrected or p.refitted):
+            label += "<div class=note>the recordings hardly tell it: as declared</div>"
         rows.append([label, escape(nominal), doubt, escape(words.estimate(p.refitted)), corrected])
     return table(("Parameter", "Nominal", "Declared", "Refitted alone", "With the correction"), rows)
 
