@@ -124,7 +124,7 @@ class DrivingForceProblem(Problem):
 
     def _slope(self, run: BalancedRun, vector: Array, active: Sequence[int], place: int) -> Array:
         """Derivative (n,) of the needed force by one entry of the vector; 0 for what is unknown of a start."""
-        if place >= vector.size or place in {k for k, _ in run.start_unknowns}:
+        if place >= vector.size or place in {u.place for u in run.start_unknowns}:
             return np.zeros(run.time.size)
         step = SLOPE * max(abs(float(vector[place])), SMALL)
         ends = []

@@ -21,6 +21,7 @@ from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.recording.recording import Recording
+from rwn.simulate.own_unknowns import StartUnknown
 from rwn.simulate.run import Run, run_of
 from rwn.simulate.scales import scales
 from rwn.simulate.simulator import Simulator
@@ -80,7 +81,7 @@ def _unknown_starts(runs: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[RunUnkn
                     spread=spread, turns=name == INITIAL_POSITION and run.angle_unknown,
                 )
             )
-            own.append((place, motor_index(name)))
+            own.append(StartUnknown(place, motor_index(name)))
         placed.append(replace(run, start_unknowns=tuple(own)))
     return tuple(placed), tuple(unknowns)
 

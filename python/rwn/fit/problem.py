@@ -95,7 +95,7 @@ class Problem:
             begun = nearest_level(
                 self.simulator, run, begun, active, parameters=parameters, spread=spread, noise=self.noise
             )
-        if not run.angle_unknown or motor_index(INITIAL_POSITION) in dict(run.start_unknowns).values():
+        if not run.angle_unknown or motor_index(INITIAL_POSITION) in {u.parameter for u in run.start_unknowns}:
             return begun
         effects = [effect for effect in self.prior.table.values() if effect.index in active]
         angles = angles_to_try(effects, begun)
@@ -160,8 +160,8 @@ class Problem:
             return {}
         switched = (e for e in self.prior.table.values() if e.index in active)
         acting = {e.first + k for e in switched for k in range(len(e.parameters))} | set(range(len(motor_parameters())))
-        known = [level for level in run.levels if level[0] < vector.size]
-        return {place: (part, tuple(p for p in parameters if p in acting)) for place, part, parameters in known}
+        known = [level for level in run.levels if level.place < vector.size]
+        return {u.place: (u.share, tuple(p for p in u.parameters if p in acting)) for u in known}
 
     def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
         """Normal equations (p, p), (p,) of one run whose start is part of `vector` (all,)."""

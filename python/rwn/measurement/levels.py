@@ -19,6 +19,7 @@ from rwn.fit.prior import RunUnknown
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.model.vocabulary import motor_index
+from rwn.simulate.own_unknowns import LevelShare
 from rwn.simulate.run import Run
 
 SPREAD = 0.3  # prior deviation of a level's logarithm: friction that halves, as a gear warms up, is 2.3 of it
@@ -67,7 +68,7 @@ def with_levels(problem: Problem, level: Level) -> Problem:
         for k, name in enumerate(names)
     ]
     shares = {
-        name: tuple((u.place, (u.name == level.of(name)) - 1.0 / len(own), level.parameters) for u in own)
+        name: tuple(LevelShare(u.place, (u.name == level.of(name)) - 1.0 / len(own), level.parameters) for u in own)
         for name in names
     }
 

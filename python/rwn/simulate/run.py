@@ -21,6 +21,7 @@ from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
 from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral, speed_measurement
+from rwn.simulate.own_unknowns import LevelShare, StartUnknown
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -32,8 +33,7 @@ _NONE: Array = np.empty(0)
 class Run:
     """One recording as the core takes it; signals that were not recorded are empty.
 
-    Arrays are (n,), C-contiguous float64, SI. `start` holds the initial current, speed and position where they are
-    known; `start_unknowns` and `levels` are unknowns of one run alone, behind all parameters in the vector of a fit.
+    Arrays are (n,), C-contiguous float64, SI. `start` holds the initial current, speed and position where known.
     """
 
     name: str
@@ -48,8 +48,8 @@ class Run:
     start_spread: Mapping[str, float] = field(default_factory=dict)  # deviation of what is not known of it exactly
     in_motion: bool = False  # it does not start at rest
     start_samples: int = 0  # first samples that show the motion; 0: it was stated, or it starts at rest
-    start_unknowns: tuple[tuple[int, int], ...] = ()  # each: place in the vector, parameter that its value adds to
-    levels: tuple[tuple[int, float, tuple[int, ...]], ...] = ()  # each: place, share in a log factor, parameters scaled
+    start_unknowns: tuple[StartUnknown, ...] = ()
+    levels: tuple[LevelShare, ...] = ()
     input_before: float = 0.0
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
     interpolated: InterpolatedRows | None = None  # its rows, where the signals are samples that these lay between

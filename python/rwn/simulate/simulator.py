@@ -70,9 +70,9 @@ class Simulator:
         for place, parameter in run.start_unknowns:
             if place < vector.size:  # else it was fitted to recordings of which nothing was unknown
                 own[parameter] += vector[place]
-        for place, part, parameters in run.levels:
-            if place < vector.size:
-                own[list(parameters)] *= np.exp(part * vector[place])
+        for level in run.levels:
+            if level.place < vector.size:
+                own[list(level.parameters)] *= np.exp(level.share * vector[level.place])
         for name, value in zip(STATE, run.start, strict=True):
             own[motor_index(name)] += value
         return own

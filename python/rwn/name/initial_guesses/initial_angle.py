@@ -62,7 +62,7 @@ def _order(effect: Effect, vector: Array) -> float:
 def _place(run: Run) -> int | None:
     """Of the unknown angle of a run in the vector of a fit."""
     where = motor_index(INITIAL_POSITION)
-    return next((place for place, p in run.start_unknowns if p == where and run.angle_unknown), None)
+    return next((u.place for u in run.start_unknowns if u.parameter == where and run.angle_unknown), None)
 
 
 def _best_angle(problem: Problem, runs: Sequence[Run], start: Hypothesis, effect: Effect) -> float:
