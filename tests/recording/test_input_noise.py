@@ -10,6 +10,7 @@ import pytest
 import rwn
 from rwn.recording.inspection import inspected
 from rwn.recording.inspection.input_noise import without_input_noise
+from rwn.recording.noise import noise_of_differences
 
 MOTOR = rwn.Model(
     kind="dc",
@@ -104,10 +105,18 @@ def test_the_check_says_it() -> None:
 
 
 def test_independent_noise_is_rarely_taken_for_what_acts() -> None:
-    """At a level of 1 %: of 40 recordings at most 3 (one in 2000 by chance)."""
+    """At a level of 1 %: of 40 recordings at most 3 (more by chance in one of 1500)."""
     true = _run(INPUTS["steps"])
     kept = [
         not without_input_noise(replace(true, signals={**true.signals, "voltage": _noisy(INPUTS["steps"], seed)}))[1]
         for seed in range(40)
     ]
     assert sum(kept) <= 3
+
+
+def test_two_estimates_of_white_noise_differ_by_their_deviation() -> None:
+    """What a voltage that is smooth is told from one with noise by: 0.85 over sqrt(n)."""
+    rng = np.random.default_rng(0)
+    drawn = rng.standard_normal((200, 500))
+    ratios = [noise_of_differences(np.diff(x, 4), 4) / noise_of_differences(np.diff(x, 2), 2) for x in drawn]
+    assert np.std(ratios) * np.sqrt(500) == pytest.approx(0.85, rel=0.15)

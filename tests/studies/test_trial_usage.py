@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 from rwn.studies.trials import run as trial_runs
 from rwn.studies.trials import spoil
+from rwn.studies.trials.adapter import heldout_given, model_of_trial
 from rwn.studies.trials.bench import Recording
 from rwn.studies.trials.bench_trials.grade import grade_folders
 from rwn.studies.trials.cli import app
@@ -156,3 +157,14 @@ def test_a_late_channel_without_a_current_is_put_behind_a_gear(tmp_path: Path) -
     assert said["signals"] == ["speed"]
     spoilt = read_columns(tmp_path / "out" / "train_1.csv")["speed"]
     np.testing.assert_allclose(spoilt, said["factor"] * read_columns(trial / "train_1.csv")["speed"], rtol=1e-4)
+
+
+def test_a_task_that_states_what_scales_may_be_off_goes_into_the_model(tmp_path: Path) -> None:
+    (tmp_path / "model.toml").write_text('[motor]\nkind = "axis"\ninertia = 1e-3\nviscous_friction = 1e-4\n')
+    assert not heldout_given(tmp_path)
+    assert not model_of_trial(tmp_path).effects
+    (tmp_path / "task.json").write_text('{"heldout": true, "gain_uncertainty": 0.005}')
+    assert heldout_given(tmp_path)
+    model = model_of_trial(tmp_path)
+    assert model.effects == {"sensor-gain": {"speed_gain": 1.0, "current_gain": 1.0}}
+    assert set(model.uncertainty.values()) == {0.005}

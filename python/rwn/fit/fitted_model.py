@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from rwn.fit.fit import Fit
-from rwn.fit.intervals import Estimate
+from rwn.fit.intervals import HALF_WIDTH, Estimate
 from rwn.model.model import Model
 from rwn.model.vocabulary import Parameter, motor_index
 
@@ -58,11 +58,11 @@ def _deviation(p: Parameter, value: float, interval: tuple[float, float] | None)
     """A standard deviation by the farther end of a 95 % interval: the nearer one may have been cut at a bound."""
     low, high = interval or (value, value)
     if p.cyclic:
-        std = (high - low) / (2.0 * 1.96)  # cut at no bound
+        std = (high - low) / (2.0 * HALF_WIDTH)  # cut at no bound
     elif value == 0.0:
         return np.inf
     elif p.lower > 0.0:
-        std = float(np.log(max(high / value, value / low))) / 1.96
+        std = float(np.log(max(high / value, value / low))) / HALF_WIDTH
     else:
-        std = max(high - value, value - low) / (1.96 * abs(value))
+        std = max(high - value, value - low) / (HALF_WIDTH * abs(value))
     return std if std <= VAGUE else np.inf

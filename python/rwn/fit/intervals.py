@@ -15,6 +15,7 @@ from rwn.fit.unknown import Unknown, prior_weight
 
 Array = NDArray[np.float64]
 
+HALF_WIDTH = 1.96  # of a 95 % interval, in standard deviations
 AGREEMENT = 1e-3  # relative standard deviation that stays when the noise is averaged out
 IDEALISED = 4e-3  # relative standard deviation that stays for effects whose law idealises a contact
 
@@ -82,12 +83,12 @@ def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[s
 def _interval(u: Unknown, value: float, std: float) -> tuple[float, float]:
     """The 95 % interval about a value, within the unknown's bounds; a phase has none, and is within half a turn."""
     if u.cyclic:
-        half = min(1.96 * std, math.pi)
+        half = min(HALF_WIDTH * std, math.pi)
         return value - half, value + half
     if u.logarithmic and value > 0.0:
-        factor = float(np.exp(min(1.96 * std / value, 50.0)))
+        factor = float(np.exp(min(HALF_WIDTH * std / value, 50.0)))
         return max(value / factor, u.lower), min(value * factor, u.upper)
-    return max(value - 1.96 * std, u.lower), min(value + 1.96 * std, u.upper)
+    return max(value - HALF_WIDTH * std, u.lower), min(value + HALF_WIDTH * std, u.upper)
 
 
 def _systematic(this: Fit, bias: float) -> Array:

@@ -11,6 +11,7 @@ from msgspec import Meta
 from numpy.typing import NDArray
 
 from rwn.fit.hypothesis import Hypothesis
+from rwn.fit.intervals import HALF_WIDTH
 from rwn.fit.noise import noise_of
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import correlation_time
@@ -22,7 +23,6 @@ from rwn.simulate.simulator import RAN_AWAY
 Array = NDArray[np.float64]
 FEWEST = 20  # samples that a row judges
 DRAWS = 400  # of the bootstrap
-HALF_WIDTH = 1.96  # of its 95 % interval, in standard errors
 WORTH = 0.9  # squared error with what stands in for an unknown law, above which it is not worth a file
 NOISE_FLOOR = (
     "standard deviation of the signal's measurement noise, in unit: what second differences of the corrected (else the "

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.recording.noise import noise_of_differences
 from rwn.recording.quantisation import quantum
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
 
 Array = NDArray[np.float64]
 
 LEAST = 1e-4  # of the largest value: a converter of 13 bits resolves no less
-ALIKE = 8.0  # standard errors that two estimates of white noise may differ by, in parts of 1 / sqrt(n)
+ALIKE = 8.0  # over sqrt(n): relative difference of two estimates of white noise from n values, whose deviation is 0.85
+RETURNS = 8.0  # over sqrt(m): excess of m squares of means over their noise, whose deviation is sqrt(2)
 STEADY = 3.0  # deviations of the sum of squares of noise, beyond which a stretch is not steady
 STEP = 6.0  # deviations of the noise beyond which a change from row to row is a step: one in 5e8 by chance
 NOWHERE: NDArray[np.intp] = np.empty(0, dtype=np.intp)
@@ -34,11 +35,11 @@ def denoised(values: Array) -> Array | None:
     stretches = np.split(values, _steps(values, noise))
     steady = [_is_steady(x, noise) for x in stretches]
     levels = iter(_levels([x for x, is_steady in zip(stretches, steady, strict=True) if is_steady], noise))
-    smooth_ones = (
+    without = [
         np.full(x.size, next(levels)) if is_steady else smooth(x, smoothing_length(x, resolution=noise))
         for x, is_steady in zip(stretches, steady, strict=True)
-    )
-    return np.concatenate(list(smooth_ones))
+    ]
+    return np.concatenate(without)
 
 
 def _steps(values: Array, noise: float) -> NDArray[np.intp]:
@@ -52,10 +53,7 @@ def _noise(values: Array, order: int, steps: NDArray[np.intp] = NOWHERE) -> floa
     over = np.zeros(change.size + order, dtype=bool)
     for row in range(order):
         over[np.maximum(steps - 1 - row, 0)] = True
-    change = change[~over[: change.size]]
-    if not change.size:
-        return 0.0
-    return 1.4826 * float(np.median(np.abs(change - np.median(change)))) / float(np.sqrt(comb(2 * order, order)))
+    return noise_of_differences(change[~over[: change.size]], order)
 
 
 def _is_steady(x: Array, noise: float) -> bool:
@@ -72,6 +70,6 @@ def _levels(stretches: Sequence[Array], noise: float) -> Array:
     for group in np.split(order, np.flatnonzero(apart) + 1):
         level = float(np.average(means[group], weights=sizes[group])) if group.size else 0.0
         off = float(np.sum(sizes[group] * (means[group] - level) ** 2)) / noise**2
-        if off < group.size + ALIKE * np.sqrt(group.size):  # else they are many levels, near each other
+        if off < group.size + RETURNS * np.sqrt(group.size):  # else they are many levels, near each other
             means[group] = level
     return means

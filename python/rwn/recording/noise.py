@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ Array = NDArray[np.float64]
 
 STABLE = 0.9999  # largest partial autocorrelation: a fit of one of 1 would not know the level of the errors
 LEAST = 1e-12  # least level of a noise
+PER_MEDIAN = 1.4826  # standard deviation of normal numbers over the median of their size
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +70,12 @@ def noise_from_differences(signal: Array) -> float:
 
     By their median, so that a few sharp instants do not count; NaN is passed over.
     """
-    change = np.diff(signal[np.isfinite(signal)], 2)
+    return noise_of_differences(np.diff(signal[np.isfinite(signal)], 2), 2)
+
+
+def noise_of_differences(change: Array, order: int) -> float:
+    """Standard deviation of the white noise whose differences of an order (n,) these are, by their median."""
     if not change.size:
         return 0.0
-    return 1.4826 * float(np.median(np.abs(change - np.median(change)))) / float(np.sqrt(6.0))
+    deviation = PER_MEDIAN * float(np.median(np.abs(change - np.median(change))))
+    return deviation / float(np.sqrt(comb(2 * order, order)))

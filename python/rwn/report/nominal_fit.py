@@ -6,13 +6,12 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from rwn.fit.intervals import NO_DOUBT, Doubt, Estimate, estimates
+from rwn.fit.intervals import HALF_WIDTH, NO_DOUBT, Doubt, Estimate, estimates
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 
-HALF_WIDTH = 1.96  # of a 95 % interval, in standard deviations
 UNTOLD = 0.9**0.5  # of the declared deviation, that is left where a tenth of the information is the recordings'
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rwn.fit.fit import Fit
-from rwn.fit.intervals import Estimate, deviations
+from rwn.fit.intervals import HALF_WIDTH, Estimate, deviations
 from rwn.fit.residuals import Statistics
 from rwn.model.vocabulary import analog_filters
 
@@ -35,7 +35,7 @@ def fitted_filters(this: Fit, left: Statistics, digital: Mapping[str, float]) ->
         if k is None:
             continue
         value = float(this.minimum.values[k])
-        factor = float(np.exp(min(1.96 * spread[k] / value, 50.0)))
+        factor = float(np.exp(min(HALF_WIDTH * spread[k] / value, 50.0)))
         rows.append(
             FittedFilter(
                 signal=signal,

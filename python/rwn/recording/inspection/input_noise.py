@@ -15,6 +15,7 @@ from rwn.recording.clock import clock_of
 from rwn.recording.denoising import denoised
 from rwn.recording.inspection.finding import Finding
 from rwn.recording.intersample import JITTER
+from rwn.recording.noise import PER_MEDIAN
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
 from rwn.recording.smoothing import LENGTHS, smooth
@@ -24,7 +25,7 @@ Array = NDArray[np.float64]
 INPUT = "voltage"  # a torque or a force may be what a model is judged by, with its noise
 LAGS = 3  # rows before and after that it may go with another signal
 LEVEL = 0.01  # chance that independent noise seems to go with a signal of the recording
-FARTHEST = 5.0  # deviations beyond which a signal's departure from its smooth course is an instant like any other
+FARTHEST = 5.0  # deviations at which a departure from a smooth course is cut: some steps would outweigh all else
 
 
 def without_input_noise(recording: Recording) -> tuple[Recording, list[Finding]]:
@@ -51,7 +52,7 @@ def _departures(recording: Recording, signal: str) -> Array:
     values = np.asarray(recording.signals[signal])
     off = values - smooth(values, LENGTHS[-1])
     known = ~recording.missing.get(signal, np.zeros(off.size, dtype=bool))
-    most = FARTHEST * 1.4826 * float(np.median(np.abs(off[known]))) if known.any() else 0.0
+    most = FARTHEST * PER_MEDIAN * float(np.median(np.abs(off[known]))) if known.any() else 0.0
     return np.where(known, np.clip(off, -most, most), 0.0)
 
 

@@ -30,7 +30,8 @@ def task_of(folder: Path) -> Mapping[str, Any]:
 
 def heldout_given(folder: Path) -> bool:
     """Whether the diagnosis may see the held-out recordings; without a task it may not."""
-    return bool(task_of(folder).get("heldout", False))
+    task = task_of(folder)
+    return bool(task and task["heldout"])
 
 
 def model_of_trial(folder: Path) -> Model:

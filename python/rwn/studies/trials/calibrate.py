@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rwn.decide.account import Remainder
 from rwn.decide.calibration import FEATURES, Calibration, calibration, features
 from rwn.errors import InputError
-from rwn.fit.intervals import Estimate
+from rwn.fit.intervals import HALF_WIDTH, Estimate
 from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.bench_trials.also_true import also_true
 from rwn.studies.trials.damaged import reading
@@ -29,7 +29,6 @@ Array = NDArray[np.float64]
 
 RIDGES = (1.0, 3.0, 10.0, 30.0)  # inverse variances of the weights' prior, per standard deviation of a feature
 COVERED = 0.95
-HALF_WIDTH = 1.96  # of an interval that covers so much, in standard deviations
 FOLDS = 10  # of the cross-validation; all names of a trial are in one
 
 

@@ -21,7 +21,7 @@ struct SensorGain {
                                                    .lower = 0.5,
                                                    .upper = 2.0,
                                                    .start = 1.0}};
-  /// Declared alone: the parameters of the motor stand for a scale nearly as well, so recordings do not tell it.
+  /// Acts only where a model declares it: the parameters of the motor stand for a scale nearly as well.
   static constexpr EffectTraits traits{.hooks = Hook::sense, .guess = Guess::declared};
 
   template <class S>
