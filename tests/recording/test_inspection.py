@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -83,6 +84,17 @@ def test_peaks_that_are_cut_off_for_a_sample_each_are_found(speed: Array) -> Non
 def test_a_largest_value_that_comes_twice_is_not_clipped(speed: Array) -> None:
     twice = np.minimum(speed, np.sort(speed)[-2])
     assert not inspected([_recording({"speed": twice})]).findings
+
+
+def test_coarse_samples_are_held_where_all_changes_lie_on_one_grid(speed: Array) -> None:
+    coarse = np.round(speed / np.ptp(speed) * 200.0)
+    kept = np.flatnonzero(np.arange(speed.size) % 97 != 5)  # rows were lost, so that the grid is one of ticks
+    assert inspected([_recording({"speed": coarse})]).findings == ()
+    whole = _recording({"speed": np.repeat(coarse[::6], 6)[: speed.size]})
+    held = replace(whole, time=whole.time[kept], signals={name: x[kept] for name, x in whole.signals.items()})
+    (found,) = inspected([held]).findings
+    assert (found.kind, found.words) == ("held", "the speed is updated every 6 samples and held between")
+    assert found.count == pytest.approx(kept.size * 5 / 6, abs=20)  # an equal value on the grid is an update
 
 
 def test_counts_at_standstill_are_neither_held_nor_clipped() -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import binom
 
+from rwn.recording.clock import clock_of
 from rwn.recording.inspection.finding import Check, Flags
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
@@ -12,11 +14,16 @@ from rwn.recording.recording import Recording
 Array = NDArray[np.float64]
 
 OFTEN = 0.3  # share of the samples that have to repeat the last one
-AT_ONCE = 0.8  # share of the updates that come after the usual number of samples
+AT_ONCE = 0.8  # share of the updates that come after the usual number of samples, or on one grid
+BY_CHANCE = 0.01  # level at which changes of a coarse signal on one grid of samples are no chance
 
 
 def _repeated(recording: Recording, signal: str) -> Flags:
-    """Samples that only repeat the last; none where the signal has coarse steps, or stands still by itself."""
+    """Samples that only repeat the last; none where the signal has coarse steps, or stands still by itself.
+
+    A coarse signal repeats itself without being held. One that is held, too, changes at every n-th sample only; each of
+    these is an update, also one that brings an equal value.
+    """
     x = np.asarray(recording.signals[signal])
     repeats = np.append(False, np.diff(x) == 0.0)
     none = np.zeros(x.size, dtype=bool)
@@ -24,9 +31,28 @@ def _repeated(recording: Recording, signal: str) -> Flags:
         return none
     gaps = np.diff(np.flatnonzero(~repeats))
     usual = int(np.median(gaps))
-    regular = usual >= 2 and float(np.mean(gaps == usual)) > AT_ONCE
+    if usual < 2:
+        return none
+    if quantum(x) > 0.0:
+        updates = _updates(clock_of(np.asarray(recording.time)).ticks, ~repeats, usual)
+        if not updates.all():
+            return repeats & ~updates
+        if float(np.mean(gaps == usual)) <= AT_ONCE:
+            return none
     repeats[2:] |= x[2:] == x[:-2]  # also behind a single spike
-    return repeats if regular or (quantum(x) == 0.0 and usual >= 2) else none
+    return repeats
+
+
+def _updates(ticks: NDArray[np.int64], changes: Flags, longest: int) -> Flags:
+    """The samples (n,) on the widest grid of ticks, up to the `longest`, that nearly all changes lie on; all: none."""
+    at = ticks[changes][1:]  # the first sample is no change
+    for every in range(longest, 1, -1):
+        phase = np.bincount(at % every, minlength=every)
+        most = int(np.argmax(phase))
+        chance = every * float(binom.sf(phase[most] - 1, at.size, 1.0 / every))
+        if phase[most] > AT_ONCE * at.size and chance < BY_CHANCE / longest:
+            return np.asarray(ticks % every == most, dtype=np.bool_)
+    return np.ones(ticks.size, dtype=bool)
 
 
 def _words(signal: str, repeated: Flags) -> str:
