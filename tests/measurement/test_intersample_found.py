@@ -159,3 +159,11 @@ def test_times_that_are_written_in_milliseconds_are_told_from_the_ticks_behind_t
     found = with_intersample([run], MODEL)
     assert found.recording.intersample == law
     assert np.std(rwn.simulate(found, run).signals["speed"] - speed) < 0.06
+
+
+def test_a_simulation_that_ran_away_is_certainly_worse_than_one_that_did_not() -> None:
+    stayed = np.ones(100)
+    ran_away = np.where(np.arange(100) < 50, 1.0, 1e200)  # its square is no number
+    assert loss_gained(stayed, ran_away) == np.inf
+    assert loss_gained(ran_away, stayed) == -np.inf
+    assert loss_gained(ran_away, ran_away) == 0.0

@@ -144,9 +144,12 @@ def variance(problem: Problem, this: Fit) -> float:
 def loss_gained(before: Array, after: Array) -> float:
     """How certainly a simulation of losses (n,) `after` is worse than one of those `before`, in deviations.
 
-    0 where both do it alike. Diebold, Mariano (1995): the mean difference of squared weighted errors over its own
-    deviation, which counts how long differences last.
+    0 where both do it alike, infinite where one of them ran away. Diebold, Mariano (1995): the mean difference of
+    squared weighted errors over its own deviation, which counts how long differences last.
     """
+    ran_away = [not float(np.max(x)) < RAN_AWAY for x in (before, after)]
+    if any(ran_away):
+        return 0.0 if all(ran_away) else -np.inf if ran_away[0] else np.inf
     difference = after - before
     spread = float(np.std(difference)) * np.sqrt(correlation_time(difference) / difference.size)
     return float(np.mean(difference)) / spread if spread > 0.0 else 0.0
