@@ -48,12 +48,41 @@ def test_a_run_in_motion_begins_at_its_own_voltage() -> None:
 def test_a_limited_current_is_held_at_its_limit() -> None:
     time = np.arange(1000) * 1e-3
     voltage = np.where(time < 0.5, 12.0, -12.0)  # 15 A of a stalled winding, 27 A where it is reversed
-    free, limited = (_run(time, voltage, **e).signals for e in ({}, {"current_limit": {"limit": 4.0}}))
+    limit = {"current_limit": {"limit": 4.0, "bandwidth": 10.0}}
+    free, limited = (_run(time, voltage, **e).signals for e in ({}, limit))
     assert np.max(np.abs(free["current"])) > 20.0
     assert np.max(np.abs(limited["current"])) == pytest.approx(4.0, rel=1e-3)
     held = (time > 0.02) & (time < 0.04)  # it accelerates with the torque of its limit
     np.testing.assert_allclose(limited["current"][held], 4.0, rtol=2e-3)
     assert limited["speed"][499] == pytest.approx(free["speed"][499], rel=1e-3)  # the limit is no longer met
+
+
+@pytest.mark.parametrize("rows", [0.2e-3, 1e-3, 5e-3])
+@pytest.mark.parametrize("bandwidth", [1.0, 3.0, 10.0, 20.0])
+def test_a_current_rises_at_the_whole_voltage_up_to_its_limit(rows: float, bandwidth: float) -> None:
+    """As in the equations taken in steps of 2 us: of a winding that takes 1.9 ms, in rows below and above that."""
+    voltage = np.repeat(np.random.default_rng(1).uniform(-36.0, 36.0, 12), 10)
+    time = rows * np.arange(voltage.size)
+    motor = MOTOR | {"coulomb_friction": 0.0}
+    effects = {"current-limit": {"limit": 6.0, "bandwidth": bandwidth}}
+    model = rwn.Model(kind="dc", parameters=motor, effects=effects)
+    limited = rwn.simulate(model, rwn.Recording(name="run", time=time, signals={"voltage": voltage})).signals
+    names = ("resistance", "inductance", "torque_constant", "inertia", "viscous_friction")
+    r, inductance, kt, j, b = (motor[name] for name in names)
+    h, current, speed, expected = 2e-6, 0.0, 0.0, []
+    for u in voltage:
+        expected.append((current, speed))
+        for _ in range(round(rows / h)):
+            drive = u - kt * speed
+            sign = np.copysign(1.0, drive)
+            most = r * current + bandwidth * r * (sign * 6.0 - current)
+            held = abs(drive) > 6.0 * r and sign * (drive - most) > 0.0
+            current, speed = (
+                current + h / inductance * ((most if held else drive) - r * current),
+                speed + h / j * (kt * current - b * speed),
+            )
+    for signal, exact in zip(("current", "speed"), np.transpose(expected), strict=True):
+        assert np.sqrt(np.mean((limited[signal] - exact) ** 2)) < 0.01 * np.std(exact)
 
 
 @pytest.mark.parametrize("samples", [2, 6, 16])
@@ -68,7 +97,11 @@ def test_a_moving_average_is_the_mean_of_the_speed(samples: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "effect", [{"current_limit": {"limit": 1.5}}, {"coasting_bridge": {"share": 0.95, "supply": 40.0}}]
+    "effect",
+    [
+        {"current_limit": {"limit": 1.5, "bandwidth": 1.0}},
+        {"coasting_bridge": {"share": 0.95, "supply": 40.0}},
+    ],
 )
 def test_what_takes_the_back_emf_out_is_exact_at_rows_longer_than_it_brakes(
     effect: dict[str, dict[str, float]],

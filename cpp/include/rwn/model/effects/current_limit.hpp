@@ -5,8 +5,9 @@
 namespace rwn {
 
 struct CurrentLimit {
-  static constexpr EffectInfo info{"current-limit", Site::voltage, "v = clip(u, Ke w - R I_m, Ke w + R I_m)",
-                                   "the drive gives no more voltage than its largest current takes", "standard"};
+  static constexpr EffectInfo info{"current-limit", Site::voltage, "v = min(u, Ke w + R i + c R (I_m - i)), likewise below",
+                                   "the drive gives no more voltage than brings the current to its limit",
+                                   "Leonhard, Control of Electrical Drives: a current loop that takes over at a limit"};
   static constexpr std::array parameters{Parameter{.name = "limit",
                                                    .symbol = "I_m",
                                                    .unit = "A",
@@ -16,22 +17,45 @@ struct CurrentLimit {
                                                    .start = 0.9,
                                                    .scale = scale::current,
                                                    .scan = {0.4, 0.6, 0.8, 1.0},
-                                                   .strength = true}};
+                                                   .strength = true},
+                                         Parameter{.name = "bandwidth",
+                                                   .symbol = "c",
+                                                   .unit = "1",
+                                                   .meaning = "how many times as fast as L/R it is reached",
+                                                   .lower = 1.0,    // the voltage at the limit, at once
+                                                   .upper = 20.0,  // already as good as all of u until it is reached
+                                                   .start = 3.0,
+                                                   .idealised = true}};
   static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate};
 
+  /// A current that is on its way to the limit is linearised as it will be there: a step may end where it limits.
   template <class S>
   static void apply(const S* p, const Motor<S>& motor, const Motion<S>& x, Terms<S>& t) {
-    const S emf = motor[back_emf_constant] * x.speed;
-    const S most = motor[resistance] * p[0];
-    const S driving = x.input - emf;
-    if (value_of(driving) > value_of(most)) t.drop += driving - most;
-    if (value_of(driving) < -value_of(most)) t.drop += driving + most;
+    const double sign = driven(motor, x) < 0.0 ? -1.0 : 1.0;
+    if (std::abs(driven(motor, x)) <= value_of(motor[resistance] * p[0])) return;
+    const S left = x.input - motor[back_emf_constant] * x.speed - motor[resistance] * x.current;
+    const S excess = left - p[1] * motor[resistance] * (sign * p[0] - x.current);
+    if (sign * value_of(excess) > 0.0) t.drop += excess;
+    t.drop_slope += (value_of(p[1]) - 1.0) * value_of(motor[resistance]);
   }
-  /// Where it limits, it takes the back-EMF out of the equations, and its damping with it.
+  /// Where it limits, it takes the back-EMF out of the equations, and its damping with it. Where it begins or ends to
+  /// within a step: how often the current is reached then.
   template <class S>
-  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double, double) {
-    const double driving = value_of(x.input) - value_of(m[back_emf_constant]) * value_of(x.speed);
-    return std::abs(driving) > value_of(m[resistance]) * value_of(p[0]) ? damping_of_back_emf(m) : 0.0;
+  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
+    const double r = value_of(m[resistance]), limit = value_of(p[0]), c = value_of(p[1]), drive = driven(m, x);
+    const double changes = value_of(m[back_emf_constant]) * acceleration * h;
+    if (std::abs(drive) + changes <= r * limit) return 0.0;
+    const double sign = drive < 0.0 ? -1.0 : 1.0, i = sign * value_of(x.current);
+    const bool limits = std::abs(drive) - r * i > c * r * (limit - i);
+    if (limits && std::abs(drive) - changes > r * limit) return damping_of_back_emf(m);
+    return c * r / value_of(m[inductance]);
+  }
+
+ private:
+  /// What drives a current [V].
+  template <class S>
+  static double driven(const Motor<S>& m, const Motion<S>& x) {
+    return value_of(x.input) - value_of(m[back_emf_constant]) * value_of(x.speed);
   }
 };
 
