@@ -72,6 +72,23 @@ def test_a_coarse_converter_whose_step_fits_an_encoder_is_no_difference_of_count
     assert speed_measurement(TIME, shown, NONE) is INSTANTANEOUS
 
 
+@pytest.mark.parametrize("counts", [1024, 8000])
+def test_steps_of_a_quick_motor_do_not_hide_differences_of_counts(counts: int) -> None:
+    """It follows its steps within some rows, and hardly moves for a hundred: most of the power is of steps."""
+    steps = np.repeat(np.random.default_rng(6).uniform(-150.0, 150.0, 40), 100)
+    quick = lfilter([0.4], [1.0, -0.6], steps) + 8.0 * np.sin(9.0 * TIME)
+    angle = 0.3 + np.concatenate([[0.0], np.cumsum(0.5 * (quick[1:] + quick[:-1]))]) * 1e-3
+    assert speed_measurement(TIME, difference(BACKWARD, TIME, counted(angle, counts)), NONE) is BACKWARD
+    step = 2.0 * np.pi / counts / 1e-3
+    assert speed_measurement(TIME, step * np.round(quick / step), NONE) is INSTANTANEOUS
+
+
+def test_a_difference_is_told_where_the_times_jitter_that_it_was_not_divided_by() -> None:
+    angle = counted(ANGLE, 8000)
+    shown = TIME + 2e-5 * np.random.default_rng(7).standard_normal(TIME.size)
+    assert speed_measurement(shown - shown[0], difference(BACKWARD, TIME, angle), angle) is BACKWARD
+
+
 @pytest.mark.parametrize("way", DIFFERENCES)
 def test_a_difference_of_the_recorded_position_repeats_its_noise(way: SpeedMeasurement) -> None:
     position = ANGLE + 1e-4 * np.random.default_rng(2).standard_normal(TIME.size)

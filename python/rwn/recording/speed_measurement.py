@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.recording.clock import clock_of
 from rwn.recording.quantisation import quantum
 from rwn.recording.speed_window import window_of
 
@@ -20,6 +22,8 @@ REPEATED = 0.05  # error of a difference of the recorded position, in units of t
 VANISHING = 0.05  # ratio below which there is no power, as of central differences
 LONGEST = 8  # samples of a difference: a moving average of so many differences over one
 FASTEST = 0.2  # highest frequency of a motion, of the sampling rate: what moves a drive is slower
+STRETCH = 64  # samples of which the power near half the rate is told from that near a quarter
+QUIET = 30.0  # per cent of these, in which the motion is slowest
 RISING = 1.4  # above this ratio a speed is a difference over one sample
 
 
@@ -41,6 +45,7 @@ class SpeedMeasurement:
         return 0 < self.before + self.after <= LONGEST
 
 
+_Power = Callable[[Array, float, float], float]
 INSTANTANEOUS = SpeedMeasurement()
 CENTRAL = SpeedMeasurement(1, 1)
 BACKWARD = SpeedMeasurement(1, 0)
@@ -76,15 +81,26 @@ def _of_rows(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
     if speed.size < SHORTEST:
         return INSTANTANEOUS
     if position.size:
-        errors = {way: _repeats(time, speed, position, way) for way in DIFFERENCES}
+        clock = clock_of(time)
+        evenly: Array = np.asarray(clock.period * clock.ticks, dtype=np.float64)  # as they may have been taken
+        instants = (time, evenly)
+        errors = {way: min(_repeats(t, speed, position, way) for t in instants) for way in DIFFERENCES}
         best = min(errors, key=lambda way: errors[way])
         if errors[best] < REPEATED:
             return best
     step = quantum(speed)
-    if not 0.0 < _power(speed, FASTEST, 0.5) <= step**2:  # two roundings to a step are never further apart than that
-        return INSTANTANEOUS
-    averaged = None if position.size else next((way for way in AVERAGED if _vanishes(speed, way.before)), None)
-    return averaged or _of_counts(time, speed, step)
+    if _is_rounded(_power, speed, step):
+        averages = () if position.size else AVERAGED
+        over_more = next((way for way in averages if _vanishes(speed, way.before)), None)
+        way = over_more or _of_counts(_power, time, speed, step)
+        if way.is_difference:
+            return way
+    return _of_counts(_quiet_power, time, speed, step) if _is_rounded(_quiet_power, speed, step) else INSTANTANEOUS
+
+
+def _is_rounded(power: _Power, speed: Array, step: float) -> bool:
+    """Whether it has no more power than two roundings to a step, which are never further apart than that."""
+    return 0.0 < power(speed, FASTEST, 0.5) <= step**2
 
 
 def difference(measurement: SpeedMeasurement, time: Array, position: Array) -> Array:
@@ -120,17 +136,17 @@ def _repeats(time: Array, speed: Array, position: Array, way: SpeedMeasurement) 
     return float(error / noise) if noise > 0.0 else np.inf
 
 
-def _of_counts(time: Array, speed: Array, step: float) -> SpeedMeasurement:
+def _of_counts(power: _Power, time: Array, speed: Array, step: float) -> SpeedMeasurement:
     """By their steps, and by what these hold near half the sampling rate.
 
     The central difference (q[k+1] - q[k-1]) / 2T vanishes there, whatever gear is between encoder and shaft; that over
     one sample, with a whole number of counts per revolution, holds most there; what a coarse converter rounds neither.
     """
-    quarter = _power(speed, 0.2, 0.3)
-    if _power(speed, 0.48, 0.5) < VANISHING * quarter:
+    near_half, high, quarter = (power(speed, *band) for band in ((0.48, 0.5), (0.4, 0.5), (0.2, 0.3)))
+    if near_half < VANISHING * quarter:
         return CENTRAL
-    counts = 2.0 * np.pi / (step * float(np.median(np.diff(time))))
-    if _whole(counts) and _power(speed, 0.4, 0.5) > RISING * quarter:
+    counts = 2.0 * np.pi / (step * clock_of(time).period)
+    if _whole(counts) and high > RISING * quarter and near_half > 0.5 * high:
         return BACKWARD
     return INSTANTANEOUS
 
@@ -146,6 +162,27 @@ def _vanishes(speed: Array, samples: int) -> bool:
 
 def _whole(counts: float) -> bool:
     return counts > 3.0 and abs(counts - round(counts)) < max(0.01, 3e-6 * counts)
+
+
+def _quiet_power(signal: Array, lowest: float, highest: float) -> float:
+    """Power over a band in the stretches of a motion in which it moves least at lower frequencies, their mean.
+
+    Steps of the speed would else outweigh its rounding; what stands still shows none.
+    """
+    return float(np.mean([_power(x, lowest, highest) for x in _quiet(signal)]))
+
+
+def _quiet(signal: Array) -> Array:
+    """Those stretches (k, STRETCH), of a signal that is longer than a few; else the signal (1, n)."""
+    whole = signal[np.newaxis, :]
+    if signal.size < 4 * STRETCH:
+        return whole
+    stretches = np.lib.stride_tricks.sliding_window_view(signal, STRETCH)[:: STRETCH // 2]
+    moving = stretches[np.ptp(stretches, axis=1) > 0.0]
+    if not moving.size:
+        return whole
+    slow = np.array([_power(x, 0.5 * FASTEST, FASTEST) for x in moving])
+    return np.asarray(moving[slow <= np.percentile(slow, QUIET)])
 
 
 def _power(signal: Array, lowest: float, highest: float) -> float:
