@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import binom
 
 from rwn.recording.clock import clock_of
 from rwn.recording.inspection.finding import Check, Flags
@@ -45,6 +44,8 @@ def _repeated(recording: Recording, signal: str) -> Flags:
 
 def _updates(ticks: NDArray[np.int64], changes: Flags, longest: int) -> Flags:
     """The samples (n,) on the widest grid of ticks, up to the `longest`, that nearly all changes lie on; all: none."""
+    from scipy.stats import binom  # late: the command line starts without it
+
     at = ticks[changes][1:]  # the first sample is no change
     for every in range(longest, 1, -1):
         phase = np.bincount(at % every, minlength=every)
