@@ -73,7 +73,7 @@ def test_a_filter_is_told_from_thinned_rows_beside_what_was_found_under_these() 
 
 
 def test_a_latency_is_found_beneath_a_filter_that_hides_it() -> None:
-    """Of the filtered speed a held voltage is likelier; once the filter is undone, it no longer is."""
+    """Of the filtered speed another law is likelier; once the filter is undone, it no longer is."""
     rng, fine, kept = np.random.default_rng(3), 8, 0.8
     time = 1e-3 / fine * np.arange(3000 * fine)
     voltage = np.repeat(np.repeat(rng.uniform(-3.0, 3.0, 60), 50), fine)
@@ -84,7 +84,7 @@ def test_a_latency_is_found_beneath_a_filter_that_hides_it() -> None:
     noisy["speed"] = lfilter([1.0 - kept], [1.0, -kept], noisy["speed"])
     run = rwn.Recording(name="run", time=time[taken], signals={"voltage": voltage[taken], **noisy})
     bare, nominal = nominal_of([run], stating(MODEL, "held"))
-    assert likeliest(bare, nominal) == "held"
+    assert likeliest(bare, nominal) != "latency"
     filtered = SensorFilter(signal="speed", share=kept, time_constant=-1e-3 / np.log(kept), digital=True)
     for known in ((), (filtered,)):
         found, filters = likeliest_with_filters(bare, nominal, "held", known)
@@ -159,6 +159,21 @@ def test_times_that_are_written_in_milliseconds_are_told_from_the_ticks_behind_t
     found = with_intersample([run], MODEL)
     assert found.recording.intersample == law
     assert np.std(rwn.simulate(found, run).signals["speed"] - speed) < 0.06
+
+
+@pytest.mark.parametrize("law", ["stamped", "held"])
+def test_times_that_were_noted_unevenly_are_told_from_rows_that_were_taken_so(law: str) -> None:
+    rng = np.random.default_rng(3)
+    even = 1e-3 * np.arange(3000)
+    noted = even + 3e-5 * rng.standard_normal(even.size)
+    voltage = np.repeat(rng.uniform(-3.0, 3.0, 300), 10)
+    taken = even if law == "stamped" else noted - noted[0]
+    bare = rwn.Recording(name="run", time=taken, signals={"voltage": voltage})
+    speed = rwn.simulate(MODEL, bare).signals["speed"] + 0.02 * rng.standard_normal(even.size)
+    run = rwn.Recording(name="run", time=noted - noted[0], signals={"voltage": voltage, "speed": speed})
+    found = with_intersample([run], MODEL)
+    assert found.recording.intersample == law
+    assert np.std(rwn.simulate(found, run).signals["speed"] - speed) < 0.022
 
 
 def test_a_simulation_that_ran_away_is_certainly_worse_than_one_that_did_not() -> None:

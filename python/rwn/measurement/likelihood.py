@@ -18,7 +18,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics
 from rwn.fit.unknown import prior_cost
-from rwn.recording.intersample import between_ticks
+from rwn.recording.interpolated import between_ticks
 from rwn.recording.noise import autoregression
 from rwn.simulate.run import Run
 

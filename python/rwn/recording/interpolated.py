@@ -1,4 +1,4 @@
-"""Rows interpolated between the samples of a clock beside which they lie, and the samples that made them.
+"""Rows that lie beside the ticks of a clock, and the samples at these that they were interpolated from, or are.
 
 A logger that reads the last two values of a drive and writes what lies between them at its own instant keeps, but for
 rounding, all there was: the line of each row ends at the samples of the two ticks about it, and has the larger share of
@@ -13,12 +13,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.clock import Clock
+from rwn.recording.clock import Clock, clock_of, written_to
 from rwn.values import Values
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
+CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
 ROUNDS = 8  # after which what lies farther on counts for nothing
 
 
@@ -94,3 +96,40 @@ def _shifted(flags: Flags, by: int) -> Flags:
     moved = np.roll(flags, by)
     moved[0 if by > 0 else -1] = False
     return moved
+
+
+def clock_beside(time: Array) -> Clock | None:
+    """The clock beside whose ticks the rows were taken; None where it is theirs, or none is seen."""
+    clock = clock_of(time)
+    return clock if JITTER < clock.jitter < 0.5 and clock.lost < time.size else None
+
+
+def between_ticks(time: Array) -> InterpolatedRows | None:
+    """Rows at times (n,) as lines between samples at the ticks of the clock that they lie beside; None: of none."""
+    clock = clock_beside(time)
+    return None if clock is None or np.abs(clock.off).max() >= 0.5 else interpolated_rows(time, clock)
+
+
+def rounded(time: Array) -> InterpolatedRows | None:
+    """Rows at times (n,) that are rounded from the ticks of a clock, as the samples at these; None: they are not."""
+    clock, step = clock_beside(time), written_to(time)
+    if clock is None or np.ptp(clock.off) - 2.0 * CLEAR * np.max(clock.accuracy) > step / clock.period:
+        return None
+    return _at_their_ticks(time, clock)
+
+
+def stamped(time: Array) -> InterpolatedRows | None:
+    """Rows whose times (n,) were noted beside the ticks of a clock, as the samples at these; None: no such, or rounded.
+
+    A computer that reads a drive over a bus notes when it got to each row.
+    """
+    clock = clock_beside(time)
+    if clock is None or np.abs(clock.off).max() >= 0.5 or rounded(time) is not None:
+        return None
+    return _at_their_ticks(time, clock)
+
+
+def _at_their_ticks(time: Array, clock: Clock) -> InterpolatedRows:
+    nothing = np.zeros(time.size)
+    ticks = np.asarray(clock.period * clock.ticks)
+    return InterpolatedRows(rows=time - time[0], ticks=ticks, before=nothing, after=nothing, cut=nothing > 0.0)

@@ -15,15 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import unknown
-from rwn.recording.clock import Clock, clock_of, written_to
-from rwn.recording.interpolated import InterpolatedRows, interpolated_rows
+from rwn.recording.clock import Clock, clock_of
+from rwn.recording.interpolated import CLEAR, InterpolatedRows, between_ticks, clock_beside, rounded, stamped
 from rwn.recording.noise import noise_from_differences
 from rwn.values import Values
 
 Array = NDArray[np.float64]
 
-JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
-CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
 FINE = 8  # parts of a sample that are as good as a line
 
 AUTO = "auto"  # as the recordings show
@@ -101,31 +99,11 @@ def _linear(time: Array, values: Array) -> PiecewiseInput | None:
     return _divided(time, values, np.full(time.size - 1, FINE), _on_line)
 
 
-def _clock_beside(time: Array) -> Clock | None:
-    """The clock beside whose ticks the rows were taken; None where it is theirs, or none is seen."""
-    clock = clock_of(time)
-    return clock if JITTER < clock.jitter < 0.5 and clock.lost < time.size else None
-
-
-def between_ticks(time: Array) -> InterpolatedRows | None:
-    """Rows at times (n,) as lines between samples at the ticks of the clock that they lie beside; None: of none."""
-    clock = _clock_beside(time)
-    return None if clock is None or np.abs(clock.off).max() >= 0.5 else interpolated_rows(time, clock)
-
-
-def rounded(time: Array) -> InterpolatedRows | None:
-    """Rows at times (n,) that are rounded from the ticks of a clock, as the samples at these; None: they are not."""
-    clock, step = _clock_beside(time), written_to(time)
-    if clock is None or np.ptp(clock.off) - 2.0 * CLEAR * np.max(clock.accuracy) > step / clock.period:
-        return None
-    nothing = np.zeros(time.size)
-    ticks = np.asarray(clock.period * clock.ticks)
-    return InterpolatedRows(rows=time - time[0], ticks=ticks, before=nothing, after=nothing, cut=nothing > 0.0)
-
-
-def _held_from_ticks(time: Array, values: Array) -> PiecewiseInput | None:
-    """As held, from tick to tick; over lost rows as bridged."""
-    rows = rounded(time)
+def _held_from_ticks(
+    time: Array, values: Array, *, samples: Callable[[Array], InterpolatedRows | None]
+) -> PiecewiseInput | None:
+    """As held, from tick to tick of `samples`; over lost rows as bridged."""
+    rows = samples(time)
     if rows is None:
         return None
     return _bridged(rows.ticks, values) or PiecewiseInput(
@@ -138,7 +116,7 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
 
     `begin`: of the first tick [s]; None: as the rows' times have it.
     """
-    clock = _clock_beside(time)
+    clock = clock_beside(time)
     if clock is None:
         return None
     begin, first_time = (clock.start, time[0]) if begin is None else (begin, begin)
@@ -155,7 +133,7 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
 
 def _before_rows(time: Array, values: Array) -> PiecewiseInput | None:
     """It changed at ticks that the rows were taken after, the promptest at once: each shows that of its own."""
-    clock = _clock_beside(time)
+    clock = clock_beside(time)
     if clock is None:
         return None
     ticks = np.arange(clock.ticks[-1] + 1)
@@ -289,9 +267,15 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
         samples=between_ticks,
     ),
     "rounded": IntersampleLaw(
-        applied=_held_from_ticks,
+        applied=partial(_held_from_ticks, samples=rounded),
         shown=True,
         words="it changed at the ticks of a clock, which the times of the rows are rounded from",
         samples=rounded,
+    ),
+    "stamped": IntersampleLaw(
+        applied=partial(_held_from_ticks, samples=stamped),
+        shown=True,
+        words="it changed at the ticks of a clock, beside which the times of the rows were noted",
+        samples=stamped,
     ),
 }
