@@ -97,6 +97,26 @@ def test_coarse_samples_are_held_where_all_changes_lie_on_one_grid(speed: Array)
     assert found.count == pytest.approx(kept.size * 5 / 6, abs=20)  # an equal value on the grid is an update
 
 
+def test_samples_that_repeat_the_last_now_and_then_are_held(speed: Array) -> None:
+    rng = np.random.default_rng(4)
+    written = np.round(speed, 4)
+    assert inspected([_recording({"speed": written})]).findings == ()
+    at = np.flatnonzero(rng.random(N) < 0.01)
+    for k in at:
+        written[k + 1 : k + int(rng.integers(2, 5))] = written[k]
+    (found,) = inspected([_recording({"speed": written})]).findings
+    assert (found.kind, found.words) == ("held", "the speed repeats its last sample now and then")
+    assert found.count == int(np.sum(np.diff(written) == 0.0))
+
+
+def test_a_fine_signal_that_rests_or_lies_between_coarse_samples_is_not_held(speed: Array) -> None:
+    at_rest = np.where(np.arange(N) % 100 < 50, np.round(speed, 4), 0.0)
+    counts = np.round(speed / 0.7) * 0.7
+    between = np.interp(np.arange(N) + 0.3 * np.random.default_rng(5).random(N), np.arange(N), counts)
+    for signal in (at_rest, between):
+        assert "held" not in [f.kind for f in inspected([_recording({"speed": signal})]).findings]
+
+
 def test_counts_at_standstill_are_neither_held_nor_clipped() -> None:
     rng = np.random.default_rng(2)
     counts = np.round(20.0 * np.maximum(np.sin(3e-3 * np.arange(N)), 0.0) + 0.3 * rng.standard_normal(N))

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from rwn.recording.clock import clock_of
 from rwn.recording.inspection.finding import Check, Flags
+from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 
@@ -14,7 +15,8 @@ Array = NDArray[np.float64]
 
 OFTEN = 0.3  # share of the samples that have to repeat the last one
 AT_ONCE = 0.8  # share of the updates that come after the usual number of samples, or on one grid
-BY_CHANCE = 0.01  # level at which changes of a coarse signal on one grid of samples are no chance
+BY_CHANCE = 0.01  # level at which a grid of the changes of a coarse signal, or repeats of a fine one, are no chance
+FEWEST = 20  # times that a sample repeats the last, which show whether they lie on a step
 
 
 def _repeated(recording: Recording, signal: str) -> Flags:
@@ -26,7 +28,9 @@ def _repeated(recording: Recording, signal: str) -> Flags:
     x = np.asarray(recording.signals[signal])
     repeats = np.append(False, np.diff(x) == 0.0)
     none = np.zeros(x.size, dtype=bool)
-    if repeats.mean() < OFTEN or repeats.mean() > 0.99:
+    if repeats.mean() < OFTEN:
+        return _now_and_then(x, repeats)
+    if repeats.mean() > 0.99:
         return none
     gaps = np.diff(np.flatnonzero(~repeats))
     usual = int(np.median(gaps))
@@ -40,6 +44,26 @@ def _repeated(recording: Recording, signal: str) -> Flags:
             return none
     repeats[2:] |= x[2:] == x[:-2]  # also behind a single spike
     return repeats
+
+
+def _now_and_then(x: Array, repeats: Flags) -> Flags:
+    """The repeats (n,) of a fine signal where there are more than its noise makes by chance; else none.
+
+    Two samples of independent noise are written alike with a chance of step / (2 sqrt(pi) deviation), less where it
+    moves. A value that comes back is that of a standstill, or the end of a range; values on a step are of a coarse
+    signal between whose samples the rows lie.
+    """
+    from scipy.stats import poisson  # late: the command line starts without it
+
+    begins = repeats & ~np.append(False, repeats[:-1])
+    values, runs = np.unique(x[begins], return_counts=True)
+    held: Flags = repeats & ~np.isin(x, values[runs > 1]) & (x > np.min(x)) & (x < np.max(x))
+    change, noise = np.abs(np.diff(x)), noise_from_differences(x[~repeats])
+    often = int((held & begins).sum())
+    if often < FEWEST or noise == 0.0 or quantum(x) > 0.0 or quantum(x[held]) > 0.0:
+        return np.zeros(x.size, dtype=bool)
+    by_chance = x.size * float(np.min(change[change > 0.0])) / (2.0 * np.sqrt(np.pi) * noise)
+    return held if poisson.sf(often - 1, by_chance) < BY_CHANCE else np.zeros(x.size, dtype=bool)
 
 
 def _updates(ticks: NDArray[np.int64], changes: Flags, longest: int) -> Flags:
@@ -58,6 +82,8 @@ def _updates(ticks: NDArray[np.int64], changes: Flags, longest: int) -> Flags:
 
 def _words(signal: str, repeated: Flags) -> str:
     every = round(float(np.median(np.diff(np.flatnonzero(~repeated)))))  # an update may bring an equal value
+    if every < 2:
+        return f"the {signal} repeats its last sample now and then"
     return f"the {signal} is updated every {every} samples and held between"
 
 
