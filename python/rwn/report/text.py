@@ -163,7 +163,7 @@ def filter_in_words(signal: str, time_constant: Estimate) -> str:
             "noise and in its motion: it was undone, and errors are those of the samples before it."
         )
     return (
-        f"The {signal} was measured through a first-order filter of {estimate(time_constant)}, seen in its noise: "
+        f"The {signal} was measured through a first-order filter of {estimate(time_constant)}: "
         "it was fitted as part of the measurement, beside whatever is missing."
     )
 
