@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -37,10 +39,12 @@ def _repeated(recording: Recording, signal: str) -> Flags:
     if usual < 2:
         return none
     if quantum(x) > 0.0:
-        updates = _updates(clock_of(np.asarray(recording.time)).ticks, ~repeats, usual)
+        regular = float(np.mean(gaps == usual)) > AT_ONCE
+        widths = range(usual, usual - 1 if regular else 1, -1)
+        updates = _updates(clock_of(np.asarray(recording.time)).ticks, ~repeats, widths)
         if not updates.all():
             return repeats & ~updates
-        if float(np.mean(gaps == usual)) <= AT_ONCE:
+        if not regular:
             return none
     repeats[2:] |= x[2:] == x[:-2]  # also behind a single spike
     return repeats
@@ -66,16 +70,16 @@ def _now_and_then(x: Array, repeats: Flags) -> Flags:
     return held if poisson.sf(often - 1, by_chance) < BY_CHANCE else np.zeros(x.size, dtype=bool)
 
 
-def _updates(ticks: NDArray[np.int64], changes: Flags, longest: int) -> Flags:
-    """The samples (n,) on the widest grid of ticks, up to the `longest`, that nearly all changes lie on; all: none."""
+def _updates(ticks: NDArray[np.int64], changes: Flags, widths: Sequence[int]) -> Flags:
+    """The samples (n,) on the first grid, one of every so many ticks, that nearly all changes lie on; all: none."""
     from scipy.stats import binom  # late: the command line starts without it
 
     at = ticks[changes][1:]  # the first sample is no change
-    for every in range(longest, 1, -1):
+    for every in widths:
         phase = np.bincount(at % every, minlength=every)
         most = int(np.argmax(phase))
         chance = every * float(binom.sf(phase[most] - 1, at.size, 1.0 / every))
-        if phase[most] > AT_ONCE * at.size and chance < BY_CHANCE / longest:
+        if phase[most] > AT_ONCE * at.size and chance < BY_CHANCE / len(widths):
             return np.asarray(ticks % every == most, dtype=np.bool_)
     return np.ones(ticks.size, dtype=bool)
 
