@@ -274,8 +274,7 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
     ),
     "stamped": IntersampleLaw(
         applied=partial(_held_from_ticks, samples=stamped),
-        shown=True,
         words="it changed at the ticks of a clock, beside which the times of the rows were noted",
-        samples=stamped,
+        samples=stamped,  # not `shown`: it says that the times are wrong
     ),
 }
