@@ -167,27 +167,25 @@ def _whole(counts: float) -> bool:
 def _quiet_power(signal: Array, lowest: float, highest: float) -> float:
     """Power over a band in the stretches of a motion in which it moves least at lower frequencies, their mean.
 
-    Steps of the speed would else outweigh its rounding; what stands still shows none.
+    Steps of the speed would else outweigh its rounding; what stands still shows none. Of a short signal: all of it.
     """
-    return float(np.mean([_power(x, lowest, highest) for x in _quiet(signal)]))
-
-
-def _quiet(signal: Array) -> Array:
-    """Those stretches (k, STRETCH), of a signal that is longer than a few; else the signal (1, n)."""
-    whole = signal[np.newaxis, :]
-    if signal.size < 4 * STRETCH:
-        return whole
-    stretches = np.lib.stride_tricks.sliding_window_view(signal, STRETCH)[:: STRETCH // 2]
+    stretches = np.lib.stride_tricks.sliding_window_view(signal, min(STRETCH, signal.size))[:: STRETCH // 2]
     moving = stretches[np.ptp(stretches, axis=1) > 0.0]
-    if not moving.size:
-        return whole
-    slow = np.array([_power(x, 0.5 * FASTEST, FASTEST) for x in moving])
-    return np.asarray(moving[slow <= np.percentile(slow, QUIET)])
+    if signal.size < 4 * STRETCH or not moving.size:
+        return _power(signal, lowest, highest)
+    slow = _powers(moving, 0.5 * FASTEST, FASTEST)
+    return float(np.mean(_powers(moving[slow <= np.percentile(slow, QUIET)], lowest, highest)))
 
 
 def _power(signal: Array, lowest: float, highest: float) -> float:
     """Mean power over a band of frequencies, in units of the sampling rate: the variance of a signal that is white."""
-    window = np.hanning(signal.size)
-    power = np.abs(np.fft.rfft((signal - np.mean(signal)) * window)) ** 2 / np.sum(window**2)
-    rate = np.linspace(0.0, 0.5, power.size)
-    return float(np.mean(power[(rate >= lowest) & (rate <= highest)]))
+    return float(_powers(signal[np.newaxis, :], lowest, highest)[0])
+
+
+def _powers(signals: Array, lowest: float, highest: float) -> Array:
+    """`_power` (k,) of each of signals (k, n)."""
+    window = np.hanning(signals.shape[1])
+    centred = signals - np.mean(signals, axis=1, keepdims=True)
+    power = np.abs(np.fft.rfft(centred * window)) ** 2 / np.sum(window**2)
+    rate = np.linspace(0.0, 0.5, power.shape[1])
+    return np.asarray(np.mean(power[:, (rate >= lowest) & (rate <= highest)], axis=1))
