@@ -99,7 +99,7 @@ def _shifted(flags: Flags, by: int) -> Flags:
 
 
 def clock_beside(time: Array) -> Clock | None:
-    """The clock beside whose ticks the rows were taken; None where it is theirs, or none is seen."""
+    """The clock beside whose ticks rows at `time` (n,) [s] were taken; None where it is theirs, or none is seen."""
     clock = clock_of(time)
     return clock if JITTER < clock.jitter < 0.5 and clock.lost < time.size else None
 
