@@ -19,6 +19,8 @@ PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over
 AS_WELL = 1.0 / float(np.sinc(0.5 / PER_CYCLE))  # agreement at a period over that at the nearest that is tried
 ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
 ROUNDING = 1e-6  # of times as numbers, relatively
+JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
+CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
 REMEMBERED = 16  # clocks kept, of a few recordings and parts of them: a search asks for each thousands of times
 
 
@@ -103,6 +105,12 @@ def _agreeing(time: Array, period: float, reach: float) -> tuple[float, float, f
     best = int(np.argmax(np.abs(sums)))
     period = period / (1.0 + float(shifts[best]))
     return abs(sums[best]), period, float(time[0]) + period * float(np.angle(sums[best])) / (2.0 * np.pi)
+
+
+def clock_beside(time: Array) -> Clock | None:
+    """The clock beside whose ticks rows at `time` (n,) [s] were taken; None where it is theirs, or none is seen."""
+    clock = clock_of(time)
+    return clock if JITTER < clock.jitter < 0.5 and clock.lost < time.size else None
 
 
 def written_to(time: Array) -> float:

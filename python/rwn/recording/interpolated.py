@@ -13,14 +13,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.clock import Clock, clock_of, written_to
+from rwn.recording.clock import CLEAR, Clock, clock_beside, written_to
 from rwn.values import Values
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
-CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
 ROUNDS = 8  # after which what lies farther on counts for nothing
 
 
@@ -96,12 +94,6 @@ def _shifted(flags: Flags, by: int) -> Flags:
     moved = np.roll(flags, by)
     moved[0 if by > 0 else -1] = False
     return moved
-
-
-def clock_beside(time: Array) -> Clock | None:
-    """The clock beside whose ticks rows at `time` (n,) [s] were taken; None where it is theirs, or none is seen."""
-    clock = clock_of(time)
-    return clock if JITTER < clock.jitter < 0.5 and clock.lost < time.size else None
 
 
 def between_ticks(time: Array) -> InterpolatedRows | None:

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import unknown
-from rwn.recording.clock import Clock, clock_of
-from rwn.recording.interpolated import CLEAR, InterpolatedRows, between_ticks, clock_beside, rounded, stamped
+from rwn.recording.clock import CLEAR, Clock, clock_beside, clock_of
+from rwn.recording.interpolated import InterpolatedRows, between_ticks, rounded, stamped
 from rwn.recording.noise import noise_from_differences
 from rwn.values import Values
 

@@ -11,10 +11,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.clock import clock_of
+from rwn.recording.clock import JITTER, clock_of
 from rwn.recording.denoising import denoised
 from rwn.recording.inspection.finding import Finding
-from rwn.recording.interpolated import JITTER
 from rwn.recording.noise import PER_MEDIAN
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
