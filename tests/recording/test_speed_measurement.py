@@ -79,14 +79,17 @@ def test_steps_of_a_quick_motor_do_not_hide_differences_of_counts(counts: int) -
     quick = lfilter([0.4], [1.0, -0.6], steps) + 8.0 * np.sin(9.0 * TIME)
     angle = 0.3 + np.concatenate([[0.0], np.cumsum(0.5 * (quick[1:] + quick[:-1]))]) * 1e-3
     assert speed_measurement(TIME, difference(BACKWARD, TIME, counted(angle, counts)), NONE) is BACKWARD
+    over_four = difference(SpeedMeasurement(4, 0), TIME, counted(angle, counts))
+    assert speed_measurement(TIME, over_four, NONE) is not BACKWARD
     step = 2.0 * np.pi / counts / 1e-3
     assert speed_measurement(TIME, step * np.round(quick / step), NONE) is INSTANTANEOUS
 
 
 def test_a_difference_is_told_where_the_times_jitter_that_it_was_not_divided_by() -> None:
-    angle = counted(ANGLE, 8000)
-    shown = TIME + 2e-5 * np.random.default_rng(7).standard_normal(TIME.size)
-    assert speed_measurement(shown - shown[0], difference(BACKWARD, TIME, angle), angle) is BACKWARD
+    rng = np.random.default_rng(7)
+    position = ANGLE + 1e-4 * rng.standard_normal(TIME.size)
+    shown = TIME + 2e-5 * rng.standard_normal(TIME.size)
+    assert speed_measurement(shown - shown[0], difference(BACKWARD, TIME, position), position) is BACKWARD
 
 
 @pytest.mark.parametrize("way", DIFFERENCES)

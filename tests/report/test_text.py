@@ -221,7 +221,7 @@ def test_a_correction_that_changes_nothing_is_not_given_two_numbers() -> None:
     assert "changes nothing in the speed error on heldout_1.csv, not used for fitting, 6.31 rad/s" in said
     assert "something larger is off there" in said
     at_the_floor = replace(same, noise_floor=0.8 * same.refitted)
-    assert "6.31 rad/s, which is its noise" in verdict_sentence(replace(found, heldout=(at_the_floor,)))
+    assert "6.31 rad/s, 1.2 times its noise" in verdict_sentence(replace(found, heldout=(at_the_floor,)))
 
 
 def test_without_a_run_to_prove_it_on_no_error_is_said() -> None:

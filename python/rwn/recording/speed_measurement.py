@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.clock import clock_of
+from rwn.recording.clock import clock_beside, clock_of
 from rwn.recording.quantisation import quantum
 from rwn.recording.speed_window import window_of
 
@@ -81,9 +81,8 @@ def _of_rows(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
     if speed.size < SHORTEST:
         return INSTANTANEOUS
     if position.size:
-        clock = clock_of(time)
-        evenly: Array = np.asarray(clock.period * clock.ticks, dtype=np.float64)  # as they may have been taken
-        instants = (time, evenly)
+        clock = clock_beside(time)  # a drive divides by its own period, however a computer notes the times
+        instants = [time] if clock is None else [time, np.asarray(clock.period * clock.ticks)]
         errors = {way: min(_repeats(t, speed, position, way) for t in instants) for way in DIFFERENCES}
         best = min(errors, key=lambda way: errors[way])
         if errors[best] < REPEATED:
@@ -137,7 +136,7 @@ def _repeats(time: Array, speed: Array, position: Array, way: SpeedMeasurement) 
 
 
 def _of_counts(power: _Power, time: Array, speed: Array, step: float) -> SpeedMeasurement:
-    """By their steps, and by what these hold near half the sampling rate.
+    """By their steps, and by what these hold near half the sampling rate. `power`: of all samples, or of quiet ones.
 
     The central difference (q[k+1] - q[k-1]) / 2T vanishes there, whatever gear is between encoder and shaft; that over
     one sample, with a whole number of counts per revolution, holds most there; what a coarse converter rounds neither.
@@ -146,6 +145,7 @@ def _of_counts(power: _Power, time: Array, speed: Array, step: float) -> SpeedMe
     if near_half < VANISHING * quarter:
         return CENTRAL
     counts = 2.0 * np.pi / (step * clock_of(time).period)
+    # that over four samples holds nothing at a quarter either, and at half of the rate no more
     if _whole(counts) and high > RISING * quarter and near_half > 0.5 * high:
         return BACKWARD
     return INSTANTANEOUS

@@ -228,8 +228,10 @@ def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
     if not math.isfinite(row.refitted):
         return f"{how} keeps the simulated {row.signal} {there} from running away: its error is {after}."
     if corrected == row.refitted or (row.gain is not None and abs(row.gain) < SLIGHT):
-        larger = ": something larger is off there" if over_noise(row) > STANDS_OUT else ", which is its noise"
-        return f"{how} changes nothing in {where} {after}{larger}."
+        times = over_noise(row)
+        little = 0.0 < times <= STANDS_OUT
+        left = f", {number(times, 2)} times its noise" if little else ": something larger is off there"
+        return f"{how} changes nothing in {where} {after}{left}."
     if row.gain_interval is not None and row.gain_interval[0] <= 0.0 <= row.gain_interval[1]:
         return f"{how} changes little for certain: {where} goes from {before}, refitted alone, to {after}."
     does = "increases" if (corrected > row.refitted if row.gain is None else row.gain < 0.0) else "reduces"

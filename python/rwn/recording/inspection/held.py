@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 
 OFTEN = 0.3  # share of the samples that have to repeat the last one
 AT_ONCE = 0.8  # share of the updates that come after the usual number of samples, or on one grid
-BY_CHANCE = 0.01  # level at which a grid of the changes of a coarse signal, or repeats of a fine one, are no chance
-FEWEST = 20  # times that a sample repeats the last, which show whether they lie on a step
+LEVEL = 0.01  # chance that the changes of a coarse signal lie on a grid, or that a fine one repeats itself so often
+FEWEST = 20  # times that a sample repeats the last; of fewer values `quantum` tells no step
 
 
 def _repeated(recording: Recording, signal: str) -> Flags:
@@ -42,7 +42,7 @@ def _repeated(recording: Recording, signal: str) -> Flags:
         regular = float(np.mean(gaps == usual)) > AT_ONCE
         widths = range(usual, usual - 1 if regular else 1, -1)
         updates = _updates(clock_of(np.asarray(recording.time)).ticks, ~repeats, widths)
-        if not updates.all():
+        if updates is not None:
             return repeats & ~updates
         if not regular:
             return none
@@ -67,11 +67,11 @@ def _now_and_then(x: Array, repeats: Flags) -> Flags:
     if often < FEWEST or noise == 0.0 or quantum(x) > 0.0 or quantum(x[held]) > 0.0:
         return np.zeros(x.size, dtype=bool)
     by_chance = x.size * float(np.min(change[change > 0.0])) / (2.0 * np.sqrt(np.pi) * noise)
-    return held if poisson.sf(often - 1, by_chance) < BY_CHANCE else np.zeros(x.size, dtype=bool)
+    return held if poisson.sf(often - 1, by_chance) < LEVEL else np.zeros(x.size, dtype=bool)
 
 
-def _updates(ticks: NDArray[np.int64], changes: Flags, widths: Sequence[int]) -> Flags:
-    """The samples (n,) on the first grid, one of every so many ticks, that nearly all changes lie on; all: none."""
+def _updates(ticks: NDArray[np.int64], changes: Flags, widths: Sequence[int]) -> Flags | None:
+    """The samples (n,) on the first grid, one of every so many ticks, that nearly all changes lie on; None: on none."""
     from scipy.stats import binom  # late: the command line starts without it
 
     at = ticks[changes][1:]  # the first sample is no change
@@ -79,9 +79,9 @@ def _updates(ticks: NDArray[np.int64], changes: Flags, widths: Sequence[int]) ->
         phase = np.bincount(at % every, minlength=every)
         most = int(np.argmax(phase))
         chance = every * float(binom.sf(phase[most] - 1, at.size, 1.0 / every))
-        if phase[most] > AT_ONCE * at.size and chance < BY_CHANCE / len(widths):
+        if phase[most] > AT_ONCE * at.size and chance < LEVEL / len(widths):
             return np.asarray(ticks % every == most, dtype=np.bool_)
-    return np.ones(ticks.size, dtype=bool)
+    return None
 
 
 def _words(signal: str, repeated: Flags) -> str:

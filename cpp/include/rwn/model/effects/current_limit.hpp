@@ -22,7 +22,7 @@ struct CurrentLimit {
                                                    .symbol = "c",
                                                    .unit = "1",
                                                    .meaning = "how many times as fast as L/R it is reached",
-                                                   .lower = 1.0,    // the voltage at the limit, at once
+                                                   .lower = 1.0,   // the voltage at the limit, at once
                                                    .upper = 20.0,  // already as good as all of u until it is reached
                                                    .start = 3.0,
                                                    .idealised = true}};
@@ -38,8 +38,8 @@ struct CurrentLimit {
     if (sign * value_of(excess) > 0.0) t.drop += excess;
     t.drop_slope += (value_of(p[1]) - 1.0) * value_of(motor[resistance]);
   }
-  /// Where it limits, it takes the back-EMF out of the equations, and its damping with it. Where it begins or ends to
-  /// within a step: how often the current is reached then.
+  /// Where it limits throughout, it takes the back-EMF out of the equations, and its damping with it. Where it may begin
+  /// or end to limit within a step: how fast the current then settles.
   template <class S>
   static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
     const double r = value_of(m[resistance]), limit = value_of(p[0]), c = value_of(p[1]), drive = driven(m, x);
