@@ -16,7 +16,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
-from rwn.simulate.run import windowed
+from rwn.simulate.windows import windowed
 
 Array = NDArray[np.float64]
 STEP, NOISE, SHARE = 0.02, 0.05, 0.95

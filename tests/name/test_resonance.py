@@ -17,7 +17,7 @@ from rwn.model.model import Model
 from rwn.model.vocabulary import table
 from rwn.name.initial_guesses.resonance import Resonance, read, resonances
 from rwn.name.screening import screen
-from rwn.simulate.run import windowed
+from rwn.simulate.windows import windowed
 
 Array = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from made_up_motor import SMALL as MOTOR
 from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
-from rwn.recording.filters import as_filtered, unfiltered
+from rwn.recording.filters import as_filtered, before_filter, unfiltered
 
 RNG = np.random.default_rng(3)
 TIME = np.cumsum(1e-3 * RNG.uniform(0.75, 1.25, 400))  # off its clock
@@ -62,3 +62,39 @@ def test_what_is_no_filter_is_refused(tmp_path: Path, entry: str) -> None:
     path.write_text(path.read_text().replace("filters.speed = 0.002", entry))
     with pytest.raises(rwn.InputError, match="filter"):
         rwn.read_model(path)
+
+
+def _thinned(every: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Time, samples and what a filter of 2 ms shows of them, at every so many ticks of the 1 ms that it runs by."""
+    samples = RNG.standard_normal(300)
+    ticks = np.interp(np.arange(every * 299 + 1) / every, np.arange(300), samples)
+    kept = np.exp(-1.0 / 2.0)
+    shown = lfilter([1.0 - kept], [1.0, -kept], ticks, zi=[kept * ticks[0]])[0]
+    return every * 1e-3 * np.arange(300), samples, shown[::every]
+
+
+@pytest.mark.parametrize("every", [1, 2, 3])
+def test_a_filter_runs_by_the_clock_of_the_drive_of_which_rows_show_every_so_many_ticks(every: int) -> None:
+    time, samples, shown = _thinned(every)
+    found, _ = before_filter(time, shown, 2e-3, ticks_per_row=every)
+    assert found == pytest.approx(samples, abs=1e-9)
+    assert as_filtered(time, samples, 2e-3, ticks_per_row=every) == pytest.approx(shown, abs=1e-12)
+
+
+def test_a_filter_goes_on_over_a_row_that_was_lost() -> None:
+    time, samples, _ = _thinned(1)
+    samples[150] = 0.5 * (samples[149] + samples[151])
+    kept, rest = np.exp(-1.0 / 2.0), np.arange(300) != 150
+    shown = lfilter([1.0 - kept], [1.0, -kept], samples, zi=[kept * samples[0]])[0]
+    found, _ = before_filter(time[rest], shown[rest], 2e-3)
+    assert found == pytest.approx(samples[rest], abs=1e-9)
+
+
+def test_what_was_not_measured_spoils_no_more_than_the_sample_after_it() -> None:
+    time, samples, shown = _thinned(2)
+    missing = np.arange(300) == 100
+    wrong, lost = before_filter(time, np.where(missing, 1e6, shown), 2e-3, ticks_per_row=2, missing=missing)
+    assert np.flatnonzero(lost).tolist() == [100, 101]
+    right, _ = before_filter(time, shown, 2e-3, ticks_per_row=2, missing=missing)
+    assert wrong[~lost] == pytest.approx(right[~lost], abs=1e-9)
+    assert right[~lost] == pytest.approx(samples[~lost], abs=1.0)

@@ -12,7 +12,8 @@ from rwn.fit.fit import NEAR_ITS_END, Fit, refit
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
-from rwn.simulate.run import Run, windowed
+from rwn.simulate.run import Run
+from rwn.simulate.windows import windowed
 
 Array = NDArray[np.float64]
 

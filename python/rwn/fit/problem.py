@@ -20,9 +20,10 @@ from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.level import nearest_level
-from rwn.simulate.run import Run, windowed
+from rwn.simulate.run import Run
 from rwn.simulate.simulator import Output, Simulator
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
+from rwn.simulate.windows import windowed
 
 Array = NDArray[np.float64]
 

@@ -12,6 +12,7 @@ from rwn.fit.problem import Problem
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.model.vocabulary import analog_filters
+from rwn.recording.filters import share_before
 from rwn.recording.noise import Noise
 
 
@@ -45,7 +46,10 @@ def noise_before_filters(problem: Problem, noise: Mapping[str, Noise]) -> dict[s
     for signal, time_constant in problem.filters.items():
         if signal in before:
             share = share_kept(problem, signal, time_constant)
-            before[signal] = before[signal].scaled(float(np.sqrt((1.0 + share) / (1.0 - share))))
+            mixed = share_before(share, _ticks_per_row(problem))
+            before[signal] = before[signal].scaled(float(np.sqrt((1.0 + share) / (1.0 - share))) / (1.0 - mixed))
+            if mixed:
+                before[signal] = replace(before[signal], reflection=(-mixed / (1.0 - mixed),))
     return before
 
 
@@ -69,6 +73,23 @@ def undone(problem: Problem, signal: str, time_constant: float) -> Problem:
     filters = {**problem.filters, signal: time_constant}
     noise = noise_before_filters(replace(problem, filters={signal: time_constant}), problem.noise)
     return replace(problem, runs=runs, whole=whole, noise=noise, filters=filters)
+
+
+def log_density(problem: Problem) -> float:
+    """Logarithm of how much closer together the samples of a problem's signals are as they were recorded.
+
+    What is likely of samples as they were before a digital filter is as likely of what it showed, but for this.
+    """
+    found = 0.0
+    for signal, time_constant in problem.filters.items():
+        share = share_kept(problem, signal, time_constant)
+        new = (1.0 - share) * (1.0 - share_before(share, _ticks_per_row(problem)))
+        found += sum(r.signal(signal).size for r in problem.runs) * float(np.log(new))
+    return found
+
+
+def _ticks_per_row(problem: Problem) -> int:
+    return max(r.ticks_per_row for r in problem.runs)
 
 
 def share_kept(problem: Problem, signal: str, time_constant: float) -> float:

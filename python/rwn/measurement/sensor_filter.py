@@ -21,10 +21,11 @@ from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, losses, statistics
 from rwn.measurement.filter_colour import SLOWEST, SensorFilter, certain, coloured_signals, is_noise_alone
-from rwn.measurement.known_filters import filtered, share_kept
+from rwn.measurement.known_filters import filtered, log_density, share_kept
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior
 from rwn.measurement.noise_spectrum import FASTEST, NoiseColour
 from rwn.parallel import side_by_side
+from rwn.recording.filters import share_before
 
 Array = NDArray[np.float64]
 
@@ -165,13 +166,8 @@ def _likelihood(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) ->
     """How likely an explanation and filters beside it are (log, BIC)."""
     on = filtered(problem, filters)
     this = _refitted(base, on)
-    shown = sum(_samples(problem, f.signal) * float(np.log(1.0 - f.share)) for f in filters if f.digital)
     unknowns = len(this.hypothesis.unknowns) + len(on.filters)
-    return log_posterior(on, this) - shown - 0.5 * unknowns * float(np.log(problem.samples))
-
-
-def _samples(problem: Problem, signal: str) -> int:
-    return sum(r.signal(signal).size for r in problem.runs)
+    return log_posterior(on, this) - log_density(on) - 0.5 * unknowns * float(np.log(problem.samples))
 
 
 def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
@@ -240,16 +236,20 @@ def losses_of(problem: Problem, this: Fit) -> Array:
 def _as_recorded(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) -> list[dict[str, Array]]:
     """Errors (n,) of each run, by signal, as a filter and the lines between samples show those that they are made of.
 
-    What was found of samples from such rows, or from before a filter, has the noise of these amplified.
+    What was found of samples from such rows, or from before a filter, has the noise of these amplified; an input that
+    was inferred from the errors has taken some of it.
     """
     from scipy.signal import lfilter  # late: the command line starts without it
 
     left = [dict(of_a_run) for of_a_run in problem.residuals(this.vector, this.active)]
     for run, of_a_run in zip(problem.runs, left, strict=True):
         for f in (f for f in filters if f.digital and f.signal in of_a_run):
-            of_a_run[f.signal] = lfilter([1.0 - f.share], [1.0, -f.share], np.nan_to_num(of_a_run[f.signal]))
+            before = share_before(f.share, run.ticks_per_row)
+            taken_in = (1.0 - f.share) * np.array([1.0 - before, before])
+            of_a_run[f.signal] = lfilter(taken_in, [1.0, -f.share], np.nan_to_num(of_a_run[f.signal]))
         if run.interpolated is not None:
             of_a_run.update({s: run.interpolated.shown(x) for s, x in of_a_run.items()})
+        of_a_run.update({s: x / run.noise_left(s) for s, x in of_a_run.items()})
     return left
 
 

@@ -62,11 +62,13 @@ class IntersampleLaw:
 
     `samples`: of rows at times (n,) that lie between samples at the ticks of a clock, how; `applied` then counts from
     the first tick. None: a row is what was at its time. `shown`: the times of the rows show that it may be so.
+    `ticks_per_row`: of the drive's clock, by which its filters run too.
     """
 
     applied: Callable[[Array, Array], PiecewiseInput | None]
     words: str
     shown: bool = False
+    ticks_per_row: int = 1
     samples: Callable[[Array], InterpolatedRows | None] = _own_samples
 
 
@@ -245,10 +247,12 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
     "bridged": IntersampleLaw(applied=_bridged, shown=True, words="it went on changing over the rows that are missing"),
     "halves": IntersampleLaw(
         applied=partial(_in_parts, parts=2),
+        ticks_per_row=2,
         words="it changed twice from row to row, as where every second row was kept",
     ),
     "thirds": IntersampleLaw(
         applied=partial(_in_parts, parts=3),
+        ticks_per_row=3,
         words="it changed three times from row to row, as where every third row was kept",
     ),
     "line": IntersampleLaw(applied=_linear, words="it moved on a line from row to row"),

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rwn.model.initial_state import INITIAL_POSITION, initial_state_of, is_moving
 from rwn.model.model import Model
 from rwn.recording.delays import in_time
-from rwn.recording.filters import after_missing, before_filter, unfiltered
+from rwn.recording.filters import before_filter, unfiltered
 from rwn.recording.interpolated import InterpolatedRows
 from rwn.recording.intersample import AUTO, INTERSAMPLE, PiecewiseInput
 from rwn.recording.quantisation import quantum
@@ -25,7 +25,6 @@ from rwn.simulate.own_unknowns import LevelShare, StartUnknown
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-WINDOW = 50  # samples of a window of a drive that integrates: short enough that drift does not drown the forces
 _NONE: Array = np.empty(0)
 
 
@@ -52,6 +51,7 @@ class Run:
     levels: tuple[LevelShare, ...] = ()
     input_before: float = 0.0
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
+    ticks_per_row: int = 1  # of the clock that the drive's filters run by
     interpolated: InterpolatedRows | None = None  # its rows, where the signals are samples that these lay between
     angle: Array = field(default_factory=lambda: _NONE)  # recorded position that angle-dependent effects follow
     angle_from_speed: bool = False  # `angle` is the integral of the recorded speed, with what its sensor adds
@@ -155,8 +155,9 @@ class Run:
     def with_intersample(self, law: str) -> Run:
         """The same with the input acting between the rows by a law of `rwn.recording.intersample`."""
         shown = self._as_rows()
-        rows = INTERSAMPLE[law].samples(shown.time)
-        run = replace(shown, applied_input=INTERSAMPLE[law].applied(shown.time, shown.input), interpolated=rows)
+        between = INTERSAMPLE[law]
+        rows, applied = between.samples(shown.time), between.applied(shown.time, shown.input)
+        run = replace(shown, applied_input=applied, ticks_per_row=between.ticks_per_row, interpolated=rows)
         if rows is None:
             return run
         found = {s: rows.samples(run.signal(s), run.missing.get(s)) for s in run.recorded}
@@ -184,10 +185,13 @@ class Run:
 
         What was taken for a start in motion may lie within the noise that the filter took off.
         """
-        values = before_filter(self.time, self.signal(signal), time_constant)
         missing = dict(self.missing)
+        values, lost = before_filter(
+            self.time, self.signal(signal), time_constant,
+            ticks_per_row=self.ticks_per_row, missing=missing.get(signal),
+        )  # fmt: skip
         if signal in missing:
-            missing[signal] = after_missing(missing[signal])
+            missing[signal] = lost
         changed: dict[str, Any] = {signal: values}
         if signal == "speed" and self.angle_from_speed:
             changed["angle"] = integral(self.speed_measured, self.time, values)
@@ -227,7 +231,8 @@ def run_of(recording: Recording, model: Model) -> Run:
     recording = in_time(recording, layout.delays)
     when = recording.time - recording.time[0]
     rows = law.samples(when) if law else None
-    recording = unfiltered(sampled(recording, rows), layout.filters)
+    ticks = law.ticks_per_row if law else 1
+    recording = unfiltered(sampled(recording, rows), layout.filters, ticks_per_row=ticks)
     signals = {name: np.array(values) for name, values in recording.signals.items()}
     given = signals[drive.input]
     time = recording.time - recording.time[0]
@@ -253,6 +258,7 @@ def run_of(recording: Recording, model: Model) -> Run:
         input_before=float(given[0]) if start.in_motion else 0.0,
         angle=position if position.size else integral(way, time, speed),
         angle_from_speed=position.size == 0,
+        ticks_per_row=ticks,
         interpolated=rows,
     )
     known = recording.applied_input
@@ -280,21 +286,3 @@ def measured_alike(runs: Sequence[Run], known: Sequence[Run]) -> list[Run]:
     """The runs with their speed measured as in `known`, which were all measured by one sensor."""
     way = next((k.speed_measured for k in known if k.speed.size), None)
     return [replace(r, speed_measured=way) if way and r.speed.size else r for r in runs]
-
-
-def windowed(run: Run, length: int = WINDOW) -> Run:
-    """The same recording in windows of `length` samples, each starting from the smoothed recorded motion.
-
-    As it is where that cannot be (`can_restart`).
-    """
-    if not run.can_restart:
-        return run
-    speed, position = run.motion[0], run.angle
-    return replace(
-        run,
-        restart_every=length,
-        restart_speed=np.ascontiguousarray(speed),
-        restart_position=np.ascontiguousarray(position),
-        start=(0.0, float(speed[0]), float(position[0])),
-        start_spread={},
-    )

@@ -141,6 +141,6 @@ def _held(values: Array) -> Array:
 def _as_logged(name: str, run: Run, values: Array, layout: Layout) -> Array:
     """A signal (n,) as the files of this layout show it."""
     tau, rows = layout.filters.get(name, 0.0), run.interpolated
-    values = as_filtered(run.time, values, tau) if tau else values
+    values = as_filtered(run.time, values, tau, ticks_per_row=run.ticks_per_row) if tau else values
     shown, time = (values, run.time) if rows is None else (rows.shown(values), rows.rows)
     return delayed(time, shown, layout.delays.get(name, 0.0))
