@@ -13,11 +13,14 @@ from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import nominal_of
-from rwn.fit.residuals import loss_gained
+from rwn.fit.refitting import under_own_noise
+from rwn.fit.residuals import loss_gained, statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.intersample import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
+from rwn.measurement.known_filters import filtered
 from rwn.measurement.likelihood import DECISIVE, log_likelihood
 from rwn.measurement.sensor_filter import losses_beside
+from rwn.measurement.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 
@@ -45,7 +48,7 @@ def test_thinned_rows_are_told_from_whole_ones(every: int, law: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("every", "at_first", "law"), [(1, "held", "held"), (2, "held", "halves"), (3, "thirds", "thirds")]
+    ("every", "at_first", "law"), [(1, "held", "held"), (2, "thirds", "halves"), (3, "thirds", "thirds")]
 )
 def test_thinned_rows_are_told_from_whole_ones_also_beneath_missing_physics(
     every: int, at_first: str, law: str
@@ -182,3 +185,42 @@ def test_a_simulation_that_ran_away_is_certainly_worse_than_one_that_did_not() -
     assert loss_gained(stayed, ran_away) == np.inf
     assert loss_gained(ran_away, stayed) == -np.inf
     assert loss_gained(ran_away, ran_away) == 0.0
+
+
+def _swept_and_stepped(filter_share: float = 0.0) -> list[rwn.Recording]:
+    """Every second row of a drive whose voltage is swept in one recording, and in the other steps at any of its ticks.
+
+    `filter_share`: of a filter of the speed, from tick to tick.
+    """
+    rng, time = np.random.default_rng(8), 5e-4 * np.arange(6000)
+    ends = np.cumsum(rng.integers(60, 300, 100))
+    swept = 3.0 * np.sin(2 * np.pi * (0.2 + 5.0 * time) * time)
+    stepped = rng.uniform(-4.0, 4.0, 100)[np.searchsorted(ends, np.arange(time.size), side="right")]
+    kept = []
+    for name, voltage in (("swept", swept), ("stepped", stepped)):
+        bare = rwn.Recording(name=name, time=time, signals={"voltage": voltage})
+        moved = rwn.simulate(MODEL, bare).signals
+        shown = {"current": moved["current"] + 0.02 * rng.standard_normal(time.size)}
+        speed = moved["speed"] + 0.3 * rng.standard_normal(time.size)
+        shown["speed"] = lfilter([1.0 - filter_share], [1.0, -filter_share], speed)
+        kept.append(_kept(replace(bare, signals={"voltage": voltage, **shown}), slice(None, None, 2)))
+    return kept
+
+
+def test_steps_at_any_tick_beside_a_sweep_are_told_by_when_the_motion_has_them() -> None:
+    """With each step in the middle of what its rows show, that it moved three times from row to row is likelier."""
+    assert with_intersample(_swept_and_stepped(), MODEL).recording.intersample == "halves"
+
+
+def test_a_filter_beside_thinned_rows_is_that_of_the_drives_own_ticks() -> None:
+    """One of the rows lags by half a tick less than one of twice as many: a delay makes up for the rest."""
+    share = 0.85
+    runs = _swept_and_stepped(share)
+    bare, nominal = nominal_of(runs, stating(MODEL, "held"))
+    law, (of_speed,) = likeliest_with_filters(bare, nominal, "held")
+    assert (law, of_speed.signal, of_speed.digital) == ("halves", "speed", True)
+    assert of_speed.time_constant == pytest.approx(-5e-4 / np.log(share), rel=0.03)
+    stated = stating(MODEL, law)
+    on, _ = nominal_of(with_unrecorded_input(runs, stated, nominal, filters=[of_speed]), stated)
+    problem, this = under_own_noise(nominal, filtered(on, [of_speed]))
+    assert statistics(problem, this).at_the_floor

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from statistics import NormalDist
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +16,10 @@ from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import LEVEL, loss_gained, statistics
 from rwn.measurement.filter_colour import SensorFilter
-from rwn.measurement.known_filters import filtered
+from rwn.measurement.known_filters import filtered, log_density
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
 from rwn.measurement.sensor_filter import filters_and_likelihood, losses_beside, losses_of
+from rwn.measurement.unrecorded_input import ROUNDS, has_unknown_input, told_by_motion
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
@@ -49,8 +51,15 @@ def likeliest(problem: Problem, this: Fit) -> str:
     so one that simulates the recordings certainly worse than another, from their input alone, is not taken.
     """
     candidates = _candidates(problem)
-    fits = side_by_side(lambda p: refit(this, p, iterations=NEAR_ITS_END), candidates.values())
-    refitted = dict(zip(candidates, zip(candidates.values(), fits, strict=True), strict=True))
+
+    def as_it_acted(under_law: Problem) -> tuple[Problem, Fit]:
+        found = refit(this, under_law, iterations=NEAR_ITS_END)
+        if not has_unknown_input(under_law):
+            return under_law, found
+        told = told_by_motion(under_law, found)
+        return told, refit(found, told, iterations=NEAR_ITS_END)
+
+    refitted = dict(zip(candidates, side_by_side(as_it_acted, candidates.values()), strict=True))
     return _chosen(refitted, {law: log_likelihood(*refitted[law]) for law in candidates})
 
 
@@ -73,13 +82,35 @@ def likeliest_with_filters(
     refitted = _all_explained(explanation, candidates)
     asked = {HELD, *_leading(refitted), *({stated} & set(candidates))}
     if known:
-        asked |= _leading(_all_explained(explanation, {law: filtered(p, known) for law, p in candidates.items()}))
+        asked |= _leading(_all_explained(explanation, candidates, known))
     if len(asked) == 1:
         return HELD, tuple(known)
-    found = {law: filters_and_likelihood(*refitted[law], known) for law in sorted(asked)}
-    filters = {law: of_law for law, (of_law, _) in found.items()}
-    law = _chosen(refitted, {law: likelihood for law, (_, likelihood) in found.items()}, filters)
+    found = {law: _with_filters(candidates[law], explanation, known) for law in sorted(asked)}
+    filters = {law: one.filters for law, one in found.items()}
+    explained = {law: (one.problem, one.fit) for law, one in found.items()}
+    law = _chosen(explained, {law: one.likelihood for law, one in found.items()}, filters)
     return law, filters[law]
+
+
+class _Filtered(NamedTuple):
+    """A problem under a law and a fit to it, with the filters that show beside these and how likely all are."""
+
+    problem: Problem
+    fit: Fit
+    filters: tuple[SensorFilter, ...]
+    likelihood: float
+
+
+def _with_filters(problem: Problem, explanation: Fit, known: Sequence[SensorFilter]) -> _Filtered:
+    """What is likeliest under a law: a filter that is not counted bends what is told of the input, and is told anew."""
+    filters = tuple(known)
+    for _ in range(ROUNDS):
+        told, this = under_own_noise(explanation, _as_it_acted(problem, explanation, filters))
+        counted = {(f.signal, f.digital) for f in filters}
+        filters, likelihood = filters_and_likelihood(told, this, filters)
+        if told is problem or counted == {(f.signal, f.digital) for f in filters}:
+            break
+    return _Filtered(problem=told, fit=this, filters=filters, likelihood=likelihood)
 
 
 def _chosen(
@@ -88,12 +119,13 @@ def _chosen(
 ) -> str:  # fmt: skip
     """The likeliest law, "held" where none is decisively so; of one that no times show, by what is left is worth.
 
-    One that simulates the recordings certainly worse than another, each beside its `filters`, is neither. Against one
-    that the times show, one that no times show does not count: while physics is missing, an input that acts sooner or
-    later makes up for some of it.
+    One that simulates the recordings, from what they show of the input alone, certainly worse than another, each beside
+    its `filters`, is neither. Against one that the times show, one that no times show does not count: while physics is
+    missing, an input that acts sooner or later makes up for some of it.
     """
     held, _ = refitted[HELD]
-    under = {law: (replace(problem, noise=held.noise), this) for law, (problem, this) in refitted.items()}
+    from_rows = {law: (_under_law(problem, law), this) for law, (problem, this) in refitted.items()}
+    under = {law: (replace(problem, noise=held.noise), this) for law, (problem, this) in from_rows.items()}
     loss = {law: losses_beside(*under[law], (filters or {}).get(law, ())) for law in scores}
 
     def is_believable(law: str) -> bool:
@@ -109,9 +141,26 @@ def _chosen(
     return max(decisive, key=lambda law: scores[law], default=usual)
 
 
-def _all_explained(explanation: Fit, under: Mapping[str, Problem]) -> dict[str, tuple[Problem, Fit]]:
-    found = side_by_side(lambda p: under_own_noise(explanation, p), under.values())
+def _all_explained(
+    explanation: Fit, under: Mapping[str, Problem], filters: Sequence[SensorFilter] = ()
+) -> dict[str, tuple[Problem, Fit]]:
+    def beside(problem: Problem) -> tuple[Problem, Fit]:
+        return under_own_noise(explanation, filtered(_as_it_acted(problem, explanation, filters), filters))
+
+    found = side_by_side(beside, under.values())
     return dict(zip(under, found, strict=True))
+
+
+def _as_it_acted(problem: Problem, explanation: Fit, filters: Sequence[SensorFilter]) -> Problem:
+    """A problem under a law, with what no row shows of the input as the motion tells beside filters.
+
+    Steps that fell between two rows are errors under the right law too, where all that is known of them is how high.
+    """
+    if not has_unknown_input(problem):
+        return problem
+    told = told_by_motion(*under_own_noise(explanation, filtered(problem, filters)))
+    acted = zip(problem.runs, told.runs, strict=True)
+    return replace(problem, runs=tuple(replace(run, applied_input=t.applied_input) for run, t in acted))
 
 
 def _leading(refitted: Mapping[str, tuple[Problem, Fit]]) -> set[str]:
@@ -122,7 +171,11 @@ def _leading(refitted: Mapping[str, tuple[Problem, Fit]]) -> set[str]:
         problem, this = refitted[law]
         return float(np.mean(losses_of(replace(problem, noise=noise), this)))
 
-    return {max(refitted, key=lambda law: log_posterior(*refitted[law])), min(refitted, key=error)}
+    def likelihood(law: str) -> float:
+        problem, this = refitted[law]
+        return log_posterior(problem, this) - log_density(problem)
+
+    return {max(refitted, key=likelihood), min(refitted, key=error)}
 
 
 def _candidates(problem: Problem) -> dict[str, Problem]:

@@ -23,9 +23,11 @@ from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
+from rwn.recording.inspection import Finding, inspected
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE, PiecewiseInput
 from rwn.recording.noise import noise_from_differences
 from rwn.recording.recording import Recording
+from rwn.recording.signals import MEASURED
 from rwn.recording.speed_measurement import SpeedMeasurement
 from rwn.simulate.run import Run
 
@@ -73,6 +75,49 @@ def with_unrecorded_input(
     return made
 
 
+def as_it_acted(recording: Recording, model: Model) -> Recording:
+    """A recording with its input as it acted, between rows that show it, by its motion and a model as it stands.
+
+    Raises InputError where the recording does not fit the model.
+    """
+    ((inspected_one,), _) = inspected([recording])
+    (told,) = with_unrecorded_input([inspected_one], replace(model, uncertainty={}))
+    return replace(recording, applied_input=told.applied_input)
+
+
+def told_by_motion(problem: Problem, this: Fit) -> Problem:
+    """The problem with the input values of its runs that no row shows as the errors of a fit tell."""
+    runs = list(problem.runs)
+    if not has_unknown_input(problem):
+        return problem
+    for k, (run, left) in enumerate(zip(runs, problem.residuals(this.vector, this.active), strict=True)):
+        if (given := run.applied_input) is not None and _is_unknown(run):
+            runs[k] = replace(run, applied_input=_inferred(problem, this, run, left, given))
+    return replace(problem, runs=tuple(runs))
+
+
+def input_told(unseen: Sequence[Run], given: str) -> list[Finding]:
+    """What a check says of recordings that were not fitted, where their motion told some of their input, `given`."""
+    return [
+        Finding(
+            kind="intersample", recording=run.name, signals=(given,), count=int(np.sum(applied.spread > 0.0)),
+            words=f"no row shows the {given} that acted between two of them", done="told by the motion that followed",
+        )
+        for run in unseen
+        if (applied := run.applied_input) is not None and _is_unknown(run)
+    ]  # fmt: skip
+
+
+def has_unknown_input(problem: Problem) -> bool:
+    """Whether a run of a problem has input values that no row shows, and that its motion may tell."""
+    return any(_is_unknown(run) for run in problem.runs)
+
+
+def _is_unknown(run: Run) -> bool:
+    given = run.applied_input
+    return given is not None and bool(given.spread.any()) and not run.restart_every
+
+
 def _inferred(
     problem: Problem, this: Fit, run: Run, left: Mapping[str, Array], given: PiecewiseInput
 ) -> PiecewiseInput:
@@ -90,6 +135,8 @@ def _inferred(
     before = (assumed.values - given.values)[first]  # what the errors are corrected by already
     responses, errors = {}, {}
     for signal, error in left.items():
+        if signal not in MEASURED:  # the driving force that a motion would need
+            continue
         level = problem.noise[signal].deviation
         response = _pulses(problem, this, run, signal, given.instants[first], ends) / level
         masked = run.masked(signal, error) / level
