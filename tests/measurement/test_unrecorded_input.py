@@ -9,11 +9,13 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.fit.fit import fit
+from rwn.fit.driving_force import of_driving_force
+from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import nominal_of
+from rwn.fit.preparation import prepare
 from rwn.measurement.intersample import stating
-from rwn.measurement.unrecorded_input import _farthest, with_unrecorded_input
+from rwn.measurement.unrecorded_input import _farthest, as_it_acted, told_by_motion, with_unrecorded_input
 from rwn.model.model import Model
 from rwn.recording.intersample import INTERSAMPLE, PiecewiseInput
 
@@ -111,3 +113,47 @@ def test_a_value_that_leans_to_one_neighbour_may_yet_be_the_other() -> None:
     low, high = _farthest(given, np.array([1]))
     assert low == pytest.approx(-2.0 * np.sqrt(3.0))
     assert high == pytest.approx(7.0)
+
+
+def test_a_model_as_it_stands_tells_the_input_of_a_recording_that_it_was_not_fitted_to() -> None:
+    """Steps in the middle of what their rows show would bend the model first, and the input after it."""
+    voltage, kept = _every_second_row({})
+    wrong = kept.signals["speed"].copy()
+    wrong[500] += 1000.0  # a spike
+    run = replace(kept, signals={**kept.signals, "speed": wrong})
+    truth = stating(replace(MODEL, uncertainty={"inertia": 0.1}), "halves")
+    told = as_it_acted(run, truth)
+    assert _missed(voltage, kept, told) < 0.3
+    off = replace(truth, parameters={**MOTOR, "inertia": 1.5 * MOTOR["inertia"]})
+    assert _missed(voltage, kept, as_it_acted(run, off)) > 1.2 * _missed(voltage, kept, told)  # it was not refitted
+
+
+def test_a_recording_that_was_not_fitted_is_simulated_with_the_input_that_its_motion_tells() -> None:
+    _, kept = _every_second_row({})
+    half = kept.time.size // 2
+    fitted, unseen = (
+        rwn.Recording(name=name, time=kept.time[rows], signals={s: x[rows] for s, x in kept.signals.items()})
+        for name, rows in (("fitted", slice(None, half)), ("unseen", slice(half, None)))
+    )
+    found = rwn.diagnose([fitted], stating(MODEL, "halves"), heldout=[unseen], jobs=1, effort=0.1)
+    (row,) = (r for r in found.heldout if r.region == "all" and r.signal == "speed")
+    assert row.refitted < 1.2 * row.noise_floor
+    (said,) = (f for f in found.findings if f.kind == "intersample" and f.recording == "unseen")
+    assert said.count > 0
+
+
+def test_the_driving_force_of_an_axis_tells_nothing_of_what_drove_it() -> None:
+    """The force that its motion took is compared with what the rows show of it."""
+    time = STEP * np.arange(2000)
+    torque = 0.1 * np.sign(np.sin(2.0 * np.pi * 1.3 * time))
+    axis = Model(kind="axis", parameters={"inertia": 1e-3, "viscous_friction": 2e-2}, uncertainty={"inertia": 0.1})
+    bare = rwn.Recording(name="run", time=time, signals={"torque": torque})
+    position = rwn.simulate(axis, bare).signals["position"]
+    run = rwn.Recording(name="run", time=time[::2], signals={"torque": torque[::2], "position": position[::2]})
+    problem = of_driving_force(prepare([run], axis))
+    halves = replace(problem, runs=tuple(r.with_intersample("halves") for r in problem.runs))
+    (told,), (given,) = told_by_motion(halves, fit_nominal(halves)).runs, halves.runs
+    assert given.applied_input is not None
+    assert given.applied_input.spread.any()
+    assert told.applied_input is not None
+    np.testing.assert_array_equal(told.applied_input.values, given.applied_input.values)
