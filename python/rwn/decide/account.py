@@ -5,8 +5,8 @@ Whether an effect acts and whether that is all are two questions: what remains t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -64,6 +64,10 @@ class Account:
     def stated(self) -> tuple[Acting, ...]:
         """The effects that are stated."""
         return tuple(e for e in self.effects if e.stated)
+
+    def without(self, names: Collection[str]) -> Account:
+        """The account of the others."""
+        return replace(self, effects=tuple(e for e in self.effects if e.name not in names))
 
 
 def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rwn.decide.account import Account, Remainder, account, remainder
 from rwn.decide.other_law import curve_beside
@@ -34,8 +34,7 @@ class Decision:
 
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
     """What is stated, proved on `heldout` or by cross-validation."""
-    found = account(ranking, heldout, model)
-    chosen = together(ranking, found.leading, {e.name for e in found.stated})
+    ranking, found, chosen = _stated(ranking, account(ranking, heldout, model))
     rows = proved(ranking, chosen, heldout, seed=seed)
     left = remainder(ranking, chosen.final)
     verdict = verdict_of(ranking, found, left)
@@ -44,6 +43,19 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
     return Decision(
         ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other
     )
+
+
+def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedFit]:
+    """What is stated, fitted without the rest: where a law then runs into a limit it bends towards one that it is not.
+
+    Such a law is no part of the account, and is among the ranking's that ran into a limit.
+    """
+    chosen = together(ranking, found.leading, {e.name for e in found.stated})
+    while bent := {name.split(".")[0] for name in chosen.fit.limits_met}:
+        ranking = replace(ranking, at_a_limit=(chosen.fit, *ranking.at_a_limit))
+        found = found.without(bent)
+        chosen = together(ranking, found.leading, {e.name for e in found.stated})
+    return ranking, found, chosen
 
 
 def together(ranking: Ranking, leading: RankedFit, names: Collection[str]) -> RankedFit:
