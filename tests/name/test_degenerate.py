@@ -49,6 +49,17 @@ def test_what_is_periodic_has_a_period_that_is_travelled(
     assert fit_with("quadratic-drag").periods == []
 
 
+@pytest.mark.parametrize(("turns", "none"), [(0.5, False), (2.0, True)])
+def test_a_shaft_that_is_wound_up_by_turns_is_none(
+    problem: Problem, fit_with: FitWith, turns: float, none: bool
+) -> None:
+    this = fit_with("shaft-compliance")
+    names = [u.name for u in this.hypothesis.unknowns]
+    values = this.minimum.values.copy()
+    values[names.index("shaft-compliance.stiffness")] = problem.scales["torque"] / (2.0 * np.pi * turns)
+    assert adds(replace(this, minimum=replace(this.minimum, values=values)), problem) != none
+
+
 def test_loads_that_say_the_same_do_not_keep_another_law_from_being_built_on() -> None:
     """A load at all times, one on a spring of no stiffness, one from end to end: all three are a constant load."""
     motor = {"resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,

@@ -1,6 +1,8 @@
-"""Explanations that a plainer one says as well: an effect without strength, a load at all times, half a period."""
+"""Explanations that say nothing of their own: no strength, a load at all times, half a period, a wound-up shaft."""
 
 from __future__ import annotations
+
+import math
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
@@ -8,11 +10,13 @@ from rwn.name.observable import revolutions
 
 WHOLE = 0.99  # share of the recording's time from which a window counts as all of it
 BRIEF = 10  # fewest samples that a load disturbance lasts
+MOST_TWIST = 2.0 * math.pi  # [rad] by which a drive twists a shaft: rubber couplings are made for half a radian
 
 
 def adds(this: Fit, problem: Problem) -> bool:
     """Whether every effect of a fit says something that the fit without it does not."""
-    return not (this.idle or _covers_all_or_a_moment(this, problem) or _is_no_period_long(this, problem))
+    checks = (_covers_all_or_a_moment, _is_no_period_long, _winds_up)
+    return not (this.idle or any(check(this, problem) for check in checks))
 
 
 def _covers_all_or_a_moment(this: Fit, problem: Problem) -> bool:
@@ -28,3 +32,11 @@ def _is_no_period_long(this: Fit, problem: Problem) -> bool:
     """Whether something is said to be periodic of which no recording travels a period."""
     travel = revolutions(problem)
     return any(periods * travel < 1.0 for periods in this.periods)
+
+
+def _winds_up(this: Fit, problem: Problem) -> bool:
+    """Whether a shaft is said to be so soft that the torque of its drive winds it up by turns, as of a clutch."""
+    torque = problem.scales["torque"]
+    joints = (e for e in (this.hypothesis.table[name] for name in this.added) if e.second_mass)
+    stiffnesses = [f"{e.name}.{p.name}" for e in joints for p in e.parameters if p.unit == "N m/rad"]
+    return not problem.drive.linear and any(this.value(name) * MOST_TWIST < torque for name in stiffnesses)
