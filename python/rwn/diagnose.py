@@ -19,7 +19,7 @@ from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powere
 from rwn.faults.uneven_files import uneven_unseen
 from rwn.fit.nominal import check_it_runs
 from rwn.fit.preparation import prepare
-from rwn.measurement.unrecorded_input import input_told, told_by_motion
+from rwn.measurement.unrecorded_input import inferred_input_findings, with_inferred_input
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
@@ -91,7 +91,7 @@ def diagnose(
         corrected = replace(made.corrected, recording=layout)
         enabled = (one.as_finding(model.drive.input) for one in case.late)
         uneven = uneven_unseen(found.ranking, case.unseen)
-        told = input_told(case.unseen, model.drive.input)
+        told = inferred_input_findings(case.unseen, model.drive.input)
         findings = (*findings, *found.findings, *unseen_findings, *common, *enabled, *told, *uneven)
         warnings = (*made.warnings, *remarks((*fitted, *judged)))
         return replace(made, corrected=corrected, findings=findings, warnings=warnings)
@@ -119,7 +119,7 @@ def _decided(
     heldout = powered(heldout, late_unseen, found.model)
     runs = measured_alike([judging_run(r, found.model) for r in heldout], found.ranking.problem.whole)
     kept_back = replace(found.ranking.problem.in_free_run(), runs=tuple(runs))
-    unseen = told_by_motion(kept_back, found.ranking.fits[0].final).runs
+    unseen = with_inferred_input(kept_back, found.ranking.fits[0].final).runs
     decision = decide(found.ranking, unseen, found.model, seed=seed)
     return _Case(found=found, late=late_unseen, unseen=unseen, decision=decision)
 

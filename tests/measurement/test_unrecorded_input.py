@@ -15,7 +15,12 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import nominal_of
 from rwn.fit.preparation import prepare
 from rwn.measurement.intersample import stating
-from rwn.measurement.unrecorded_input import _farthest, as_it_acted, told_by_motion, with_unrecorded_input
+from rwn.measurement.unrecorded_input import (
+    _farthest,
+    recording_with_inferred_input,
+    with_inferred_input,
+    with_unrecorded_input,
+)
 from rwn.model.model import Model
 from rwn.recording.intersample import INTERSAMPLE, PiecewiseInput
 
@@ -122,10 +127,11 @@ def test_a_model_as_it_stands_tells_the_input_of_a_recording_that_it_was_not_fit
     wrong[500] += 1000.0  # a spike
     run = replace(kept, signals={**kept.signals, "speed": wrong})
     truth = stating(replace(MODEL, uncertainty={"inertia": 0.1}), "halves")
-    told = as_it_acted(run, truth)
+    told = recording_with_inferred_input(run, truth)
     assert _missed(voltage, kept, told) < 0.3
     off = replace(truth, parameters={**MOTOR, "inertia": 1.5 * MOTOR["inertia"]})
-    assert _missed(voltage, kept, as_it_acted(run, off)) > 1.2 * _missed(voltage, kept, told)  # it was not refitted
+    by_another = recording_with_inferred_input(run, off)  # which is not refitted
+    assert _missed(voltage, kept, by_another) > 1.2 * _missed(voltage, kept, told)
 
 
 def test_a_recording_that_was_not_fitted_is_simulated_with_the_input_that_its_motion_tells() -> None:
@@ -152,7 +158,7 @@ def test_the_driving_force_of_an_axis_tells_nothing_of_what_drove_it() -> None:
     run = rwn.Recording(name="run", time=time[::2], signals={"torque": torque[::2], "position": position[::2]})
     problem = of_driving_force(prepare([run], axis))
     halves = replace(problem, runs=tuple(r.with_intersample("halves") for r in problem.runs))
-    (told,), (given,) = told_by_motion(halves, fit_nominal(halves)).runs, halves.runs
+    (told,), (given,) = with_inferred_input(halves, fit_nominal(halves)).runs, halves.runs
     assert given.applied_input is not None
     assert given.applied_input.spread.any()
     assert told.applied_input is not None

@@ -19,7 +19,7 @@ from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, log_density
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
 from rwn.measurement.sensor_filter import filters_and_likelihood, losses_beside, losses_of
-from rwn.measurement.unrecorded_input import ROUNDS, has_unknown_input, told_by_motion
+from rwn.measurement.unrecorded_input import ROUNDS, has_unknown_input, with_inferred_input
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
@@ -52,14 +52,14 @@ def likeliest(problem: Problem, this: Fit) -> str:
     """
     candidates = _candidates(problem)
 
-    def as_it_acted(under_law: Problem) -> tuple[Problem, Fit]:
+    def with_input(under_law: Problem) -> tuple[Problem, Fit]:
         found = refit(this, under_law, iterations=NEAR_ITS_END)
         if not has_unknown_input(under_law):
             return under_law, found
-        told = told_by_motion(under_law, found)
+        told = with_inferred_input(under_law, found)
         return told, refit(found, told, iterations=NEAR_ITS_END)
 
-    refitted = dict(zip(candidates, side_by_side(as_it_acted, candidates.values()), strict=True))
+    refitted = dict(zip(candidates, side_by_side(with_input, candidates.values()), strict=True))
     return _chosen(refitted, {law: log_likelihood(*refitted[law]) for law in candidates})
 
 
@@ -105,7 +105,7 @@ def _with_filters(problem: Problem, explanation: Fit, known: Sequence[SensorFilt
     """What is likeliest under a law: a filter that is not counted bends what is told of the input, and is told anew."""
     filters = tuple(known)
     for _ in range(ROUNDS):
-        told, this = under_own_noise(explanation, _as_it_acted(problem, explanation, filters))
+        told, this = under_own_noise(explanation, _input_inferred(problem, explanation, filters))
         counted = {(f.signal, f.digital) for f in filters}
         filters, likelihood = filters_and_likelihood(told, this, filters)
         if told is problem or counted == {(f.signal, f.digital) for f in filters}:
@@ -145,20 +145,20 @@ def _all_explained(
     explanation: Fit, under: Mapping[str, Problem], filters: Sequence[SensorFilter] = ()
 ) -> dict[str, tuple[Problem, Fit]]:
     def beside(problem: Problem) -> tuple[Problem, Fit]:
-        return under_own_noise(explanation, filtered(_as_it_acted(problem, explanation, filters), filters))
+        return under_own_noise(explanation, filtered(_input_inferred(problem, explanation, filters), filters))
 
     found = side_by_side(beside, under.values())
     return dict(zip(under, found, strict=True))
 
 
-def _as_it_acted(problem: Problem, explanation: Fit, filters: Sequence[SensorFilter]) -> Problem:
+def _input_inferred(problem: Problem, explanation: Fit, filters: Sequence[SensorFilter]) -> Problem:
     """A problem under a law, with what no row shows of the input as the motion tells beside filters.
 
     Steps that fell between two rows are errors under the right law too, where all that is known of them is how high.
     """
     if not has_unknown_input(problem):
         return problem
-    told = told_by_motion(*under_own_noise(explanation, filtered(problem, filters)))
+    told = with_inferred_input(*under_own_noise(explanation, filtered(problem, filters)))
     acted = zip(problem.runs, told.runs, strict=True)
     return replace(problem, runs=tuple(replace(run, applied_input=t.applied_input) for run, t in acted))
 

@@ -75,7 +75,7 @@ def with_unrecorded_input(
     return made
 
 
-def as_it_acted(recording: Recording, model: Model) -> Recording:
+def recording_with_inferred_input(recording: Recording, model: Model) -> Recording:
     """A recording with its input as it acted, between rows that show it, by its motion and a model as it stands.
 
     Raises InputError where the recording does not fit the model.
@@ -85,7 +85,7 @@ def as_it_acted(recording: Recording, model: Model) -> Recording:
     return replace(recording, applied_input=told.applied_input)
 
 
-def told_by_motion(problem: Problem, this: Fit) -> Problem:
+def with_inferred_input(problem: Problem, this: Fit) -> Problem:
     """The problem with the input values of its runs that no row shows as the errors of a fit tell."""
     runs = list(problem.runs)
     if not has_unknown_input(problem):
@@ -96,7 +96,7 @@ def told_by_motion(problem: Problem, this: Fit) -> Problem:
     return replace(problem, runs=tuple(runs))
 
 
-def input_told(unseen: Sequence[Run], given: str) -> list[Finding]:
+def inferred_input_findings(unseen: Sequence[Run], given: str) -> list[Finding]:
     """What a check says of recordings that were not fitted, where their motion told some of their input, `given`."""
     return [
         Finding(

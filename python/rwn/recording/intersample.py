@@ -242,19 +242,16 @@ def _off_the_line(time: Array, values: Array) -> Array:
     return np.asarray(np.minimum(bends, about) / np.sqrt(12.0))
 
 
+def _thinned(ticks_per_row: int, words: str) -> IntersampleLaw:
+    """Of rows that show one of so many ticks of the drive's clock, at each of which the input changed."""
+    return IntersampleLaw(applied=partial(_in_parts, parts=ticks_per_row), ticks_per_row=ticks_per_row, words=words)
+
+
 INTERSAMPLE: dict[str, IntersampleLaw] = {
     HELD: IntersampleLaw(applied=_held, shown=True, words="each row's own, until the next"),
     "bridged": IntersampleLaw(applied=_bridged, shown=True, words="it went on changing over the rows that are missing"),
-    "halves": IntersampleLaw(
-        applied=partial(_in_parts, parts=2),
-        ticks_per_row=2,
-        words="it changed twice from row to row, as where every second row was kept",
-    ),
-    "thirds": IntersampleLaw(
-        applied=partial(_in_parts, parts=3),
-        ticks_per_row=3,
-        words="it changed three times from row to row, as where every third row was kept",
-    ),
+    "halves": _thinned(2, "it changed twice from row to row, as where every second row was kept"),
+    "thirds": _thinned(3, "it changed three times from row to row, as where every third row was kept"),
     "line": IntersampleLaw(applied=_linear, words="it moved on a line from row to row"),
     "ticks": IntersampleLaw(
         applied=_at_ticks, shown=True, words="it changed at the ticks of a clock beside which the rows were taken"

@@ -78,7 +78,7 @@ def diagnose_trial(folder: Path, out: Path) -> None:
     from rwn.decide.calibration import calibration
     from rwn.diagnose import diagnose  # heavy, and the score needs only the file names above
     from rwn.faults.late_enable import late_enables, powered
-    from rwn.measurement.unrecorded_input import as_it_acted
+    from rwn.measurement.unrecorded_input import recording_with_inferred_input
     from rwn.model.files import write_model
     from rwn.recording.recording import read_recording
     from rwn.simulate.simulation import simulate
@@ -96,7 +96,7 @@ def diagnose_trial(folder: Path, out: Path) -> None:
     fitted = {name: row.refitted.value for name, row in found.nominal_fit.parameters.items() if "." not in name}
     for path, shown in zip(heldout_files(folder), heldout, strict=True):
         (began,) = powered([shown], late_enables([shown], corrected), corrected)  # when it began is not the model's
-        recording = as_it_acted(began, corrected)  # nor is what no row shows of its voltage
+        recording = recording_with_inferred_input(began, corrected)  # nor is what no row shows of its voltage
         write_speed(simulated_file(out, path), recording.time, simulate(corrected, recording).signals["speed"])
         if found.corrected is not None and fitted:
             refitted = simulate(replace(model, parameters={**model.parameters, **fitted}, uncertainty={}), recording)
