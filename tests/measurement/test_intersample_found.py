@@ -15,6 +15,7 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import nominal_of
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, statistics
+from rwn.measurement import intersample
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.intersample import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
 from rwn.measurement.known_filters import filtered
@@ -224,3 +225,19 @@ def test_a_filter_beside_thinned_rows_is_that_of_the_drives_own_ticks() -> None:
     on, _ = nominal_of(with_unrecorded_input(runs, stated, nominal, filters=[of_speed]), stated)
     problem, this = under_own_noise(nominal, filtered(on, [of_speed]))
     assert statistics(problem, this).at_the_floor
+
+
+def test_filters_under_a_law_that_leaves_no_input_unknown_are_looked_for_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked_for = []
+
+    def found(*_: object) -> tuple[tuple[SensorFilter, ...], float]:
+        looked_for.append(1)
+        return (SensorFilter(signal="speed", share=0.5, time_constant=1e-3, digital=True),), 0.0
+
+    monkeypatch.setattr(intersample, "filters_and_likelihood", found)
+    bare, nominal = nominal_of([_run()], stating(MODEL, "held"))
+    halves = replace(bare, runs=tuple(r.with_intersample("halves") for r in bare.runs))
+    for problem, times in ((bare, 1), (halves, 2)):
+        looked_for.clear()
+        intersample._with_filters(problem, nominal, ())
+        assert len(looked_for) == times

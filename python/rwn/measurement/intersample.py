@@ -108,7 +108,7 @@ def _with_filters(problem: Problem, explanation: Fit, known: Sequence[SensorFilt
         told, this = under_own_noise(explanation, _input_inferred(problem, explanation, filters))
         counted = {(f.signal, f.digital) for f in filters}
         filters, likelihood = filters_and_likelihood(told, this, filters)
-        if told is problem or counted == {(f.signal, f.digital) for f in filters}:
+        if not has_unknown_input(problem) or counted == {(f.signal, f.digital) for f in filters}:
             break
     return _Filtered(problem=told, fit=this, filters=filters, likelihood=likelihood)
 
