@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from made_up_curves import law, over_speed, over_time, spectrum
-from rwn.decide.account import Acting, Remainder
+from rwn.decide.account import ActingEffect, Remainder
 from rwn.decide.evidence import Evidence
 from rwn.fit.intervals import Estimate
 from rwn.mismatch_map.regions import Region
@@ -96,10 +96,10 @@ def _fit() -> NominalFit:
     )
 
 
-def acting(name: str, probability: float, share: float) -> Acting:
+def acting(name: str, probability: float, share: float) -> ActingEffect:
     """An effect of the account."""
     evidence = Evidence(share=share, unseen=share, part=share, odds=9.0, curve=1.0)
-    return Acting(name=name, probability=probability, together=probability, share=share, evidence=evidence)
+    return ActingEffect(name=name, probability=probability, together=probability, share=share, evidence=evidence)
 
 
 def found() -> Diagnosis:

@@ -85,7 +85,7 @@ def test_a_docstring_says_what_is_needed(name: str, thing: Any, of_class: str) -
 def test_the_modules_are_looked_at() -> None:
     assert len(MODULES) > 500
     assert "rwn.fit.fit.refit" in MODULES
-    assert "rwn.name.starts.Attempt.cost" in MODULES
+    assert "rwn.name.starts.FittedStart.cost" in MODULES
 
 
 @pytest.mark.parametrize("text", ["(n,)", "(n, p)", "(2, 2)", "(5 + 4 wavelets,)", "(cycles + 1, 5)", "(n_t, n)"])

@@ -11,9 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from rwn.correct.correction import correct
-from rwn.decide.decision import Decision, decide
+from rwn.decide.decision import decide
 from rwn.errors import InputError
-from rwn.faults.explain import Explained, explained
 from rwn.faults.fault import without_all
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
 from rwn.faults.uneven_files import uneven_unseen
@@ -25,11 +24,12 @@ from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
 from rwn.name.forward import Progress
 from rwn.parallel import thread_pool
-from rwn.recording.inspection import inspected
+from rwn.recording.inspection import Finding, inspected
 from rwn.recording.inspection.overlap import overlaps
 from rwn.recording.recording import Recording, remarks
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
+from rwn.search.search import SearchResult, search
 from rwn.simulate.declared import check_declared
 from rwn.simulate.run import Run, judging_run, measured_alike
 
@@ -68,63 +68,57 @@ def diagnose(
     """
     began = time.perf_counter()
     say = progress or _silent
-    _check_options(seed, jobs, effort)
-    if not callable(say):
-        raise InputError(f"progress is {say!r}", where="diagnose", expected="a function", fix="pass progress=print")
+    _check_options(seed, jobs, effort, say)
     model = model_of(model)
     fitted, judged = recordings_to_fit(recordings, model), read_recordings(heldout, model)
     refuse_doubles([*fitted, *judged])
-    common = tuple(overlaps(fitted, judged))
-    recordings, findings = inspected(fitted)
-    heldout, unseen_findings = inspected(judged)
+    common, said = tuple(overlaps(fitted, judged)), remarks((*fitted, *judged))
+    (fitted, seen_in_fitted), (judged, seen_in_judged) = inspected(fitted), inspected(judged)
     if model.effects:
-        check_declared(model, [prepare(recordings, model).scales])
+        check_declared(model, [prepare(fitted, model).scales])
     with thread_pool(jobs or os.cpu_count() or 1):
-        late = late_enables(recordings, model)
-        case = _decided(recordings, heldout, model, late, seed=seed, effort=effort, say=say)
+        late = late_enables(fitted, model)
+        found = search(fitted, model, late=late, say=say, effort=effort)
+        check_it_runs(found.ranking.problem, found.ranking.nominal)
+        say("proving it on data that were not fitted", AFTER_SEARCH)
+        unseen = _unseen(judged, found)
+        decision = decide(found.ranking, unseen.runs, found.model, seed=seed)
         say("correcting the model", 0.9)
-        found, model = case.found, case.found.model
-        correction = correct(case.decision, case.unseen, model, seed=seed)
+        correction = correct(decision, unseen.runs, found.model, seed=seed)
         say("drawing", 0.95)
-        made = assemble(correction, found.faults, model, case.unseen, seed=seed, elapsed=time.perf_counter() - began)
-        layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
-        corrected = replace(made.corrected, recording=layout)
-        enabled = (one.as_finding(model.drive.input) for one in case.late)
-        uneven = uneven_unseen(found.ranking, case.unseen)
-        told = inferred_input_findings(case.unseen, model.drive.input)
-        findings = (*findings, *found.findings, *unseen_findings, *common, *enabled, *told, *uneven)
-        warnings = (*made.warnings, *remarks((*fitted, *judged)))
-        return replace(made, corrected=corrected, findings=findings, warnings=warnings)
+        elapsed = time.perf_counter() - began
+        made = assemble(correction, found.faults, found.model, unseen.runs, seed=seed, elapsed=elapsed)
+    findings = (*seen_in_fitted, *found.findings, *seen_in_judged, *common, *unseen.findings(found))
+    layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
+    corrected = replace(made.corrected, recording=layout)
+    return replace(made, corrected=corrected, findings=findings, warnings=(*made.warnings, *said))
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Case:
-    """What recordings come to by a search of some effort."""
+class _Unseen:
+    """Recordings that were kept back, without the faults that were found, with what only their own motion tells."""
 
-    found: Explained
-    late: tuple[LateEnable, ...]  # of the recordings that were kept back
-    unseen: Sequence[Run]
-    decision: Decision
+    runs: Sequence[Run]
+    late: tuple[LateEnable, ...]
 
-
-def _decided(
-    recordings: Sequence[Recording], heldout: Sequence[Recording], model: Model, late: Sequence[LateEnable], *,
-    seed: int, effort: float, say: Progress,
-) -> _Case:  # fmt: skip
-    found = explained(recordings, model, late=late, say=say, effort=effort)
-    check_it_runs(found.ranking.problem, found.ranking.nominal)
-    say("proving it on data that were not fitted", AFTER_SEARCH)
-    heldout = without_all(heldout, found.faults)
-    late_unseen = late_beside(heldout, found.model, found.ranking.problem, found.ranking.fits[0].fit)
-    heldout = powered(heldout, late_unseen, found.model)
-    runs = measured_alike([judging_run(r, found.model) for r in heldout], found.ranking.problem.whole)
-    kept_back = replace(found.ranking.problem.in_free_run(), runs=tuple(runs))
-    unseen = with_inferred_input(kept_back, found.ranking.fits[0].final).runs
-    decision = decide(found.ranking, unseen, found.model, seed=seed)
-    return _Case(found=found, late=late_unseen, unseen=unseen, decision=decision)
+    def findings(self, found: SearchResult) -> tuple[Finding, ...]:
+        """What their own motion told: late enables, an input between rows, levels of their own."""
+        given = found.model.drive.input
+        enabled = (one.as_finding(given) for one in self.late)
+        return (*enabled, *inferred_input_findings(self.runs, given), *uneven_unseen(found.ranking, self.runs))
 
 
-def _check_options(seed: int, jobs: int | None, effort: float) -> None:
+def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
+    problem, best = found.ranking.problem, found.ranking.fits[0]
+    right = without_all(recordings, found.faults)
+    late = late_beside(right, found.model, problem, best.fit)
+    right = powered(right, late, found.model)
+    runs = measured_alike([judging_run(r, found.model) for r in right], problem.whole)
+    kept_back = replace(problem.in_free_run(), runs=tuple(runs))
+    return _Unseen(runs=with_inferred_input(kept_back, best.final).runs, late=late)
+
+
+def _check_options(seed: int, jobs: int | None, effort: float, progress: Any) -> None:
     if isinstance(effort, bool) or not isinstance(effort, int | float) or not LEAST_EFFORT <= effort <= MOST_EFFORT:
         raise InputError(
             f"effort is {effort!r}",
@@ -140,6 +134,9 @@ def _check_options(seed: int, jobs: int | None, effort: float) -> None:
                 expected=f"a whole number from {least}",
                 fix=f"pass {name}={least}",
             )
+    if not callable(progress):
+        said = f"progress is {progress!r}"
+        raise InputError(said, where="diagnose", expected="a function", fix="pass progress=print")
 
 
 def _silent(what: str, done: float) -> None:

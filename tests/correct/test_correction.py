@@ -12,7 +12,7 @@ import pytest
 
 from rwn.correct import correction
 from rwn.correct.correction import _proved_part
-from rwn.decide.account import Account, Acting
+from rwn.decide.account import Account, ActingEffect
 from rwn.decide.decision import Decision
 from rwn.decide.evidence import Evidence
 from rwn.prove.heldout import HeldoutRow, log_change
@@ -74,7 +74,8 @@ def kept(
     monkeypatch.setattr(correction, "hurts", lambda rows: not rows <= 0.0)
     monkeypatch.setattr(correction, "log_change", lambda rows: rows)
     acting = [
-        Acting(name=n, probability=0.9, together=0.9, share=0.5, evidence=CERTAIN, rivals=tuple(rivals)) for n in names
+        ActingEffect(name=n, probability=0.9, together=0.9, share=0.5, evidence=CERTAIN, rivals=tuple(rivals))
+        for n in names
     ]
     fits = tuple(map(explained, errors))
     ranking: Any = SimpleNamespace(fits=fits, nothing_missing=explained(""))

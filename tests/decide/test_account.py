@@ -10,7 +10,7 @@ import pytest
 
 import rwn
 from rwn.decide.account import account, remainder
-from rwn.decide.evidence import Validation
+from rwn.decide.evidence import CrossValidation
 from rwn.decide.other_law import curve_instead
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
@@ -84,7 +84,7 @@ def test_an_elaboration_is_compared_with_the_plain_law_and_not_with_its_rivals(
     by = {r.added: r for r in ranking.fits}
     elaborate, plain, rival = (by[n,] for n in ("asymmetric-friction", "coulomb-friction", "constant-load"))
     assert elaborate.score == pytest.approx(rival.score, abs=0.1)
-    found = Validation(ranking, elaborate, [], model).evidence("asymmetric-friction", (), instead=plain)
+    found = CrossValidation(ranking, elaborate, [], model).evidence("asymmetric-friction", (), instead=plain)
     assert 100.0 < found.odds <= elaborate.score - plain.score  # less by what is new in each error
     (acting,) = account(ranking, [], model).stated
     assert {acting.name, *acting.rivals} == {"asymmetric-friction", "constant-load"}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rwn.decide import account as module
-from rwn.decide.account import Account, Acting, Remainder, account, remainder
+from rwn.decide.account import Account, ActingEffect, Remainder, account, remainder
 from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.evidence import Evidence, _predicted
 from rwn.fit.residuals import MISSPECIFIED
@@ -32,7 +32,7 @@ def _account(monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, 
     """The account, and what the evidence was asked for."""
     asked: dict[str, Any] = {"rivals": {}}
 
-    class Validation:
+    class CrossValidation:
         birge = 1.7
 
         def __init__(self, _ranking: Any, leading: Any, heldout: Any, model: Any) -> None:
@@ -42,7 +42,7 @@ def _account(monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, 
             asked["rivals"][name] = rivals
             return found[name]
 
-    monkeypatch.setattr(module, "Validation", Validation)
+    monkeypatch.setattr(module, "CrossValidation", CrossValidation)
     ranking: Any = SimpleNamespace(fits=fits, nothing_missing=next(f for f in fits if not f.added))
     return account(ranking, HELDOUT, MODEL), asked
 
@@ -76,8 +76,10 @@ def test_where_no_effect_was_found_the_account_is_empty(monkeypatch: pytest.Monk
     assert asked["rivals"] == {}
 
 
-def _acting(name: str, together: float) -> Acting:
-    return Acting(name=name, probability=0.5 * together, together=together, share=0.5, evidence=CERTAIN, rivals=("z",))
+def _acting(name: str, together: float) -> ActingEffect:
+    return ActingEffect(
+        name=name, probability=0.5 * together, together=together, share=0.5, evidence=CERTAIN, rivals=("z",)
+    )
 
 
 def test_names_not_told_apart_are_stated_together() -> None:
@@ -85,7 +87,7 @@ def test_names_not_told_apart_are_stated_together() -> None:
     assert _acting("a", 0.8).stated
     assert not _acting("a", 0.4).stated
     assert not _acting("a", ACTS).stated
-    assert not Acting(name="a", probability=0.4, together=0.4, share=1.0, evidence=CERTAIN).rivals
+    assert not ActingEffect(name="a", probability=0.4, together=0.4, share=1.0, evidence=CERTAIN).rivals
 
 
 def test_what_is_stated_acts_more_likely_than_not() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from rwn.decide import decision
-from rwn.decide.account import Account, Acting
+from rwn.decide.account import Account, ActingEffect
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ def test_a_law_that_runs_into_a_limit_without_the_rest_is_not_stated(
 ) -> None:
     probability = {"amplifier-gain-curve": 0.76, "coulomb-friction": 0.9, "cogging-torque": cogging}
     rows: Any = [
-        Acting(name=name, probability=p, together=p, share=0.5, evidence=SimpleNamespace())  # type: ignore[arg-type]
+        ActingEffect(name=name, probability=p, together=p, share=0.5, evidence=SimpleNamespace())  # type: ignore[arg-type]
         for name, p in probability.items()
     ]
     monkeypatch.setattr(decision, "together", lambda _ranking, _leading, names: _fit(names))

@@ -12,7 +12,7 @@ import pytest
 
 import rwn
 from rwn.decide import evidence as module
-from rwn.decide.evidence import Validation
+from rwn.decide.evidence import CrossValidation
 from rwn.fit.preparation import prepare
 from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
@@ -47,14 +47,14 @@ def test_a_load_that_follows_what_wanders_has_no_evidence(seed: int) -> None:
     ranking = _ranking(MODEL, ["load-disturbance"], seed=seed)
     load = next(r for r in ranking.fits if r.added)
     assert load.score > ranking.nothing_missing.score + 5.0
-    assert Validation(ranking, load, [], MODEL).evidence("load-disturbance", ()).odds < 0.0
+    assert CrossValidation(ranking, load, [], MODEL).evidence("load-disturbance", ()).odds < 0.0
 
 
 @pytest.mark.parametrize("seed", [3, 5])
 def test_a_load_that_sets_in_beside_what_wanders_has(seed: int) -> None:
     ranking = _ranking(replace(MODEL, effects={"load-disturbance": LOAD}), ["load-disturbance"], seed=seed)
     load = next(r for r in ranking.fits if r.added)
-    assert Validation(ranking, load, [], MODEL).evidence("load-disturbance", ()).odds > 10.0
+    assert CrossValidation(ranking, load, [], MODEL).evidence("load-disturbance", ()).odds > 10.0
 
 
 def test_an_effect_is_compared_with_the_rest_of_its_explanation_also_where_that_is_not_ranked(
@@ -64,8 +64,8 @@ def test_an_effect_is_compared_with_the_rest_of_its_explanation_also_where_that_
     truth = replace(MODEL, effects={"coulomb-friction": {"coulomb_torque": 0.02}, "load-disturbance": LOAD})
     ranking = _ranking(truth, list(truth.effects), seed=0, wandering=0.0)
     both = next(r for r in ranking.fits if len(r.added) == 2)
-    ranked = Validation(ranking, both, [], MODEL).evidence("coulomb-friction", ())
+    ranked = CrossValidation(ranking, both, [], MODEL).evidence("coulomb-friction", ())
     pruned = replace(ranking, fits=(both, ranking.nothing_missing))
-    found = Validation(pruned, both, [], MODEL).evidence("coulomb-friction", ())
+    found = CrossValidation(pruned, both, [], MODEL).evidence("coulomb-friction", ())
     assert found.odds == pytest.approx(ranked.odds, rel=0.05)
     assert both.score - ranking.nothing_missing.score > 2.0 * found.odds

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from made_up_motor import MOTOR
-from rwn.decide.account import Account, Acting, Remainder
+from rwn.decide.account import Account, ActingEffect, Remainder
 from rwn.decide.evidence import Evidence
 from rwn.decide.verdict import MATERIAL, verdict_of
 from rwn.fit.fit import fit_nominal
@@ -39,7 +39,7 @@ def _ranking(volts: float) -> Any:
 
 
 def _verdict(together: float, left: Remainder, *, volts: float = 5.0) -> str:
-    acting = Acting(name="a", probability=together, together=together, share=0.5, evidence=CERTAIN)
+    acting = ActingEffect(name="a", probability=together, together=together, share=0.5, evidence=CERTAIN)
     leading: Any = None  # is not looked at
     return verdict_of(_ranking(volts), Account(effects=(acting,), leading=leading), left)
 

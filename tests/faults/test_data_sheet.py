@@ -7,11 +7,11 @@ import pytest
 
 import rwn
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
-from rwn.faults.explain import explained
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
+from rwn.search.search import search
 
 MOTOR = {"resistance": 2.0, "inductance": 1.5e-3, "torque_constant": 0.05, "back_emf_constant": 0.05,
          "inertia": 3e-5, "viscous_friction": 3e-5}  # fmt: skip
@@ -90,6 +90,6 @@ def test_both_constants_of_a_motor_are_doubted_together() -> None:
 
 
 def test_a_sound_sheet_is_searched_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rwn.faults.explain.confirmed", lambda *_: pytest.fail("nothing was doubted"))
-    found = explained(_runs(105, {}), _sheet(), late=(), say=lambda *_: None, effort=0.1)
+    monkeypatch.setattr("rwn.search.search.confirmed", lambda *_: pytest.fail("nothing was doubted"))
+    found = search(_runs(105, {}), _sheet(), late=(), say=lambda *_: None, effort=0.1)
     assert not found.ranking.fits[0].added

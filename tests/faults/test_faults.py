@@ -13,13 +13,13 @@ from rwn.decide.next_experiment import separated_by
 from rwn.faults.delay import SuspectedFault, accepted, first_effects, rivals, suspected
 from rwn.faults.fault import SHIFT, Fault
 from rwn.faults.fault import without as undone
-from rwn.faults.resolve import resolved
 from rwn.faults.scale import wrong_scale
 from rwn.fit.preparation import prepare
 from rwn.name.forward import rank
 from rwn.report.diagnosis_data import Beneath
 from rwn.report.next_steps import next_steps
 from rwn.report.sentences import verdict_sentence
+from rwn.search.beneath_faults import beneath_faults
 
 DEMO = Path(rwn.__file__).parent / "demo"
 MOTION = ("speed", "position")
@@ -129,14 +129,14 @@ def test_missing_physics_is_no_mistake(model: rwn.Model) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("delay", [7, -5])
 def test_a_motion_out_of_step(model: rwn.Model, right: rwn.Recording, delay: int) -> None:
-    faults, ranking = resolved([altered(right, MOTION, delay=delay)], model, say=silent)
+    faults, ranking = beneath_faults([altered(right, MOTION, delay=delay)], model, say=silent)
     assert [(f.name, f.signals[0], f.delay) for f in faults] == [("time-shift", "speed", delay)]
     assert not ranking.fits[0].added
 
 
 @pytest.mark.slow
 def test_a_channel_out_of_step_is_seen_through_missing_physics(model: rwn.Model, friction: rwn.Recording) -> None:
-    faults, ranking = resolved([altered(friction, ("current",), delay=6)], model, say=silent)
+    faults, ranking = beneath_faults([altered(friction, ("current",), delay=6)], model, say=silent)
     assert [(f.name, f.signals[0], f.delay) for f in faults] == [("time-shift", "current", 6)]
     assert ranking.fits[0].added == ("coulomb-friction",)
 
@@ -146,7 +146,7 @@ def test_nothing_is_compared_where_an_early_channel_was_not_measured(model: rwn.
     """Its first value in place of the unknown ones made what lies beneath `unexplained`."""
     run = replace(friction, time=friction.time[:-6], signals={s: v[:-6] for s, v in friction.signals.items()})
     early = replace(run, signals={**run.signals, "current": friction.signals["current"][6:]})
-    faults, ranking = resolved([early], model, say=silent)
+    faults, ranking = beneath_faults([early], model, say=silent)
     assert [(f.name, f.delay) for f in faults] == [("time-shift", -6)]
     assert ranking.fits[0].added == ("coulomb-friction",)
     assert ranking.left.at_the_floor
@@ -189,7 +189,8 @@ def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model
     share = 1.0 - np.exp(-float(time[1] - time[0]) / 4e-3)
     for k in range(1, time.size):
         speed[k] = speed[k - 1] + share * (speed[k] - speed[k - 1])
-    faults, ranking = resolved([replace(friction, signals={**friction.signals, "speed": speed})], model, say=silent)
+    filtered = replace(friction, signals={**friction.signals, "speed": speed})
+    faults, ranking = beneath_faults([filtered], model, say=silent)
     assert faults == []
     assert ranking.fits[0].added == ("coulomb-friction",)
     assert ranking.problem.filters == {"speed": pytest.approx(4e-3, rel=0.1)}, "its noise went through the filter too"

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.faults.resolve import resolved
 from rwn.faults.scale import wrong_scale
+from rwn.search.beneath_faults import beneath_faults
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -57,7 +57,7 @@ def test_a_ratio_that_no_gear_has_is_said_to_be_a_wrong_scale(
 def test_the_ratio_of_a_gear_is_fitted_with_the_physics_beneath_it(model: rwn.Model, friction: rwn.Recording) -> None:
     wrong = geared(friction, 1.0 / 3.5)
     first = wrong_scale([wrong], model)
-    faults, ranking = resolved([wrong], model, say=silent)
+    faults, ranking = beneath_faults([wrong], model, say=silent)
     assert first is not None
     assert [f.name for f in faults] == ["wrong-gear-ratio"]
     assert abs(3.5 * faults[0].factor - 1.0) <= abs(3.5 * first.factor - 1.0)

@@ -12,13 +12,13 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.faults.explain import _asked_again
 from rwn.faults.fault import Fault, without
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered, retimed
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
+from rwn.search.search import _asked_again
 
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 STEPS = np.repeat(3.0 * np.random.default_rng(8).uniform(-1.0, 1.0, 60), 50)

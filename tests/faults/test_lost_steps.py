@@ -9,9 +9,9 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.faults.explain import explained
 from rwn.measurement.intersample import with_intersample
 from rwn.model.model import Model
+from rwn.search.search import search
 
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
@@ -31,7 +31,7 @@ def _run(effects: dict[str, dict[str, float]]) -> rwn.Recording:
 def test_the_voltage_of_lost_rows_is_inferred_again_beside_the_physics_that_was_found() -> None:
     """Beside the nominal model it was inferred from what friction did."""
     run = _run({"coulomb-friction": {"coulomb_torque": 1e-2}})
-    found = explained([run], MODEL, late=(), say=lambda *_: None, effort=0.1)
+    found = search([run], MODEL, late=(), say=lambda *_: None, effort=0.1)
     assert found.ranking.fits[0].added == ("coulomb-friction",)
     assert found.ranking.left.variance == pytest.approx(1.0, abs=0.1)
 

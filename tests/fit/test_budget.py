@@ -107,10 +107,10 @@ def test_where_the_budget_is_spent_more_effects_are_tried_beside_the_best_alone(
     names = [*LATE, "magnetic-saturation"]
     ranking = rank(_problem(_spent(0.9)), progress=lambda *_: None, names=names)
     assert ranking.cut_short
-    assert len({base for base, _ in ranking.pairs.tried}) == 1
+    assert len({base for base, _ in ranking.extensions.tried}) == 1
     whole = rank(_problem(), progress=lambda *_: None, names=names)
     assert not whole.cut_short
-    assert len({base for base, _ in whole.pairs.tried}) == 2
+    assert len({base for base, _ in whole.extensions.tried}) == 2
     assert whole.closest.cost <= ranking.closest.cost
 
 

@@ -11,7 +11,7 @@ import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.intervals import Doubt, Estimate, estimates
+from rwn.fit.intervals import Estimate, Widening, estimates
 from rwn.fit.preparation import prepare
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
@@ -44,7 +44,7 @@ def test_a_doubt_widens_what_nobody_declared_and_no_interval_beyond_the_data_she
 ) -> None:
     this, left = rubbing
     sure = estimates(this, left)
-    doubted = estimates(this, left, doubt=Doubt(birge=3.0, bias=0.3))
+    doubted = estimates(this, left, widening=Widening(birge=3.0, bias=0.3))
     assert _width(doubted["coulomb-friction.coulomb_torque"]) > 1.0
     for name, std in KNOWN_TO.items():
         declared = MOTOR[name] * np.exp(np.array([-1.96, 1.96]) * std)
@@ -55,6 +55,6 @@ def test_a_doubt_widens_what_nobody_declared_and_no_interval_beyond_the_data_she
 
 def test_a_small_doubt_is_added_to_the_noise(rubbing: tuple[Fit, Statistics]) -> None:
     this, left = rubbing
-    widths = [_width(estimates(this, left, doubt=Doubt(bias=b))["resistance"]) for b in (0.0, 0.005)]
+    widths = [_width(estimates(this, left, widening=Widening(bias=b))["resistance"]) for b in (0.0, 0.005)]
     bias = 2.0 * 1.96 * 0.005
     assert widths[1] == pytest.approx(np.hypot(widths[0], bias), rel=0.01)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.levenberg_marquardt import DAMPING, FitStatus, Minimum, minimise
-from rwn.fit.search_coordinates import Normal
 from rwn.fit.unknown import Unknown
+from rwn.simulate.simulator import NormalEquations
 
 UNKNOWNS = tuple(Unknown(name=name, unit="", index=k, lower=-5.0, upper=5.0) for k, name in enumerate("xy"))
 
@@ -23,15 +23,15 @@ def _rosenbrock(values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArr
 def _found(*, probed: bool, doubt: int = 1, most: int = 60, roughly: bool = False) -> tuple[Minimum, Counter[str]]:
     calls: Counter[str] = Counter()
 
-    def evaluate(values: NDArray[np.float64]) -> Normal:
+    def evaluate(values: NDArray[np.float64]) -> NormalEquations:
         calls["evaluate"] += 1
         error, slopes = _rosenbrock(values)
-        return Normal(chi2=float(error @ error), gradient=slopes.T @ error, curvature=slopes.T @ slopes)
+        return NormalEquations(chi2=float(error @ error), gradient=slopes.T @ error, curvature=slopes.T @ slopes)
 
-    def probe(values: NDArray[np.float64]) -> Normal:
+    def probe(values: NDArray[np.float64]) -> NormalEquations:
         calls["probe"] += 1
         error, _ = _rosenbrock(values)
-        return Normal(chi2=float(error @ error), gradient=np.empty(0), curvature=np.empty((0, 0)))
+        return NormalEquations(chi2=float(error @ error), gradient=np.empty(0), curvature=np.empty((0, 0)))
 
     start = np.array([-1.9, 2.0])
     found = minimise(
@@ -74,10 +74,10 @@ def test_what_priors_alone_decide_is_found_too() -> None:
     """Of two unknowns the product is known 10 000 times as well as the ratio: damping must not hold that back."""
     strength = 1e5  # of the product
 
-    def evaluate(values: NDArray[np.float64]) -> Normal:
+    def evaluate(values: NDArray[np.float64]) -> NormalEquations:
         error = strength * (6.0 - values[0] * values[1])
         slopes = strength * values[::-1]
-        return Normal(chi2=error**2, gradient=slopes * error, curvature=np.outer(slopes, slopes))
+        return NormalEquations(chi2=error**2, gradient=slopes * error, curvature=np.outer(slopes, slopes))
 
     unknowns = tuple(
         Unknown(name=n, unit="", index=k, lower=1e-3, upper=1e3, logarithmic=True, tied_to=other, tie_std=0.02)
@@ -92,9 +92,9 @@ def test_a_fit_in_legs_need_not_try_again_what_was_refused() -> None:
     """From 3 the undamped step towards the root of the arctangent leads farther off."""
     unknown = (Unknown(name="x", unit="", index=0, lower=-20.0, upper=20.0),)
 
-    def evaluate(values: NDArray[np.float64]) -> Normal:
+    def evaluate(values: NDArray[np.float64]) -> NormalEquations:
         error, slope = np.arctan(values), -1.0 / (1.0 + values**2)
-        return Normal(chi2=float(error @ error), gradient=slope * error, curvature=np.outer(slope, slope))
+        return NormalEquations(chi2=float(error @ error), gradient=slope * error, curvature=np.outer(slope, slope))
 
     def in_legs(*, kept: bool) -> float:
         values, damping = np.array([3.0]), DAMPING

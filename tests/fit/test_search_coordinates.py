@@ -9,8 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from rwn.fit.levenberg_marquardt import FitStatus, minimise
-from rwn.fit.search_coordinates import FAINT, Normal, SearchCoordinates
+from rwn.fit.search_coordinates import FAINT, SearchCoordinates
 from rwn.fit.unknown import Unknown
+from rwn.simulate.simulator import NormalEquations
 
 Array = NDArray[np.float64]
 
@@ -28,12 +29,13 @@ def wave(values: Array) -> Array:
     return offset + amplitude * np.cos(ANGLE + phase)
 
 
-def normal(values: Array) -> Normal:
+def normal(values: Array) -> NormalEquations:
     amplitude, phase, _ = values
     cos, sin = np.cos(ANGLE + phase), np.sin(ANGLE + phase)
     jacobian = np.stack([cos, -amplitude * sin, np.ones_like(cos)], axis=1)
     residual = wave(TRUTH) - wave(values)
-    return Normal(chi2=float(residual @ residual), gradient=jacobian.T @ residual, curvature=jacobian.T @ jacobian)
+    chi2 = float(residual @ residual)
+    return NormalEquations(chi2=chi2, gradient=jacobian.T @ residual, curvature=jacobian.T @ jacobian)
 
 
 @pytest.mark.parametrize("start", [(0.3, 2.0 - np.pi), (0.3, 2.0 + 0.5 * np.pi), (0.0, 5.0), (1.0, -4.0)])

@@ -13,7 +13,7 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
-from rwn.name.first_order import ALIKE, FirstOrder, Left
+from rwn.name.first_order import ALIKE, FirstOrder, FirstOrderCost
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 5e-5,
@@ -44,7 +44,7 @@ def _start(problem: Problem, name: str, **guess: float) -> Hypothesis:
     return hypothesis(problem.prior, (name,), problem.scales, {name: guess})
 
 
-def _nothing(dragged: Problem, nominal: Fit) -> Left:
+def _nothing(dragged: Problem, nominal: Fit) -> FirstOrderCost:
     return FirstOrder(dragged, nominal).left_by(nominal.hypothesis.starting_at(nominal.minimum.values))
 
 

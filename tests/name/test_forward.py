@@ -22,7 +22,7 @@ from rwn.name import forward
 from rwn.name.backward import with_simpler
 from rwn.name.forward import _beside, _diverse, _grown, rank
 from rwn.name.initial_guesses import spectra
-from rwn.name.ranking import NO_PAIRS, Fits, Pairs
+from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits
 from rwn.name.screening import screen
 from rwn.name.weights import weigh
 from rwn.recording.noise import Noise
@@ -59,10 +59,10 @@ def test_a_further_effect_counts_by_all_that_it_costs_less(
         replace(this, minimum=replace(this.minimum, cost=share * sheet))
         for this, share in ((fit_with("unbalance"), 1.0), (fit_with("coulomb-friction"), cost))
     )
-    monkeypatch.setattr(forward, "_beside", lambda *_: Pairs([pair], frozenset()))
+    monkeypatch.setattr(forward, "_beside", lambda *_: Extensions([pair], frozenset()))
     nominal = replace(single, minimum=replace(single.minimum, cost=2.0 * sheet))
     grown = _grown(
-        Fits(problem, nominal, [single]), [single], [], NO_PAIRS, at_once=2, begun=0, progress=_silent
+        Fits(problem, nominal, [single]), [single], [], NO_EXTENSIONS, at_once=2, begun=0, progress=_silent
     )  # fmt: skip
     assert grown.paired is kept
     assert (pair in grown.fits) is kept
@@ -173,7 +173,7 @@ def test_an_explanation_goes_on_from_single_effects(problem: Problem) -> None:
 def test_pairs_that_were_tried_are_not_tried_again(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
     names = ["quadratic-drag", "input-delay"]  # neither is what is missing
     pairs = rank(problem, progress=_silent, names=names, at_once=2)
-    assert pairs.pairs.fits
+    assert pairs.extensions.fits
     tried: list[str] = []
 
     def none(_: Problem, __: Fit, wanted: list[str], **___: float) -> list[Fit]:
@@ -204,7 +204,7 @@ def test_beside_an_explanation_of_all_its_parts_alone_are_tried(
         return [pair]
 
     monkeypatch.setattr("rwn.name.forward.screen", found)
-    _beside(problem, [first, part, other], names, [first, part, other], NO_PAIRS)
+    _beside(problem, [first, part, other], names, [first, part, other], NO_EXTENSIONS)
     met = names[:3]
     assert tried == {names[0]: names, names[1]: met, names[2]: names[:2] if at_the_floor else met}
 

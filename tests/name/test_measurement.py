@@ -21,7 +21,7 @@ from rwn.model.model import Model
 from rwn.name import forward
 from rwn.name.forward import _grown
 from rwn.name.measurement import CHANGES, Measurement
-from rwn.name.ranking import NO_PAIRS, Fits
+from rwn.name.ranking import NO_EXTENSIONS, Fits
 from rwn.recording.filters import as_filtered
 
 STEP, SHARE = 1e-3, 0.6
@@ -106,6 +106,7 @@ def test_nothing_is_built_on_what_another_measurement_shows(
 
     alone = Fits(problem, nominal, [single])
     monkeypatch.setattr(forward, "_best_of", lambda _, fits: (fits[-1], SimpleNamespace(at_the_floor=False)))
-    grown = _grown(alone, [single], [], NO_PAIRS, at_once=4, begun=0, progress=lambda *_: None, otherwise=otherwise)
+    known = NO_EXTENSIONS
+    grown = _grown(alone, [single], [], known, at_once=4, begun=0, progress=lambda *_: None, otherwise=otherwise)
     assert grown.measured is another
     assert (asked, grown.complete, grown.paired) == ([single], False, False)

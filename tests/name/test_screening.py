@@ -21,7 +21,7 @@ from rwn.model.model import Model
 from rwn.name import screening
 from rwn.name.forward import _weighted_beforehand, rank
 from rwn.name.screening import FURTHER, _further, _has_room, _to_the_end, screen
-from rwn.name.starts import Attempt, Start, starts
+from rwn.name.starts import FittedStart, Start, starts
 
 TRUE = {
     "resistance": 0.84, "inductance": 1e-4, "torque_constant": 0.116, "back_emf_constant": 0.116, "inertia": 3.84e-4,
@@ -105,17 +105,17 @@ def test_a_fit_goes_on_to_the_end_where_it_may_still_win(
     best, other = (Start(name, 0.0, 0, nominal.hypothesis) for name in ("best", "other"))
     gone: list[int] = []
 
-    def attempt(start: Start, iterations: int, on: Problem, *, share: float) -> Attempt:
+    def attempt(start: Start, iterations: int, on: Problem, *, share: float) -> FittedStart:
         assert share > 0.0
         assert on is lagging
         if start is best:
-            return Attempt(start, _ended(nominal, (20.0, 10.0)))
+            return FittedStart(start, _ended(nominal, (20.0, 10.0)))
         gone.append(iterations)
         ended = _ended if iterations == TO_THE_END else _under_way
-        return Attempt(start, ended(nominal, briefly or came))
+        return FittedStart(start, ended(nominal, briefly or came))
 
     monkeypatch.setattr(screening, "_attempt", attempt)
-    attempts = [Attempt(best, _ended(nominal, (20.0, 10.0))), Attempt(other, _under_way(nominal, came))]
+    attempts = [FittedStart(best, _ended(nominal, (20.0, 10.0))), FittedStart(other, _under_way(nominal, came))]
     _to_the_end(lagging, attempts, part(lagging, nominal, 100), best_here=known, best=known)
     assert gone == legs
 
@@ -127,16 +127,16 @@ def test_until_one_leaves_but_noise_all_that_are_under_way_go_on_before_the_prom
     nominal = fit_nominal(lagging)
     best, near, far = (Start(name, 0.0, 0, nominal.hypothesis) for name in ("best", "near", "far"))
     attempts = [
-        Attempt(best, _ended(nominal, (20.0, 10.0))),
-        Attempt(near, _under_way(nominal, (35.0, 30.0))),
-        Attempt(far, _under_way(nominal, (100.0, 90.0))),
+        FittedStart(best, _ended(nominal, (20.0, 10.0))),
+        FittedStart(near, _under_way(nominal, (35.0, 30.0))),
+        FittedStart(far, _under_way(nominal, (100.0, 90.0))),
     ]
     rounds: list[list[str]] = []
 
-    def go_on(these: Sequence[Start], *, iterations: int, **_: object) -> list[Attempt]:
+    def go_on(these: Sequence[Start], *, iterations: int, **_: object) -> list[FittedStart]:
         assert iterations == FURTHER
         rounds.append([s.name for s in these])
-        return [Attempt(s, _ended(nominal, (9.0, 8.0))) for s in these]
+        return [FittedStart(s, _ended(nominal, (9.0, 8.0))) for s in these]
 
     monkeypatch.setattr(screening, "_round", go_on)
     monkeypatch.setattr(screening, "statistics", lambda *_: SimpleNamespace(at_the_floor=explained))
@@ -185,10 +185,10 @@ def test_effects_come_in_the_order_of_the_best_of_their_fits(lagging: Problem, m
     """An effect that another start has led astray is not behind those that are worse than its best."""
     base = fit_nominal(lagging)
 
-    def ended(name: str, cost: float) -> Attempt:
+    def ended(name: str, cost: float) -> FittedStart:
         of = starts(lagging, base, name, orders=1)[0]
         minimum = replace(base.minimum, values=of.hypothesis.vector[: len(of.hypothesis.unknowns)], cost=cost)
-        return Attempt(of, Fit(hypothesis=of.hypothesis, minimum=minimum))
+        return FittedStart(of, Fit(hypothesis=of.hypothesis, minimum=minimum))
 
     ends = [ended("speed-sensor-lag", 2.0), ended("input-delay", 5.0), ended("speed-sensor-lag", 9.0)]
     monkeypatch.setattr(screening, "_to_the_end", lambda *_, **__: ends)

@@ -12,7 +12,7 @@ import rwn
 from rwn.fit.fit import Fit
 from rwn.fit.levenberg_marquardt import FitStatus, Minimum
 from rwn.name.starts import (
-    Attempt,
+    FittedStart,
     Start,
     best_of_each,
     distinct_ends,
@@ -23,14 +23,14 @@ SAMPLES = 100
 BEST = (1.0, 2.0)
 
 
-def _attempt(name: str, values: tuple[float, float], cost: float, order: float = 0.0) -> Attempt:
+def _attempt(name: str, values: tuple[float, float], cost: float, order: float = 0.0) -> FittedStart:
     information = np.diag([1e4, 1.0])
     minimum = Minimum(
         values=np.array(values), chi2=cost, cost=cost, first=2.0 * cost, information=information,
         data_information=information, status=FitStatus.CONVERGED, iterations=3,
     )  # fmt: skip
     nothing = cast(Any, None)
-    return Attempt(Start(name, order, 0, nothing), Fit(hypothesis=nothing, minimum=minimum))
+    return FittedStart(Start(name, order, 0, nothing), Fit(hypothesis=nothing, minimum=minimum))
 
 
 @pytest.mark.parametrize(

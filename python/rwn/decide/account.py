@@ -12,7 +12,7 @@ import numpy as np
 
 from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.elaboration import elaborated
-from rwn.decide.evidence import Evidence, Validation
+from rwn.decide.evidence import CrossValidation, Evidence
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import join, structured, variance
 from rwn.model.model import Model
@@ -27,7 +27,7 @@ LARGEST_SET = 3  # names that are still an answer
 
 
 @dataclass(frozen=True, kw_only=True)
-class Acting:
+class ActingEffect:
     """An effect of the leading explanation."""
 
     name: str
@@ -56,12 +56,12 @@ class Remainder:
 class Account:
     """Every effect of the leading explanation, the one that removes most first."""
 
-    effects: tuple[Acting, ...]
+    effects: tuple[ActingEffect, ...]
     leading: RankedFit
     birge: float = 1.0  # how much wider than its own the intervals of the leading explanation are
 
     @property
-    def stated(self) -> tuple[Acting, ...]:
+    def stated(self) -> tuple[ActingEffect, ...]:
         """The effects that are stated."""
         return tuple(e for e in self.effects if e.stated)
 
@@ -73,7 +73,7 @@ class Account:
 def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     """What acts, of the best explanation that has effects at all; empty where none was found."""
     best = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
-    found = elaborated(ranking, best, lambda this: Validation(ranking, this, heldout, model))
+    found = elaborated(ranking, best, lambda this: CrossValidation(ranking, this, heldout, model))
     leading, validation = found.leading, found.validation
     rivals = {name: _rivals(ranking, leading, name, found.odds) for name in leading.added}
     instead = {name: {*rivals[name], *family(name)} - {name} for name in leading.added}
@@ -82,10 +82,10 @@ def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading, birge=validation.birge)
 
 
-def _acting(name: str, found: Evidence, rivals: Mapping[str, float]) -> Acting:
+def _acting(name: str, found: Evidence, rivals: Mapping[str, float]) -> ActingEffect:
     """`rivals` share the probability by the evidence for each against this one."""
     together = calibration().probability(found)
-    return Acting(
+    return ActingEffect(
         name=name,
         probability=together / (1.0 + sum(rivals.values())),
         together=together,

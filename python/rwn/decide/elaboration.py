@@ -12,22 +12,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rwn.decide.calibration import ACTS, calibration
-from rwn.decide.evidence import Validation
+from rwn.decide.evidence import CrossValidation
 from rwn.name.backward import family, plainer
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 
 
 @dataclass(frozen=True, kw_only=True)
-class Elaborated:
+class NestedLawTest:
     """An explanation whose elaborate laws each add to the plain ones."""
 
     leading: RankedFit
-    validation: Validation  # of it
+    validation: CrossValidation  # of it
     odds: dict[tuple[str, str], float]  # of a rival against a name of it
 
 
-def elaborated(ranking: Ranking, leading: RankedFit, validated: Callable[[RankedFit], Validation]) -> Elaborated:
+def elaborated(
+    ranking: Ranking, leading: RankedFit, validated: Callable[[RankedFit], CrossValidation]
+) -> NestedLawTest:
     """The explanation, with the next best law in the place of each elaborate one that adds nothing to its plain one."""
     validation, odds = validated(leading), dict[tuple[str, str], float]()
     for name in leading.added:
@@ -48,7 +50,7 @@ def elaborated(ranking: Ranking, leading: RankedFit, validated: Callable[[Ranked
             (name,) = set(leading.added) - others
         of_plain = odds.get((name, plain_name), 1.0)
         odds |= {(name, n): of_plain * p / (1.0 - p) for n, p in idle.items()}
-    return Elaborated(leading=leading, validation=validation, odds=odds)
+    return NestedLawTest(leading=leading, validation=validation, odds=odds)
 
 
 def _explained(ranking: Ranking, others: frozenset[str], name: str) -> RankedFit | None:

@@ -53,7 +53,7 @@ class _Half:
     fit: Fit
 
 
-class Validation:
+class CrossValidation:
     """An explanation fitted to all that was recorded and to each half of it, which evidence for its effects goes by."""
 
     def __init__(self, ranking: Ranking, leading: RankedFit, heldout: Sequence[Run], model: Model) -> None:

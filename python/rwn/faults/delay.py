@@ -13,7 +13,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.faults.fault import MOTION, SHIFT, Fault, Removes, without
+from rwn.faults.fault import MOTION, SHIFT, ErrorReduction, Fault, without
 from rwn.faults.scale import gears
 from rwn.fit.fit import Fit, fit, fit_nominal, refit
 from rwn.fit.hypothesis import hypothesis
@@ -88,7 +88,7 @@ def unexplained(suspect: SuspectedFault, found: Ranking) -> float:
 def removing(fault: Fault, suspect: SuspectedFault, *, left: float, physics: float) -> Fault:
     """The fault with what it removes: `left` above the noise with it undone, `physics` without."""
     shares = (1.0 - left / max(total, left, 1e-300) for total in (suspect.before, physics))
-    return replace(fault, removes=Removes(*shares)) if fault.name == SHIFT else fault
+    return replace(fault, removes=ErrorReduction(*shares)) if fault.name == SHIFT else fault
 
 
 def rivals(*rankings: Ranking) -> list[str]:
@@ -171,7 +171,7 @@ def shift_instead(
     fault = min(found, key=lambda f: found[f])
     nothing = variance(lagging, fit_nominal(lagging))
     shares = (1.0 - (found[fault] - 1.0) / max(total - 1.0, found[fault] - 1.0, 1e-300) for total in (nothing, left))
-    return replace(fault, removes=Removes(*shares))
+    return replace(fault, removes=ErrorReduction(*shares))
 
 
 def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:

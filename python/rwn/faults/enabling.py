@@ -54,7 +54,7 @@ def _acting(steps: Array, time: float) -> Array:
 
 
 @dataclass(frozen=True)
-class Beginning:
+class Standstill:
     """A recording until twice the time that it stood still, and a fit that would move under its input.
 
     Simulated in short windows from the recorded motion: what is missing of the motion that follows says nothing of when

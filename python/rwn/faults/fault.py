@@ -30,7 +30,7 @@ LINE = 4  # samples
 SURE = 0.99  # probability that is stated of a fault; those that fit alike share it
 
 
-class Removes(NamedTuple):
+class ErrorReduction(NamedTuple):
     """The squared error above the noise that goes with a fault and what is beneath it."""
 
     share: float  # of what the refitted model leaves
@@ -49,7 +49,7 @@ class Fault:
     delay: int = 0  # samples by which the signals come late
     step: float = 0.0  # sample time [s]
     also: tuple[str, ...] = ()  # other faults that these recordings do not tell from it
-    removes: Removes | None = None  # None: a scale that is plainly wrong
+    removes: ErrorReduction | None = None  # None: a scale that is plainly wrong
 
     def undo(self, recording: Recording) -> Recording:
         """The recording as it should have been; where a signal came late, all are cut to what is left.

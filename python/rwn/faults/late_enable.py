@@ -13,7 +13,7 @@ from operator import attrgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.faults.enabling import Beginning, powered_from, run_powered_from, since_start
+from rwn.faults.enabling import Standstill, powered_from, run_powered_from, since_start
 from rwn.faults.standstill import FEWEST, first_moved
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit, fit_nominal, refit
 from rwn.fit.hypothesis import hypothesis
@@ -142,7 +142,7 @@ def retimed(
     return tuple(late for late in made if late.samples >= FEWEST)
 
 
-def _inflation(time: float, late: LateEnable, beginning: Beginning, problem: Problem, this: Fit) -> float:
+def _inflation(time: float, late: LateEnable, beginning: Standstill, problem: Problem, this: Fit) -> float:
     """`variance_inflation` of an explanation refitted with the power of a recording from a time [s] on."""
     on = run_powered_from(time, beginning.run)
     changed = replace(problem.whole[late.place], input=on.input, applied_input=on.applied_input)
@@ -244,8 +244,8 @@ def _stands_about_zero(run: Run, samples: int) -> bool:
     return bool((still := run.signal("speed")[:samples]).size and abs(np.mean(still)) <= CERTAIN * np.std(still))
 
 
-def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> Beginning:
+def _beginning(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run) -> Standstill:
     run = replace(run_of(recording, model), levels=beside.levels)
     if run.in_motion or run.angle_unknown:  # else it says where it stands, and a fit may have bent that
         run = replace(run, start_unknowns=beside.start_unknowns)
-    return Beginning(problem, this, recording, run, _standing_samples(recording, model))
+    return Standstill(problem, this, recording, run, _standing_samples(recording, model))

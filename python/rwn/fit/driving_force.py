@@ -16,13 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.noise import noise_of
-from rwn.fit.problem import CountedNormal, Problem
+from rwn.fit.problem import Problem
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.recording.smoothing import smooth, smoothing_length
 from rwn.simulate.inverse_dynamics import needed_force
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import NormalEquations
 
 Array = NDArray[np.float64]
 
@@ -109,7 +110,7 @@ class DrivingForceProblem(Problem):
 
         return side_by_side(one, self.runs)
 
-    def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
+    def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> NormalEquations:
         """Normal equations (p, p), (p,) of one run, by central differences: the balance of forces is algebraic."""
         assert isinstance(run, BalancedRun)
         compared = ~run.not_compared(DRIVING_FORCE)
@@ -120,7 +121,7 @@ class DrivingForceProblem(Problem):
                 slopes[:, k] = self._slope(run, vector, active, place)[compared] / self.noise[DRIVING_FORCE].level
             chi2, gradient, curvature = float(left @ left), slopes.T @ left, slopes.T @ slopes
         finite = bool(np.isfinite(chi2) and np.isfinite(curvature).all())
-        return CountedNormal(chi2=chi2, gradient=gradient, curvature=curvature, finite=finite, count=left.size)
+        return NormalEquations(chi2=chi2, gradient=gradient, curvature=curvature, finite=finite, count=left.size)
 
     def _slope(self, run: BalancedRun, vector: Array, active: Sequence[int], place: int) -> Array:
         """Derivative (n,) of the needed force by one entry of the vector; 0 for what is unknown of a start."""

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from rwn.fit.budget import shares_by_rank
 from rwn.fit.hypothesis import OF_RUNS, Hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING, Minimum, minimise
-from rwn.fit.problem import CountedNormal, Problem
+from rwn.fit.problem import Problem
 from rwn.fit.unknown import Unknown
 from rwn.model.initial_state import INITIAL_POSITION
 from rwn.parallel import side_by_side
+from rwn.simulate.simulator import NormalEquations
 
 Array = NDArray[np.float64]
 
@@ -189,10 +190,10 @@ def fit(
     """
     own = problem.metered()
 
-    def evaluate(values: Array) -> CountedNormal:
+    def evaluate(values: Array) -> NormalEquations:
         return own.normal(this.with_values(values), this.active, this.by)
 
-    def probe(values: Array) -> CountedNormal:
+    def probe(values: Array) -> NormalEquations:
         return own.normal(this.with_values(values), this.active, ())
 
     end = minimise(

@@ -47,25 +47,25 @@ def covariance(this: Fit, left: Statistics) -> Array:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Doubt:
+class Widening:
     """What makes the values of a fit less sure than its noise."""
 
     birge: float = 1.0  # how much farther apart than their deviations values lie that were fitted to parts
     bias: float = 0.0  # relative standard deviation of the bias by what the fit does not explain
 
 
-NO_DOUBT = Doubt()
+NO_WIDENING = Widening()
 
 
-def estimates(this: Fit, left: Statistics, *, doubt: Doubt = NO_DOUBT) -> dict[str, Estimate]:
+def estimates(this: Fit, left: Statistics, *, widening: Widening = NO_WIDENING) -> dict[str, Estimate]:
     """Value and 95 % interval of every unknown on which something depends, cut at its bounds; phases within a turn.
 
-    A doubt widens no interval beyond what was declared of the unknown: that holds whatever the fit does not explain.
+    No interval is widened beyond what was declared of the unknown: that holds whatever the fit does not explain.
     """
     seen = np.diag(this.minimum.information) > 0.0
     noise = deviations(this, left)
     sure = np.hypot(noise, _systematic(this, 0.0))
-    doubted = np.hypot(doubt.birge * noise, _systematic(this, doubt.bias))
+    doubted = np.hypot(widening.birge * noise, _systematic(this, widening.bias))
     found = {}
     for k, (u, fitted) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):
         if u.nuisance or not seen[k]:

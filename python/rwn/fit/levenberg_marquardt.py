@@ -9,8 +9,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.search_coordinates import Evaluate, Normal, SearchCoordinates
+from rwn.fit.search_coordinates import Evaluate, SearchCoordinates
 from rwn.fit.unknown import Unknown
+from rwn.simulate.simulator import NormalEquations
 
 Array = NDArray[np.float64]
 
@@ -153,8 +154,8 @@ def _reach(search: SearchCoordinates) -> Array:
 
 
 def _minimum(
-    search: SearchCoordinates, z: Array, normal: Normal, chi2: float, cost: float, first: float, status: FitStatus,
-    count: int, damping: float,
+    search: SearchCoordinates, z: Array, normal: NormalEquations, chi2: float, cost: float, first: float,
+    status: FitStatus, count: int, damping: float,
 ) -> Minimum:  # fmt: skip
     return Minimum(
         values=search.values(z),

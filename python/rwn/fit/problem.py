@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from rwn import _core
 from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.prior import Prior
-from rwn.fit.search_coordinates import Normal
 from rwn.model.drives.drive import Drive
 from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.vocabulary import motor_index, motor_parameters
@@ -21,18 +20,11 @@ from rwn.recording.noise import Noise
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.level import nearest_level
 from rwn.simulate.run import Run
-from rwn.simulate.simulator import Output, Simulator
+from rwn.simulate.simulator import NormalEquations, Output, Simulator
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 from rwn.simulate.windows import windowed
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True)
-class CountedNormal(Normal):
-    """Normal equations and how many samples stand behind them."""
-
-    count: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,19 +114,19 @@ class Problem:
         """Weighted squared error at a parameter vector (all,); infinite where a run diverged."""
         return self.normal(vector, active, ()).chi2
 
-    def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
+    def normal(self, vector: Array, active: Sequence[int], by: Sequence[int]) -> NormalEquations:
         """Normal equations (p, p), (p,) by the parameters `by`, summed over the runs."""
         chi2, count, gradient, curvature = 0.0, 0, np.zeros(len(by)), np.zeros((len(by), len(by)))
         for one in side_by_side(lambda r: self.normal_of(r, vector, active, by), self.runs):
             if not one.finite or not np.isfinite(one.curvature).all():
-                return CountedNormal(
+                return NormalEquations(
                     chi2=np.inf, gradient=gradient, curvature=curvature, finite=False, count=max(count, 1)
                 )
             chi2, count = chi2 + one.chi2, count + one.count
             gradient, curvature = gradient + one.gradient, curvature + one.curvature
-        return CountedNormal(chi2=chi2, gradient=gradient, curvature=curvature, count=count)
+        return NormalEquations(chi2=chi2, gradient=gradient, curvature=curvature, count=count)
 
-    def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
+    def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> NormalEquations:
         """Normal equations (p, p), (p,) of one run, of what is unknown of it alone at its place in `by`."""
         core, begun = _core.parameter_count(), self.started(run, vector, active)
         adds_to, scales = dict(run.start_unknowns), self._scaled(run, vector, active)
@@ -164,10 +156,6 @@ class Problem:
         known = [level for level in run.levels if level.place < vector.size]
         return {u.place: (u.share, tuple(p for p in u.parameters if p in acting)) for u in known}
 
-    def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
+    def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> NormalEquations:
         """Normal equations (p, p), (p,) of one run whose start is part of `vector` (all,)."""
-        found = self.simulator.normal_equations(run, vector, active, by, noise=self.noise)
-        return CountedNormal(
-            chi2=found.chi2, gradient=found.gradient, curvature=found.curvature, count=found.count,
-            finite=found.status == "ok",
-        )  # fmt: skip
+        return self.simulator.normal_equations(run, vector, active, by, noise=self.noise)

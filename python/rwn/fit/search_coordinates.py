@@ -3,29 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.unknown import Unknown, prior_weight, ties
+from rwn.simulate.simulator import NormalEquations
 
 Array = NDArray[np.float64]
 
 FAINT = 1e-12  # least amplitude, of its largest: from 0 no phase leads anywhere; below what counts as none (fit.IDLE)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Normal:
-    """Sum of squares and its normal equations by parameter *values*."""
-
-    chi2: float
-    gradient: Array  # (p,) J'r
-    curvature: Array  # (p, p) J'J
-    finite: bool = True
-
-
-Evaluate = Callable[[Array], Normal]
+Evaluate = Callable[[Array], NormalEquations]
 
 
 class SearchCoordinates:
@@ -69,11 +59,11 @@ class SearchCoordinates:
             values[phase] = np.arctan2(z[phase], z[amplitude])
         return values
 
-    def at(self, z: Array) -> tuple[float, Normal]:
+    def at(self, z: Array) -> tuple[float, NormalEquations]:
         """Cost at search coordinates (p,), and what it is made of."""
         return self._priced(z, self.evaluate(self.values(z)))
 
-    def tried(self, z: Array, bar: float, *, last: bool, doubted: bool) -> tuple[float, Normal]:
+    def tried(self, z: Array, bar: float, *, last: bool, doubted: bool) -> tuple[float, NormalEquations]:
         """Cost at `z` (p,) and what it is made of.
 
         Without derivatives in the last iteration, and where it is in doubt and above `bar`.
@@ -83,14 +73,14 @@ class SearchCoordinates:
         probed = self._priced(z, self.probe(self.values(z)))
         return self.at(z) if probed[0] < bar and not last else probed
 
-    def _priced(self, z: Array, normal: Normal) -> tuple[float, Normal]:
+    def _priced(self, z: Array, normal: NormalEquations) -> tuple[float, NormalEquations]:
         large = float(np.max(np.abs(normal.curvature), initial=0.0))
         if not normal.finite or not np.isfinite(normal.chi2) or large > 1e150:
             return np.inf, normal
         off = z - self.prior
         return normal.chi2 + float(np.sum(self.weight * off**2) + z @ self.tie @ z), normal
 
-    def slopes(self, z: Array, normal: Normal) -> tuple[Array, Array]:
+    def slopes(self, z: Array, normal: NormalEquations) -> tuple[Array, Array]:
         """-gradient/2 (p,) and curvature (p, p) of the cost at search coordinates `z` (p,)."""
         values = self.values(z)
         turn = np.diag(np.where(self.logarithmic, values, 1.0))  # (p, p) of values by coordinates
@@ -102,7 +92,7 @@ class SearchCoordinates:
         curvature = turn.T @ normal.curvature @ turn + np.diag(self.weight) + self.tie
         return gradient, curvature
 
-    def information(self, z: Array, normal: Normal) -> Array:
+    def information(self, z: Array, normal: NormalEquations) -> Array:
         """Curvature of the cost by values, (p, p), with priors as they are for white residuals."""
         slope = np.where(self.logarithmic, self.values(z), 1.0)
         priors = (np.diag(self.weight) + self.tie) / np.outer(slope, slope)  # an oscillation has none

@@ -16,10 +16,11 @@ from rwn.fit.budget import shares_by_rank
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.levenberg_marquardt import Minimum, minimise
-from rwn.fit.problem import CountedNormal, Problem
+from rwn.fit.problem import Problem
 from rwn.fit.residuals import join
 from rwn.fit.unknown import Unknown
 from rwn.parallel import side_by_side
+from rwn.simulate.simulator import NormalEquations
 
 Array = NDArray[np.float64]
 
@@ -78,11 +79,11 @@ def _by_secants(problem: Problem, this: Hypothesis, relative: float, share: floa
     Or where the problem's meter has come to `share`.
     """
 
-    def probe(values: Array) -> CountedNormal:
+    def probe(values: Array) -> NormalEquations:
         error = weighted_errors(problem, this, values)
         return _normal(error, np.empty((error.size, 0)))
 
-    def evaluate(values: Array) -> CountedNormal:
+    def evaluate(values: Array) -> NormalEquations:
         error = weighted_errors(problem, this, values)
         return _normal(error, slopes_by_secants(problem, this, values, relative))
 
@@ -111,9 +112,9 @@ def slopes_by_secants(problem: Problem, this: Hypothesis, values: Array, relativ
     return slopes
 
 
-def _normal(error: Array, slopes: Array) -> CountedNormal:
+def _normal(error: Array, slopes: Array) -> NormalEquations:
     chi2 = float(error @ error)
-    return CountedNormal(
+    return NormalEquations(
         chi2=chi2, gradient=slopes.T @ error, curvature=slopes.T @ slopes, count=error.size,
         finite=bool(np.isfinite(chi2)),
     )  # fmt: skip

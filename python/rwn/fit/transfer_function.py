@@ -9,10 +9,11 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.problem import CountedNormal, Problem
+from rwn.fit.problem import Problem
 from rwn.model.vocabulary import motor_index, state_indices
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import NormalEquations
 from rwn.simulate.transfer_function import state_space, states
 
 Array = NDArray[np.float64]
@@ -49,7 +50,7 @@ class TransferFunctionProblem(Problem):
             self.simulator, run, vector, active, noise=self.noise, starts=starts, prior=prior
         )
 
-    def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> CountedNormal:
+    def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> NormalEquations:
         """Normal equations (p, p), (p,) of one run, its initial state eliminated (Schur complement at its optimum)."""
         if self.at_rest:
             return self.normal_at(run, vector, active, by)

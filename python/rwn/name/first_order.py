@@ -24,7 +24,7 @@ ALIKE = 1.1  # factor on the squared error within which a first order tells noth
 FLAT = 1e-4  # directions that move the simulation less than the strongest by this factor do not count
 
 
-class Left(NamedTuple):
+class FirstOrderCost(NamedTuple):
     """What a start leaves; of those that are alike to first order the nearest is the least."""
 
     steps: float  # of ALIKE, squared error to first order
@@ -44,16 +44,16 @@ class FirstOrder:
         self._directions = directions[:, size > FLAT * np.max(size, initial=0.0)]
         self._left = self._across(weighted_errors(problem, base.hypothesis, values))
 
-    def left_by(self, start: Hypothesis) -> Left:
+    def left_by(self, start: Hypothesis) -> FirstOrderCost:
         """What a start leaves; infinite where its simulation runs away."""
         errors = weighted_errors(self._problem, start, start.start)
         if not np.isfinite(errors).all() or float(np.max(np.abs(errors), initial=0.0)) > RAN_AWAY**0.5:
-            return Left(np.inf, np.inf)
+            return FirstOrderCost(np.inf, np.inf)
         added = self._left - self._across(errors)
         energy = float(added @ added)
         strength = float(np.clip(added @ self._left / energy, 1.0 / FARTHEST, FARTHEST)) if energy else 1.0
         left = float(np.sum((self._left - strength * added) ** 2))
-        return Left(float(np.floor(np.log(max(left, 1e-300)) / np.log(ALIKE))), float(errors @ errors))
+        return FirstOrderCost(float(np.floor(np.log(max(left, 1e-300)) / np.log(ALIKE))), float(errors @ errors))
 
     def _across(self, errors: Array) -> Array:
         across: Array = errors - self._directions @ (self._directions.T @ errors)

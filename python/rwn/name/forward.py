@@ -27,7 +27,7 @@ from rwn.name.degenerate import adds
 from rwn.name.measurement import Measurement
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.observable import observable
-from rwn.name.ranking import NO_PAIRS, Fits, Pairs, Ranking
+from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits, Ranking
 from rwn.name.screening import OF_THE_MACHINE, screen
 from rwn.name.weights import weigh
 
@@ -38,11 +38,11 @@ LEAST_GAIN = 0.2  # smallest share of the cost, misfit and data sheet together, 
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 
 
-class _Grown(NamedTuple):
+class _ForwardSelection(NamedTuple):
     """Explanations by more and more effects."""
 
     fits: list[Fit]
-    pairs: Pairs
+    extensions: Extensions
     paired: bool  # some have several effects
     complete: bool  # more effects at once would not help
     cut_short: int  # so many effects at once were tried beside the best alone, for what that costs; 0: none
@@ -77,9 +77,9 @@ def _ranked(
     alone = after.alone if after else _each_alone(problem, wanted, progress)
     problem, nominal, fits = alone.problem, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
     before = statistics(problem, nominal)
-    pairs = after.pairs if after else NO_PAIRS
+    extensions = after.extensions if after else NO_EXTENSIONS
     in_noise = partial(made.in_noise, problem) if names is None and not after else None
-    grown = _grown(alone, fits, wanted, pairs, at_once=at_once, begun=begun, progress=progress, otherwise=in_noise)
+    grown = _grown(alone, fits, wanted, extensions, at_once=at_once, begun=begun, progress=progress, otherwise=in_noise)
     again = refitted_beside(known, problem)
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
@@ -111,7 +111,7 @@ def _ranked(
         weighted=weighted,
         counted=counted,
         alone=alone,
-        pairs=grown.pairs,
+        extensions=grown.extensions,
         speed_steps=recorded_steps(problem, best),
         complete=names is None and (grown.complete or at_once >= MOST_EFFECTS),
         cut_short=0 if left.at_the_floor else grown.cut_short,
@@ -120,14 +120,14 @@ def _ranked(
 
 
 def _grown(
-    alone: Fits, fits: list[Fit], wanted: Sequence[str], pairs: Pairs, *, at_once: int, begun: int, progress: Progress,
-    otherwise: Callable[[Fit], Measurement | None] | None = None,
-) -> _Grown:  # fmt: skip
+    alone: Fits, fits: list[Fit], wanted: Sequence[str], extensions: Extensions, *, at_once: int, begun: int,
+    progress: Progress, otherwise: Callable[[Fit], Measurement | None] | None = None,
+) -> _ForwardSelection:  # fmt: skip
     """Single effects, then the best of them with more beside, as long as that helps.
 
-    `pairs` are known already. `begun`: what the meter of the search had counted when it began. `otherwise`: how the
-    recordings were made, by the best of each number of effects; None: as thought. Under another measurement than theirs
-    nothing is built on.
+    `extensions` are known already. `begun`: what the meter of the search had counted when it began. `otherwise`: how
+    the recordings were made, by the best of each number of effects; None: as thought. Nothing is built on that under
+    another measurement than theirs.
     """
     problem = alone.problem
     best, left = _best_of(problem, [alone.nominal, *fits])
@@ -138,13 +138,13 @@ def _grown(
         measured = otherwise(best) if otherwise and not complete else None
         if complete or measured:
             break
-        known = pairs if size == 2 else NO_PAIRS
+        known = extensions if size == 2 else NO_EXTENSIONS
         renew(problem.work, begun)
         progress(f"trying {size} effects at once", 0.9 - 0.7 * 0.5 ** (size - 1))
         found, windowed = _beside_and_in_windows(
             alone, best, bases, wanted, fits, known, size=size, windowed=windowed
         )  # fmt: skip
-        more, pairs = found.fits, found if size == 2 else pairs
+        more, extensions = found.fits, found if size == 2 else extensions
         cut_short = size if found.cut_short else 0
         complete = not _is_worth_it(more, best)
         if complete:
@@ -153,13 +153,13 @@ def _grown(
         best, left = _best_of(problem, fits)
         bases = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2]
         complete = left.at_the_floor or _at_its_floor(problem, best)
-    return _Grown(fits, pairs, paired, complete, cut_short, measured)
+    return _ForwardSelection(fits, extensions, paired, complete, cut_short, measured)
 
 
 def _beside_and_in_windows(
-    alone: Fits, best: Fit, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Pairs, *,
+    alone: Fits, best: Fit, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Extensions, *,
     size: int, windowed: Sequence[Fit],
-) -> tuple[Pairs, Sequence[Fit]]:  # fmt: skip
+) -> tuple[Extensions, Sequence[Fit]]:  # fmt: skip
     """What helps beside `bases`, with what is found in short windows where a free run is far off.
 
     In windows first once free run has lost the motion, since it finds nothing then and would use up what a search may
@@ -236,8 +236,8 @@ def _at_its_floor(problem: Problem, best: Fit) -> bool:
 
 
 def _beside(
-    problem: Problem, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Pairs
-) -> Pairs:
+    problem: Problem, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Extensions
+) -> Extensions:
     """What helps beside each of `bases`: any effect beside the best, promising ones beside the others.
 
     Once the best found leaves noise alone, one that has no part in it is tried beside its parts: it may rival one.
@@ -255,7 +255,7 @@ def _beside(
         tried |= {(base.added, name) for name in new}
         met = {name for f in (*fits, *found) for name in f.added}
         names = [name for name in wanted if name in met]
-    return Pairs(distinct(found), tried, cut_short=skipped)
+    return Extensions(distinct(found), tried, cut_short=skipped)
 
 
 def _complete_explanation(problem: Problem, found: Sequence[Fit]) -> frozenset[str]:

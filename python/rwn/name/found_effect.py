@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rwn.fit.intervals import NO_DOUBT, Doubt, Estimate, estimates
+from rwn.fit.intervals import NO_WIDENING, Estimate, Widening, estimates
 from rwn.model.vocabulary import Effect
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
@@ -29,11 +29,11 @@ class FoundEffect:
 
 
 def found_effects(
-    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float], *, doubt: Doubt = NO_DOUBT
+    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float], *, widening: Widening = NO_WIDENING
 ) -> tuple[FoundEffect, ...]:
     """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts)."""
     final = chosen.final
-    numbers, known = estimates(final, ranking.counted, doubt=doubt), final.hypothesis.table
+    numbers, known = estimates(final, ranking.counted, widening=widening), final.hypothesis.table
     if ranking.problem.drive.linear:
         numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
     rows = []

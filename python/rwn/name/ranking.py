@@ -21,7 +21,7 @@ class Fits(NamedTuple):
     windowed: Sequence[Fit] = ()  # as fitted in short windows, where a free run has lost the motion
 
 
-class Pairs(NamedTuple):
+class Extensions(NamedTuple):
     """Explanations with one effect more than those that they were built on, and by fewer that windows showed."""
 
     fits: list[Fit]
@@ -29,7 +29,7 @@ class Pairs(NamedTuple):
     cut_short: bool = False  # some would have been built on, but for what that costs
 
 
-NO_PAIRS = Pairs([], frozenset())
+NO_EXTENSIONS = Extensions([], frozenset())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +44,7 @@ class Ranking:
     weighted: Problem  # that of the final fits: `problem`, or the same under coloured noise
     counted: Statistics  # what is left there: `left`, or what is new in each error
     alone: Fits  # every effect by itself
-    pairs: Pairs  # under the noise of `alone`
+    extensions: Extensions  # under the noise of `alone`
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     at_a_limit: tuple[Fit, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
     cut_short: int = 0  # so many effects at once were tried beside the best alone, for what that costs; 0: none

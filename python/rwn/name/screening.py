@@ -21,9 +21,9 @@ from rwn.fit.residuals import statistics
 from rwn.fit.secant import down_secants
 from rwn.name.first_order import FirstOrder
 from rwn.name.starts import (
-    Attempt,
+    FittedStart,
+    ScoredStart,
     Start,
-    Unfitted,
     best_of_each,
     distinct_ends,
     far_behind,
@@ -74,11 +74,11 @@ def _chosen(problem: Problem, base: Fit, these: Sequence[Start], keep: int) -> l
         return list(these)
     first_order = FirstOrder(first_part(problem, base), base)
     left = side_by_side(lambda start: first_order.left_by(start.hypothesis), competing)
-    best = best_of_each([Unfitted(*pair) for pair in zip(competing, left, strict=True)], keep, orders=keep + 1)
+    best = best_of_each([ScoredStart(*pair) for pair in zip(competing, left, strict=True)], keep, orders=keep + 1)
     return [*(s for s in these if counts[kind_of(s)] <= keep), *(one.start for one in best)]
 
 
-def _round(these: Sequence[Start], *, iterations: int, on: Problem, problem: Problem) -> list[Attempt]:
+def _round(these: Sequence[Start], *, iterations: int, on: Problem, problem: Problem) -> list[FittedStart]:
     """Some iterations of every start; each attempt holds the start of the next round where this one ended."""
     costs = side_by_side(lambda s: cost_of_a_step(on, s.hypothesis), these)
     shares = shares_of_steps(problem.work, costs)
@@ -87,15 +87,15 @@ def _round(these: Sequence[Start], *, iterations: int, on: Problem, problem: Pro
     )
 
 
-def _attempt(start: Start, iterations: int, on: Problem, *, share: float, roughly: bool = False) -> Attempt:
+def _attempt(start: Start, iterations: int, on: Problem, *, share: float, roughly: bool = False) -> FittedStart:
     end = fit(
         on, start.hypothesis, max_iterations=iterations, tolerance=RESOLUTION, damping=start.damping, share=share,
         roughly=roughly,
     )  # fmt: skip
-    return Attempt(start.after(end), end)
+    return FittedStart(start.after(end), end)
 
 
-def _further(problem: Problem, attempts: Sequence[Attempt], on: Problem, best_here: float) -> list[Attempt]:
+def _further(problem: Problem, attempts: Sequence[FittedStart], on: Problem, best_here: float) -> list[FittedStart]:
     """Those that are under way, some iterations further: the first ones say little of where a fit ends.
 
     Once one leaves but noise, those that are not far behind alone.
@@ -110,8 +110,8 @@ def _further(problem: Problem, attempts: Sequence[Attempt], on: Problem, best_he
 
 
 def _to_the_end(
-    problem: Problem, attempts: Sequence[Attempt], on: Problem, *, best_here: float, best: float
-) -> list[Attempt]:
+    problem: Problem, attempts: Sequence[FittedStart], on: Problem, *, best_here: float, best: float
+) -> list[FittedStart]:
     """Every start fitted to all recordings, until it converges or, where it is far behind and gains little, briefly.
 
     `attempts`: how far they came on the screening part `on`. `best_here`, `best`: the least costs that are known on it
@@ -120,7 +120,7 @@ def _to_the_end(
     by_rank = partial(_by_rank, problem)
     bar = far_behind(attempts, best_here)
 
-    def on_all(attempt: Attempt, share: float) -> Attempt:
+    def on_all(attempt: FittedStart, share: float) -> FittedStart:
         if on is problem and not _under_way(attempt.fit):
             return attempt
         iterations = TO_THE_END if _goes_on(attempt.fit, bar) else BRIEFLY
@@ -129,7 +129,7 @@ def _to_the_end(
     attempts = by_rank(on_all, attempts)
     bar = far_behind(attempts, best)
 
-    def unfinished(attempt: Attempt, share: float) -> Attempt:
+    def unfinished(attempt: FittedStart, share: float) -> FittedStart:
         brief = _under_way(attempt.fit) and attempt.fit.minimum.iterations <= BRIEFLY
         if brief and _goes_on(attempt.fit, bar):
             return _attempt(attempt.start, TO_THE_END, problem, share=share)
@@ -138,36 +138,36 @@ def _to_the_end(
     return by_rank(unfinished, attempts)
 
 
-def _given_up(problem: Problem, ends: list[Attempt]) -> list[Attempt]:
+def _given_up(problem: Problem, ends: list[FittedStart]) -> list[FittedStart]:
     """Those that were given up for being far behind go on after all, where what was ahead leaves more than noise."""
     best = min(ends, key=lambda end: end.cost, default=None)
     if best is None or statistics(problem, best.fit).at_the_floor:
         return ends
 
-    def to_the_end(attempt: Attempt, share: float) -> Attempt:
+    def to_the_end(attempt: FittedStart, share: float) -> FittedStart:
         return _attempt(attempt.start, TO_THE_END, problem, share=share) if _under_way(attempt.fit) else attempt
 
     return _by_rank(problem, to_the_end, ends)
 
 
 def _by_rank(
-    problem: Problem, go_on: Callable[[Attempt, float], Attempt], attempts: Sequence[Attempt]
-) -> list[Attempt]:
+    problem: Problem, go_on: Callable[[FittedStart, float], FittedStart], attempts: Sequence[FittedStart]
+) -> list[FittedStart]:
     """`go_on` of every attempt, which may cost the more the better the attempt is."""
     shares = shares_by_rank(problem.work, [a.cost for a in attempts])
     return side_by_side(lambda pair: go_on(*pair), zip(attempts, shares, strict=True))
 
 
-def _down_secants(attempts: Sequence[Attempt], on: Problem, base_cost: float, best: float) -> list[Attempt]:
+def _down_secants(attempts: Sequence[FittedStart], on: Problem, base_cost: float, best: float) -> list[FittedStart]:
     """Starts with a non-smooth error, that have gained something and are not far behind, brought near their minimum."""
     bar = min(NO_GAIN * base_cost, max(far_behind(attempts, best), STEEP * base_cost))
 
-    def near(attempt: Attempt, share: float) -> Attempt:
+    def near(attempt: FittedStart, share: float) -> FittedStart:
         start, this = attempt
         if this.cost < bar:
             at = Fit(hypothesis=start.hypothesis, minimum=this.minimum)
             this = down_secants(on, at, turns=1, share=share)
-        return Attempt(start.after(this), this)
+        return FittedStart(start.after(this), this)
 
     return _by_rank(on, near, attempts)
 

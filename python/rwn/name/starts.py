@@ -13,7 +13,7 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING
 from rwn.fit.part import first_part
 from rwn.fit.problem import Problem
-from rwn.name.first_order import Left
+from rwn.name.first_order import FirstOrderCost
 from rwn.name.initial_guesses.guess import Guess
 from rwn.name.initial_guesses.guesses import initial_guesses
 from rwn.name.initial_guesses.initial_angle import aligned, free_to_turn, without_phases
@@ -42,7 +42,7 @@ class Start(NamedTuple):
         return self._replace(hypothesis=begun, damping=max(this.minimum.damping, DAMPING))
 
 
-class Attempt(NamedTuple):
+class FittedStart(NamedTuple):
     """A start, moved to where its fit has come, and that fit."""
 
     start: Start
@@ -54,15 +54,15 @@ class Attempt(NamedTuple):
         return self.fit.cost
 
 
-class Unfitted(NamedTuple):
+class ScoredStart(NamedTuple):
     """A start, and what it leaves to first order."""
 
     start: Start
-    cost: Left
+    cost: FirstOrderCost
 
 
 Kind = tuple[str, float, int]
-Tried = TypeVar("Tried", Attempt, Unfitted)
+Tried = TypeVar("Tried", FittedStart, ScoredStart)
 
 
 def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start]:
@@ -125,7 +125,7 @@ def best_of_each(attempts: Sequence[Tried], keep: int, orders: int) -> list[Trie
     return kept
 
 
-def promising(attempts: Sequence[Attempt], base_cost: float, least: int = 6, most: int = 8) -> list[Attempt]:
+def promising(attempts: Sequence[FittedStart], base_cost: float, least: int = 6, most: int = 8) -> list[FittedStart]:
     """Those of effects that have gained at least half of what the best has; at least `least`, at most `most`."""
     if not attempts:
         return []
@@ -138,16 +138,16 @@ def promising(attempts: Sequence[Attempt], base_cost: float, least: int = 6, mos
     return [a for a in attempts if a.start.name in kept]
 
 
-def distinct_ends(attempts: Sequence[Attempt], samples: int) -> list[Attempt]:
+def distinct_ends(attempts: Sequence[FittedStart], samples: int) -> list[FittedStart]:
     """Those that have not come to the end of a better one of their effect; `samples`: that they were fitted to."""
-    kept: list[Attempt] = []
+    kept: list[FittedStart] = []
     for attempt in sorted(attempts, key=lambda a: a.cost):
         if not any(_same_end(attempt, better, samples) for better in kept):
             kept.append(attempt)
     return kept
 
 
-def _same_end(attempt: Attempt, better: Attempt, samples: int) -> bool:
+def _same_end(attempt: FittedStart, better: FittedStart, samples: int) -> bool:
     """Whether a fit has come to the end of another: by its cost, and by the other's quadratic."""
     end = better.fit.minimum
     little = SAME_END * max(1.0, end.cost / samples)
@@ -157,6 +157,6 @@ def _same_end(attempt: Attempt, better: Attempt, samples: int) -> bool:
     return float(off @ end.information @ off) < little
 
 
-def far_behind(attempts: Sequence[Attempt], best: float) -> float:
+def far_behind(attempts: Sequence[FittedStart], best: float) -> float:
     """The cost from which an attempt is far behind the best, which costs no more than `best`."""
     return FAR_BEHIND * min([best, *(a.cost for a in attempts)])

@@ -12,7 +12,7 @@ from rwn.measurement.likelihood import DECISIVE, log_posterior
 from rwn.name.weights import log_odds
 
 
-class Uneven(NamedTuple):
+class LevelsTest(NamedTuple):
     """An explanation with a level of a quantity for each recording."""
 
     log_odds: float  # evidence for the levels
@@ -26,7 +26,7 @@ class Uneven(NamedTuple):
         return self.log_odds > DECISIVE
 
 
-def uneven_beside(problem: Problem, best: Fit, level: Level) -> Uneven:
+def uneven_beside(problem: Problem, best: Fit, level: Level) -> LevelsTest:
     """The levels beside an explanation, with the lesser evidence of two that err otherwise where more is missing.
 
     That of effects counts samples of the error, as if what is missing were noise that lasts; the likelihood of
@@ -35,4 +35,4 @@ def uneven_beside(problem: Problem, best: Fit, level: Level) -> Uneven:
     on, this = beside_levels(problem, best, level)
     left, alike = statistics(on, this), refit(best, problem, iterations=ITERATIONS)
     new = log_posterior(on, this) - log_posterior(problem, alike)
-    return Uneven(log_odds=min(log_odds(this, best, left), new), problem=on, fit=this, left=left)
+    return LevelsTest(log_odds=min(log_odds(this, best, left), new), problem=on, fit=this, left=left)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from html import escape
 
-from rwn.decide.account import Acting
+from rwn.decide.account import ActingEffect
 from rwn.report import text as words
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.sentences import SLIGHT, about_shares, shown
@@ -23,7 +23,7 @@ def account_picture(found: DiagnosisData) -> str:
     return f'<p class="note">{escape(said)}</p><ul class="account">{rows}</ul>{place}'
 
 
-def _rows(found: DiagnosisData, near: Sequence[Acting]) -> Iterator[str]:
+def _rows(found: DiagnosisData, near: Sequence[ActingEffect]) -> Iterator[str]:
     for effect in near:
         yield _row("acts" if effect.stated else "doubtful", _name(effect), effect.share, _said(effect))
     left = found.remainder
@@ -35,11 +35,11 @@ def _rows(found: DiagnosisData, near: Sequence[Acting]) -> Iterator[str]:
         yield _row("left", "No name here", left.share, said)
 
 
-def _name(effect: Acting) -> str:
+def _name(effect: ActingEffect) -> str:
     return words.capital(words.listing([words.plain_name(n) for n in (effect.name, *effect.rivals)], "or"))
 
 
-def _said(effect: Acting) -> str:
+def _said(effect: ActingEffect) -> str:
     said = f"acts with probability {words.likelihood(effect.together)}"
     if not effect.stated:
         return f"{said}: not stated"

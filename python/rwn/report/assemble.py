@@ -17,7 +17,7 @@ from rwn.decide.statement import Statement, statement
 from rwn.faults.fault import Fault
 from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import with_uncertainty
-from rwn.fit.intervals import Doubt, estimates
+from rwn.fit.intervals import Widening, estimates
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
@@ -50,8 +50,9 @@ def assemble(
     problem, nominal = ranking.problem.in_free_run(), ranking.nominal
     unknown = _unknown_to(nominal, problem)
     named = decision.verdict == "missing-physics"
-    stated, doubt = decision.account.stated, _doubt(decision)
-    physics = found_effects(ranking, chosen, {e.name: e.probability for e in stated}, doubt=doubt) if named else ()
+    stated, widening = decision.account.stated, _widening(decision)
+    sure = {e.name: e.probability for e in stated}
+    physics = found_effects(ranking, chosen, sure, widening=widening) if named else ()
     effects = (*said.faults, *physics, *((said.coarse,) if said.coarse else ()))
     alternatives = _alternatives(ranking, chosen)
     equation = effects[0].equation if effects else ""
@@ -72,7 +73,7 @@ def assemble(
         explanation=_explanation(decision),
         alternatives=alternatives,
         location=Location(equation=equation, regions=where, description=place),
-        nominal_fit=nominal_fit(ranking, chosen, model, doubt=doubt),
+        nominal_fit=nominal_fit(ranking, chosen, model, widening=widening),
         heldout=rows,
         curves=drawn,
         sensor_filters=filters,
@@ -88,7 +89,7 @@ def assemble(
         elapsed=elapsed,
         stand_in=correction.stands_in,
         added=correction.final.added,
-        corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, doubt=doubt)),
+        corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, widening=widening)),
     )
 
 
@@ -118,11 +119,11 @@ def _alternatives(ranking: Ranking, chosen: RankedFit) -> tuple[Alternative, ...
     )
 
 
-def _doubt(decision: Decision) -> Doubt:
+def _widening(decision: Decision) -> Widening:
     """Of the parameters of what is stated: what is left of the mismatch may bias them."""
     left = decision.remainder
     share = float(np.clip(left.share, 0.0, 1.0)) if left.signals else 0.0
-    return Doubt(birge=decision.account.birge, bias=calibration().bias * float(np.sqrt(share)))
+    return Widening(birge=decision.account.birge, bias=calibration().bias * float(np.sqrt(share)))
 
 
 def _next_experiment(ranking: Ranking, said: Statement, alternatives: Sequence[Alternative], *, named: bool) -> str:

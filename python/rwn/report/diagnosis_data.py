@@ -9,7 +9,7 @@ from typing import Any, Literal, Self
 import msgspec
 import numpy as np
 
-from rwn.decide.account import Acting, Remainder
+from rwn.decide.account import ActingEffect, Remainder
 from rwn.decide.verdict import Verdict
 from rwn.mismatch_map.regions import Region
 from rwn.name.found_effect import FoundEffect
@@ -85,7 +85,7 @@ class DiagnosisData:
     warnings: tuple[str, ...] = ()
     next_experiment: str = ""
     adequate_probability: float | None = None  # that nothing is missing
-    account: tuple[Acting, ...] = ()  # the effects of the leading explanation, stated or not
+    account: tuple[ActingEffect, ...] = ()  # the effects of the leading explanation, stated or not
     remainder: Remainder = field(default_factory=Remainder)  # what the stated effects leave
     sources: tuple[Source, ...] = ()
     command: str = field(default="", compare=False)

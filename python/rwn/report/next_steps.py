@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rwn.decide.account import Acting
+from rwn.decide.account import ActingEffect
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.sentences import SLIGHT, held_part
 from rwn.report.text import likelihood, listing, plain_name
@@ -74,7 +74,7 @@ def _again(found: DiagnosisData) -> Iterator[str]:
         )
 
 
-def _nearest(effect: Acting) -> str:
+def _nearest(effect: ActingEffect) -> str:
     names = listing([plain_name(name) for name in (effect.name, *effect.rivals)], "or")
     return f"{names} ({likelihood(effect.together)})"
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from rwn.fit.intervals import HALF_WIDTH, NO_DOUBT, Doubt, Estimate, estimates
+from rwn.fit.intervals import HALF_WIDTH, NO_WIDENING, Estimate, Widening, estimates
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
@@ -58,10 +58,10 @@ class NominalFit:
     advice: str = ""
 
 
-def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, doubt: Doubt = NO_DOUBT) -> NominalFit:
-    """Nominal parameters: as given, refitted alone, and together with the found effects, with intervals by `doubt`."""
+def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, widening: Widening = NO_WIDENING) -> NominalFit:
+    """Nominal parameters: as given, refitted alone, and together with the found effects, with intervals."""
     alone = estimates(ranking.nominal, ranking.before)
-    together = estimates(chosen.final, ranking.counted, doubt=doubt) if chosen.added else {}
+    together = estimates(chosen.final, ranking.counted, widening=widening) if chosen.added else {}
     rows = {}
     given = dict(model.parameters) or dict(ranking.problem.prior.free)
     of_effects = model.effect_values

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from rwn.decide.account import Acting
+from rwn.decide.account import ActingEffect
 from rwn.faults.fault import RECORDING
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.name.found_effect import FoundEffect
@@ -97,12 +97,12 @@ def _with_parameters(effect: FoundEffect) -> str:
     return plain_name(effect.name) + (f" of {values[0]}" if len(values) == 1 else "")
 
 
-def shown(account: Sequence[Acting]) -> list[Acting]:
+def shown(account: Sequence[ActingEffect]) -> list[ActingEffect]:
     """The effects that an account shows; diagnosis.json has all."""
     return [effect for effect in account if effect.together >= SHOWN]
 
 
-def about_shares(effects: Sequence[Acting]) -> str:
+def about_shares(effects: Sequence[ActingEffect]) -> str:
     """What the shares of these effects and of what is left are of: they are no parts of a whole."""
     said = "A share is what comes back without that effect alone; shares need not add up to 100 %"
     return said + ("." if all(e.stated for e in effects) else ", and what is left includes what is not stated.")

@@ -59,7 +59,7 @@ def nearest_angle(
 
     def error(angle: float) -> float:
         found = simulator.normal_equations(run, at(angle), active, (), noise=noise)
-        return found.chi2 if found.status == "ok" and np.isfinite(found.chi2) else np.inf
+        return found.chi2 if found.finite and np.isfinite(found.chi2) else np.inf
 
     if not angles.size:
         return vector
@@ -67,7 +67,7 @@ def nearest_angle(
     least = error(best)
     for _ in range(ITERATIONS):
         normal = simulator.normal_equations(run, at(best), active, [where], noise=noise)
-        if normal.status != "ok" or not normal.curvature[0, 0] > 0.0:
+        if not normal.finite or not normal.curvature[0, 0] > 0.0:
             break
         trial = best + float(normal.gradient[0] / normal.curvature[0, 0])
         if not (cost := error(trial)) < least:

@@ -38,7 +38,7 @@ def nearest_state(
             trial[index] = at
             normal = simulator.normal_equations(run, trial, active, index, noise=noise)
             cost = normal.chi2 + float(at @ weight @ at)
-            if normal.status != "ok" or not np.isfinite(cost) or cost >= best - 1e-6 * abs(best):
+            if not normal.finite or not np.isfinite(cost) or cost >= best - 1e-6 * abs(best):
                 break
             best, here = cost, trial
             sizes = np.diag(normal.curvature + weight)

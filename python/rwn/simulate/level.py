@@ -37,7 +37,7 @@ def nearest_level(
 
     def cost(level: float) -> float:
         found = simulator.normal_equations(run, at(level), active, (), noise=noise)
-        chi2 = found.chi2 if found.status == "ok" and np.isfinite(found.chi2) else np.inf
+        chi2 = found.chi2 if found.finite and np.isfinite(found.chi2) else np.inf
         return chi2 + (level / spread) ** 2
 
     best, least = 0.0, cost(0.0)
@@ -46,7 +46,7 @@ def nearest_level(
         normal = simulator.normal_equations(run, here, active, scaled, noise=noise)
         along = here[scaled]
         curvature = float(along @ normal.curvature @ along) + 1.0 / spread**2
-        if normal.status != "ok" or not np.isfinite(curvature):
+        if not normal.finite or not np.isfinite(curvature):
             break
         step = (float(along @ normal.gradient) - best / spread**2) / curvature
         trials = ((best + share * step, cost(best + share * step)) for share in 0.5 ** np.arange(HALVINGS))

@@ -33,13 +33,13 @@ class Output:
 
 @dataclass(frozen=True, kw_only=True)
 class NormalEquations:
-    """Weighted squared error of one run with its normal equations by p parameters; see `Simulator.normal_equations`."""
+    """Weighted squared error of a simulation with its normal equations by p parameters."""
 
-    status: str
     chi2: float
-    count: int  # samples that were compared
     gradient: Array  # (p,) J'r
     curvature: Array  # (p, p) J'J
+    count: int = 0  # samples that were compared
+    finite: bool = True  # false: the simulation left the finite numbers
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,7 +119,9 @@ class Simulator:
         status, chi2, count, gradient, curvature = _core.normal_equations(
             self.task(run), measurements, _of_core(vector), list(active), list(by), self.work
         )
-        return NormalEquations(status=status, chi2=chi2, count=count, gradient=gradient, curvature=curvature)
+        return NormalEquations(
+            chi2=chi2, gradient=gradient, curvature=curvature, count=count, finite=status == "ok"
+        )
 
 
 def _of_core(vector: Array) -> Array:

@@ -10,7 +10,6 @@ from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.delay import shift_instead
 from rwn.faults.fault import Fault, without, without_all
 from rwn.faults.late_enable import LateEnable, late_under, powered
-from rwn.faults.resolve import resolved
 from rwn.faults.uneven_files import uneven_files
 from rwn.fit.fit import Fit
 from rwn.fit.preparation import prepare
@@ -27,12 +26,13 @@ from rwn.name.ranking import Ranking
 from rwn.recording.inspection import Finding
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording
+from rwn.search.beneath_faults import beneath_faults
 
 ASKED_AGAIN = 2  # times that how the input acted is asked of what was found; each that changes it costs a search
 
 
 @dataclass(frozen=True, kw_only=True)
-class Explained:
+class SearchResult:
     """What recordings come to."""
 
     model: Model  # states how the input acted between the rows
@@ -69,7 +69,7 @@ class Explained:
         return tuple(found)
 
 
-class _Measured(NamedTuple):
+class _Assumptions(NamedTuple):
     """How recordings came about."""
 
     late: tuple[LateEnable, ...]
@@ -77,9 +77,9 @@ class _Measured(NamedTuple):
     filters: tuple[SensorFilter, ...]  # of the sensors, beside those that the model states
 
 
-def explained(
+def search(
     recordings: Sequence[Recording], model: Model, *, late: Sequence[LateEnable], say: Progress, effort: float = 1.0
-) -> Explained:
+) -> SearchResult:
     """The explanation; found anew where under the best one the input acted otherwise.
 
     `late`: power stages that were enabled late, as far as the nominal model shows them. `effort`: what the search may
@@ -90,11 +90,11 @@ def explained(
     on, still = powered(recordings, late, model), tuple(late)
     again = with_intersample(on, model)
     as_acted = _as_acted(on, again)
-    faults, ranking = resolved(as_acted, again, say=say, effort=effort)
+    faults, ranking = beneath_faults(as_acted, again, say=say, effort=effort)
     filters: tuple[SensorFilter, ...] = ()
     for _ in range(ASKED_AGAIN):
         asked = _asked_again(recordings, model, still, again, faults, ranking)
-        alike = asked == _Measured(still, again, _filters(ranking, again))
+        alike = asked == _Assumptions(still, again, _filters(ranking, again))
         if alike and (faults or ranking.left.at_the_floor):
             break
         best = None if faults else ranking.fits[0].fit
@@ -102,40 +102,40 @@ def explained(
         if alike and not _tells_more(acted, as_acted, asked, ranking):
             break
         as_acted, (still, again, filters) = acted, asked
-        faults, ranking = resolved(as_acted, again, filters=filters, say=say, effort=effort)
+        faults, ranking = beneath_faults(as_acted, again, filters=filters, say=say, effort=effort)
     late_channel = None if faults else shift_instead(as_acted, again, _filters(ranking, again), ranking)
     if late_channel:
         right = without(as_acted, late_channel)
-        others, ranking = resolved(right, again, filters=_filters(ranking, again), say=say, effort=effort)
+        others, ranking = beneath_faults(right, again, filters=_filters(ranking, again), say=say, effort=effort)
         faults = [late_channel, *others]
     for wrong in contradicted(ranking):
         free = without_declared(again, wrong)
-        others, freed = resolved(as_acted, free, filters=filters, say=say, effort=effort)
+        others, freed = beneath_faults(as_acted, free, filters=filters, say=say, effort=effort)
         if confirmed(freed, ranking, again, wrong):
             faults, ranking = others, freed
             break
     again = stating_filters(again, ranking.problem.filters)
-    return Explained(model=again, late=still, faults=tuple(faults), ranking=ranking)
+    return SearchResult(model=again, late=still, faults=tuple(faults), ranking=ranking)
 
 
 def _asked_again(
     recordings: Sequence[Recording], model: Model, late: Sequence[LateEnable], stated: Model, faults: Sequence[Fault],
     ranking: Ranking,
-) -> _Measured:  # fmt: skip
+) -> _Assumptions:  # fmt: skip
     """How the recordings came about, as the best explanation that was found has it."""
     best = ranking.fits[0].fit
     right = without_all(recordings, faults)
     still = late_under(late, right, stated, ranking.problem, best)
     known = _filters(ranking, stated)
     if stated is model or (stated.recording.intersample == HELD and ranking.left.at_the_floor):
-        return _Measured(still, stated, known)
+        return _Assumptions(still, stated, known)
     bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
     law, filters = likeliest_with_filters(bare, best, stated.recording.intersample, known)
-    return _Measured(still, stating(stated, law), filters)
+    return _Assumptions(still, stating(stated, law), filters)
 
 
 def _tells_more(
-    acted: Sequence[Recording], before: Sequence[Recording], found: _Measured, ranking: Ranking
+    acted: Sequence[Recording], before: Sequence[Recording], found: _Assumptions, ranking: Ranking
 ) -> bool:  # fmt: skip
     """Whether the recordings are decisively likelier by the best explanation with an input that was inferred beside it.
 

@@ -15,10 +15,10 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR
-from rwn.faults import resolve
 from rwn.faults.delay import SuspectedFault
 from rwn.faults.fault import GEAR, SHIFT, Fault
 from rwn.fit.budget import meter
+from rwn.search import beneath_faults
 
 FAULT = Fault(name=SHIFT, signals=("speed",), meaning="", delay=4, step=1e-3)
 BEFORE, AFTER = 8.0, 1.0  # of the refitted model, with the fault and without
@@ -71,21 +71,21 @@ def test_a_fault_is_believed_where_physics_does_less(case: str, monkeypatch: pyt
         step = next(moves, None)
         return (suspect.fault if step is None else replace(suspect.fault, delay=4 + step)), left.beneath
 
-    monkeypatch.setattr(resolve, "unexplained", lambda _, found: found.left)
-    monkeypatch.setattr(resolve, "refined", refined)
-    monkeypatch.setattr(resolve, "without", lambda of, _: list(of))
+    monkeypatch.setattr(beneath_faults, "unexplained", lambda _, found: found.left)
+    monkeypatch.setattr(beneath_faults, "refined", refined)
+    monkeypatch.setattr(beneath_faults, "without", lambda of, _: list(of))
     for name in ("rivals", "first_effects"):
-        monkeypatch.setattr(resolve, name, lambda *_: [])
+        monkeypatch.setattr(beneath_faults, name, lambda *_: [])
     suspect = SuspectedFault(fault=FAULT, noise={}, before=BEFORE, after=AFTER)
-    fault, found, _ = resolve._decided(suspect, right, MODEL, ranking)  # type: ignore[arg-type]
+    fault, found, _ = beneath_faults._decided(suspect, right, MODEL, ranking)  # type: ignore[arg-type]
     assert (fault is not None) == believed
     if fault is None:
         assert found is not None
         assert found.kind in ("alone", "pairs"), "the recordings as they are"  # type: ignore[attr-defined]
     else:
-        assert fault.delay == 4 + min(left.moves, resolve.MOST_REFINEMENTS)
+        assert fault.delay == 4 + min(left.moves, beneath_faults.MOST_REFINEMENTS)
         assert found is None or found.kind in ("beneath", "whole")  # type: ignore[attr-defined]
-        if left.moves >= resolve.MOST_REFINEMENTS:
+        if left.moves >= beneath_faults.MOST_REFINEMENTS:
             assert found is None, "what was found beneath another delay is not kept"
 
 
@@ -109,8 +109,8 @@ def test_what_is_beneath_a_gear_is_found_anew_where_its_ratio_was_off(
         seen.extend(of)
         return "anew"
 
-    monkeypatch.setattr(resolve, "gear_ratio", ratio)
-    faults, found = resolve._geared(gear, [other, gear], [run], MODEL, "first", ranking)  # type: ignore[arg-type]
+    monkeypatch.setattr(beneath_faults, "gear_ratio", ratio)
+    faults, found = beneath_faults._geared(gear, [other, gear], [run], MODEL, "first", ranking)  # type: ignore[arg-type]
     assert found == ("anew" if again else "first")
     assert faults == ([other, replace(gear, factor=off * 0.3)] if again else [other, gear])
     np.testing.assert_allclose(seen[0].signals["voltage"], -run.signals["voltage"])

@@ -45,7 +45,7 @@ class Rank(Protocol):
     ) -> Ranking: ...  # fmt: skip
 
 
-class _Resolved(NamedTuple):
+class _FaultTest(NamedTuple):
     """What came of a suspicion, with what was found on the way of the recordings without the fault, or as they are."""
 
     fault: Fault | None
@@ -53,10 +53,10 @@ class _Resolved(NamedTuple):
     physics: float = 0.0  # squared error above the noise that physics leaves with the fault in the recordings
 
 
-NO_FAULT = _Resolved(None, None)
+NO_FAULT = _FaultTest(None, None)
 
 
-class _Refined(NamedTuple):
+class _RefinedDelay(NamedTuple):
     """A delay, what was found beneath it, and the squared error that is left (see `refined`)."""
 
     fault: Fault
@@ -65,7 +65,7 @@ class _Refined(NamedTuple):
     exact: bool  # `beneath` was found with this delay undone, not with one near it
 
 
-def resolved(
+def beneath_faults(
     recordings: Sequence[Recording], model: Model, *, filters: Sequence[SensorFilter] = (), say: Progress,
     effort: float = 1.0,
 ) -> tuple[list[Fault], Ranking]:  # fmt: skip
@@ -121,7 +121,7 @@ def _geared(
 
 def _decided(
     suspect: SuspectedFault, right: Sequence[Recording], model: Model, ranking: Rank
-) -> _Resolved:
+) -> _FaultTest:
     """The suspected fault if it explains more, alone or beside one effect, than as many effects do by themselves.
 
     Or if all there is is explained beneath it, by however many. Where two effects explain all without it, only theirs
@@ -131,33 +131,33 @@ def _decided(
     alone = ranking(right, 1)
     physics = unexplained(suspect, alone)
     if physics <= suspect.little:
-        return _Resolved(None, alone)
+        return _FaultTest(None, alone)
     if suspect.after <= LITTLE:
         believed = accepted(suspect, left=suspect.after, physics=physics, little=suspect.little)
-        return _Resolved(suspect.fault, None, physics) if believed else _Resolved(None, alone)
+        return _FaultTest(suspect.fault, None, physics) if believed else _FaultTest(None, alone)
     pairs = ranking(right, 2, names=rivals(alone), after=alone)
     enough = unexplained(suspect, pairs) <= LITTLE
     names = first_effects(alone, pairs) if enough else None
     fault, beneath, left, exact = _refined(suspect, right, model, ranking, names)
     if not accepted(suspect, left=left, physics=physics):
         if enough or not exact or left > BETTER * physics:
-            return _Resolved(None, pairs)
+            return _FaultTest(None, pairs)
         beneath = ranking(without(right, fault), after=beneath)
         believed = unexplained(suspect, beneath) <= LITTLE
-        return _Resolved(fault, beneath, unexplained(suspect, pairs)) if believed else _Resolved(None, pairs)
+        return _FaultTest(fault, beneath, unexplained(suspect, pairs)) if believed else _FaultTest(None, pairs)
     if left > CLEAR * suspect.before:
         if not enough:
             pairs = ranking(right, 2, names=rivals(alone, beneath), after=pairs)
         if not accepted(suspect, left=left, physics=unexplained(suspect, pairs)):
-            return _Resolved(None, pairs)
+            return _FaultTest(None, pairs)
     elif unexplained(suspect, pairs) < left + SLIGHT:
-        return _Resolved(None, pairs)
-    return _Resolved(fault, beneath if exact and not enough else None, unexplained(suspect, pairs))
+        return _FaultTest(None, pairs)
+    return _FaultTest(fault, beneath if exact and not enough else None, unexplained(suspect, pairs))
 
 
 def _refined(
     suspect: SuspectedFault, right: Sequence[Recording], model: Model, ranking: Rank, names: Sequence[str] | None
-) -> _Refined:
+) -> _RefinedDelay:
     """The suspected delay, refined with what is found beneath it until it stays the same."""
     fault = suspect.fault
     for _ in range(MOST_REFINEMENTS):
@@ -166,7 +166,7 @@ def _refined(
         fault, left = refined(replace(suspect, fault=undone), right, model, beneath)
         if fault is undone or not affords_more(beneath.problem.work):
             break
-    return _Refined(fault, beneath, left, fault is undone)
+    return _RefinedDelay(fault, beneath, left, fault is undone)
 
 
 def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Fault], list[Recording]]:
