@@ -21,6 +21,7 @@ from rwn.model.model import Model
 from rwn.recording.recording import Recording, read_recording, write_csv
 from rwn.report import identification
 from rwn.report.diagnosis import Diagnosis
+from rwn.simulate.explained_signal import ExplainedSignal
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,8 @@ class FakeIdentification:
     advice: str = ""
     not_identifiable: tuple[str, ...] = ()
     residual_over_noise: float = 1.0
+    explained: tuple[ExplainedSignal, ...] = ()
+    failure: str = ""
     findings: tuple[()] = ()
     warnings: tuple[()] = ()
 
@@ -139,11 +142,12 @@ def motor(run: Run, tmp_path: Path) -> None:
 
 @pytest.mark.usefixtures("motor")
 def test_identify_prints_and_writes_the_fitted_model(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rwn, "identify", _fake_identify(residual_over_noise=3.2), raising=False)
+    explained = (ExplainedSignal(recording="a.csv", signal="speed", explained=0.98, error=0.2, unit="rad/s"),)
+    monkeypatch.setattr(rwn, "identify", _fake_identify(residual_over_noise=3.2, explained=explained), raising=False)
     code, out, err = run("identify", "a.csv", "--model", "model.toml", "--out", "fitted.toml")
     assert (code, err) == (0, "")
+    assert "a.csv: 98 % of the variance of the speed is explained, rms error 0.200 rad/s" in out
     assert "0.900 ± 0.020 Ω" in out
-    assert "a.csv: 100 % of the variance of the speed is explained" in out
     assert "3.2 times the rms of the noise" in out
     assert read_model("fitted.toml").parameters["resistance"] == 0.9
     code, _, err = run("identify", "a.csv", "--model", "model.toml", "--out", "fitted.toml")
@@ -153,9 +157,8 @@ def test_identify_prints_and_writes_the_fitted_model(run: Run, monkeypatch: pyte
 
 @pytest.mark.usefixtures("motor")
 def test_identify_fails_where_it_did_not_converge(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(
-        rwn, "identify", _fake_identify(status="iteration-limit", advice="Start closer."), raising=False
-    )
+    failed = _fake_identify(failure="the fit did not converge (iteration-limit): Start closer")
+    monkeypatch.setattr(rwn, "identify", failed, raising=False)
     code, _, err = run("identify", "a.csv", "--model", "model.toml", "--out", "fitted.toml")
     assert code == 3
     assert "did not converge (iteration-limit): Start closer; fitted.toml was not written" in err
@@ -181,7 +184,7 @@ def test_identify_says_what_ran_into_a_bound_and_what_is_not_seen() -> None:
     model = Model(kind="dc", parameters=motor, uncertainty={"resistance": 0.1})
     estimates = {"resistance": Estimate(value=14.6, unit="ohm", interval=(10.0, 14.6))}
     fit = FakeIdentification(model, estimates, not_identifiable=("inertia",))
-    said = "\n".join(identification.lines(fit, (), model))  # type: ignore[arg-type]
+    said = "\n".join(identification.lines(fit, model))  # type: ignore[arg-type]
     assert "warning: resistance ran into a bound" in said
     assert "add nothing to what was declared of inertia" in said
     assert "times what was given, 27 declared deviations" in said

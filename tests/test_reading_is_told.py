@@ -30,8 +30,8 @@ def test_columns_that_are_not_used_are_told(tmp_path: Path) -> None:
     assert told in rwn.diagnose(path, model, effort=0.1).warnings
     fitted = rwn.identify(path, model)
     assert told in fitted.warnings
-    assert f"warning: {told}" in list(lines(fitted, (), model))
-    assert not any("not used" in line for line in lines(replace(fitted, warnings=()), (), model))
+    assert f"warning: {told}" in list(lines(fitted, model))
+    assert not any("not used" in line for line in lines(replace(fitted, warnings=()), model))
 
 
 def test_a_remark_of_several_files_is_said_once() -> None:

@@ -151,12 +151,10 @@ def identify(
         nominal = _model(model, profile)
         files = read_recordings(recordings, nominal)
         fit = _rwn().identify(files, nominal)
-        signals = identification.explained_signals(fit, files)
-        for line in identification.lines(fit, signals, nominal):
+        for line in identification.lines(fit, nominal):
             typer.echo(line, err=line.startswith("warning"))
-        why = identification.failure(fit, signals)
-        if why:
-            typer.echo(f"rwn: {why}" + (f"; {out} was not written" if out else ""), err=True)
+        if fit.failure:
+            typer.echo(f"rwn: {fit.failure}" + (f"; {out} was not written" if out else ""), err=True)
             raise typer.Exit(NO_RESULT)
         if aside is not None:
             write_model(fit.model, aside)

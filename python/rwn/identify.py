@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
@@ -16,19 +17,23 @@ from rwn.fit.intervals import Estimate, deviations, estimates
 from rwn.fit.noise import noise_of
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import BELIEVABLE
-from rwn.fit.residuals import Statistics, statistics
+from rwn.fit.residuals import Statistics, join, statistics, structured
 from rwn.measurement.intersample import with_intersample
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit
 from rwn.recording.inspection import Finding, inspected
 from rwn.simulate.declared import check_declared
+from rwn.simulate.explained_signal import ExplainedSignal, explained_signals
 from rwn.values import table_of_rows
 
 if TYPE_CHECKING:
     import pandas
 
 COLUMNS = ("parameter", "value", "low", "high", "unit")  # of Identification.table
+CUT = 1e-6  # relative; intervals are wider than that on either side of a value, unless they are cut at a bound
+CHECK = "check signs, units and columns, or let rwn diagnose find such a mistake or what is missing"
+DESCRIBES = 0.5  # share of a signal's variance that a model must explain, to be said to describe it
 NOTHING_LEARNED = 0.9  # standard deviation after the fit over the declared one, above which recordings say nothing
 
 
@@ -39,8 +44,10 @@ class Identification:
     `model`: with the fitted values (SI). `parameters`: the fitted ones by name, each with value, SI unit and 95 %
     interval. `status`: `converged`, `iteration-limit`, `stalled` or `diverged`; `advice`: what to do about it.
     `not_identifiable`: parameters of which these recordings say less than the data sheet does. `residual_over_noise`:
-    rms of what the fit leaves, in units of the noise; 1: nothing but noise. `findings`: what is odd in the recordings,
-    and what was done about it; `warnings`: what reading them told.
+    rms of what the fit leaves, in units of the noise; 1: nothing but noise. `explained`: how much of every recorded
+    output the model explains in free run. `failure`: why it is no model of these recordings, which `rwn.save` refuses
+    to write; empty where it is one. `findings`: what is odd in the recordings, and what was done about it; `warnings`:
+    what reading them told. `sources`: the files of all that it was made from.
     """
 
     model: Model
@@ -49,10 +56,15 @@ class Identification:
     advice: str
     not_identifiable: tuple[str, ...]
     residual_over_noise: float
+    explained: tuple[ExplainedSignal, ...] = ()
+    failure: str = ""
     findings: tuple[Finding, ...] = ()
     warnings: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
+        if self.failure:
+            return f"<Identification failed: {self.failure}>"
         names = ", ".join(self.parameters)
         return f"<Identification {self.status}: {names}; {self.residual_over_noise:.3g} x the noise is left>"
 
@@ -86,7 +98,8 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     `recordings`: one or several of paths, tables in Python and recordings; `model`: a model or its file.
 
     Intervals are 95 %, widened for what the residual's variance and colour say; declared uncertainties are priors.
-    Raises InputError where a recording does not fit the model.
+    Where that comes to no model of them, as with a sign error, `failure` says why. Raises InputError where a recording
+    does not fit the model.
     """
     model = model_of(model)
     given = recordings_to_fit(recordings, model)
@@ -98,18 +111,51 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     this = fit_nominal(problem)
     problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))
     this = fit_nominal(problem)
-    left = statistics(problem, this)
-    status = this.minimum.status
+    left, status, fitted = statistics(problem, this), this.minimum.status, fitted_model(this, model)
+    parameters, explained = estimates(this, left), explained_signals(fitted, given)
+    name = status.name.lower().replace("_", "-")
+    reasons = [f"the fit did not converge ({name}): {status.value.rstrip('.')}"] if name != "converged" else []
+    coloured = structured(join(problem, problem.residuals(this.vector, this.active)))
+    reasons += [*_describes_nothing(explained, coloured), *_ended_at_limits(parameters)]
     return Identification(
-        model=fitted_model(this, model),
-        parameters=estimates(this, left),
-        status=status.name.lower().replace("_", "-"),
+        model=fitted,
+        parameters=parameters,
+        status=name,
         advice=status.value,
+        explained=explained,
+        failure="; ".join(reasons),
         not_identifiable=_unseen(this, left),
         residual_over_noise=left.variance**0.5,
         findings=findings,
         warnings=tuple(warning for recording in given for warning in recording.warnings),
+        sources=tuple(source for source in (model.source, *(recording.source for recording in given)) if source),
     )
+
+
+def _describes_nothing(explained: Sequence[ExplainedSignal], coloured: Collection[str]) -> Iterator[str]:
+    """Of no signal half, or of one nothing though it is more than noise; a position adds up what is missing."""
+    shares = [row.explained if np.isfinite(row.explained) else -np.inf for row in explained]
+    if shares and max(shares) < DESCRIBES:
+        most = f"{100.0 * max(shares):.2g} %" if max(shares) > 0.0 else "nothing"
+        yield f"the fitted model explains {most} of the variance of any recorded signal: {CHECK}"
+        return
+    structured = [row for row in explained if row.signal in coloured and row.signal != "position"]
+    for row in [row for row in structured if not row.explained > 0.0][:1]:
+        yield f"the fitted model explains nothing of the variance of the {row.signal} of {row.recording}: {CHECK}"
+
+
+def _ended_at_limits(parameters: Mapping[str, Estimate]) -> Iterator[str]:
+    limits = [name for name, e in parameters.items() if "." not in name and e.value != 0.0 and at_a_bound(e)]
+    if limits:
+        yield (
+            f"{' and '.join(limits).replace('_', ' ')} ran to the end of the search, a thousand times the given value "
+            f"or a thousandth: {CHECK}"
+        )
+
+
+def at_a_bound(value: Estimate) -> bool:
+    """Whether its interval ends at it, as it does where it is cut at a bound alone."""
+    return value.interval is not None and any(math.isclose(value.value, end, rel_tol=CUT) for end in value.interval)
 
 
 def _unseen(this: Fit, left: Statistics) -> tuple[str, ...]:

@@ -57,7 +57,7 @@ def test_an_effect_taken_as_exact_makes_the_motor_surer_than_it_is_and_says_so()
     # friction and the torque constant are told apart by the current at constant speed alone
     assert _width(declared, "torque_constant") > 2.0 * _width(held, "torque_constant")
     assert _width(free, NAME) >= _width(declared, NAME)
-    said = {d: [*identification.lines(f, (), sheets[d])] for d, f in zip(sheets, (held, declared, free), strict=True)}
+    said = {d: [*identification.lines(f, sheets[d])] for d, f in zip(sheets, (held, declared, free), strict=True)}
     assert any("Coulomb torque of Coulomb friction is taken as exact" in line for line in said[0.0])
     assert not any("as exact" in line for doubt in (0.1, math.inf) for line in said[doubt])
 
@@ -143,7 +143,7 @@ def test_a_declared_effect_is_among_the_parameters_of_a_report() -> None:
 def test_an_effect_of_zero_does_not_act_and_is_not_said_to_be_taken_as_exact() -> None:
     offset = {"sensor-bias": {"speed_offset": 0.0, "current_offset": 0.1}}
     sheet = rwn.Model(kind="dc", parameters=MOTOR, uncertainty=SURE, effects=FRICTION | offset)
-    said = [line for line in identification.lines(rwn.identify(_recording(1), sheet), (), sheet) if "as exact" in line]
+    said = [line for line in identification.lines(rwn.identify(_recording(1), sheet), sheet) if "as exact" in line]
     assert len(said) == 1
     assert "current offset of sensor bias" in said[0]
     assert "speed offset" not in said[0]

@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.identify import Identification
+from rwn.identify import Identification, _describes_nothing
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
 from rwn.report import identification
+from rwn.simulate.explained_signal import ExplainedSignal
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -37,9 +38,8 @@ WRONG: dict[str, Recording] = {
 def _identified(case: str) -> tuple[Identification, Model, list[str], str]:
     run, model = WRONG[case], rwn.read_model(DEMO / "model.toml")
     fit = rwn.identify(run, model)
-    signals = identification.explained_signals(fit, [run])
-    doubts = [line for line in identification.lines(fit, signals, model) if line.startswith("warning")]
-    return fit, model, doubts, identification.failure(fit, signals)
+    doubts = [line for line in identification.lines(fit, model) if line.startswith("warning")]
+    return fit, model, doubts, fit.failure
 
 
 @pytest.mark.parametrize("case", WRONG)
@@ -74,7 +74,7 @@ def test_a_friction_that_comes_out_as_nothing_is_a_fit() -> None:
     made = {name: x + 0.02 * rng.standard_normal(x.size) for name, x in rwn.simulate(exact, given).signals.items()}
     run = replace(given, signals={**given.signals, "current": made["current"], "speed": made["speed"]})
     fit = rwn.identify(run, model)
-    assert not identification.failure(fit, identification.explained_signals(fit, [run]))
+    assert not fit.failure
 
 
 def test_the_error_is_said_in_the_units_of_the_file(tmp_path: Path) -> None:
@@ -89,8 +89,44 @@ def test_the_error_is_said_in_the_units_of_the_file(tmp_path: Path) -> None:
         (rwn.read_recording(tmp_path / "run.csv"), ("rpm", "mA"), (30.0 / np.pi, 1e3)),
         (replace(run, units={}), ("rad/s", "A"), (1.0, 1.0)),
     ):
-        text = "\n".join(identification.lines(fit, identification.explained_signals(fit, [given]), model))
+        text = "\n".join(identification.lines(rwn.identify(given, model), model))
         for (signal, error), unit, scale in zip(rms.items(), units, scales, strict=True):
             said = re.search(rf"of the {signal} is explained, rms error (\S+) {unit}$", text, re.MULTILINE)
             assert said, text
             assert float(said[1]) == pytest.approx(scale * error, rel=6e-3)  # three digits
+
+
+@pytest.mark.parametrize("case", ["a speed of the other sign", "a current of the other sign"])
+def test_what_failed_says_so_in_python_too_and_is_not_saved(case: str, tmp_path: Path) -> None:
+    fit, _, _, why = _identified(case)
+    assert repr(fit) == f"<Identification failed: {why}>"
+    with pytest.raises(rwn.NoResultError, match="check signs"):
+        rwn.save(fit, tmp_path / "fitted.toml")
+    assert not list(tmp_path.iterdir())
+
+
+def test_one_signal_of_which_nothing_is_explained_is_enough_to_fail() -> None:
+    """The current is described; the speed, of the other sign, is not even by its mean."""
+    described = [_row("current", 0.9), _row("speed", -0.2)]
+    assert [*_describes_nothing(described, ["current", "speed"])]
+    assert not [*_describes_nothing(described, ["current"])], "of a speed that is but noise nothing can be explained"
+    assert not [*_describes_nothing([_row("current", 0.9), _row("speed", 0.1)], ["current", "speed"])]
+    adrift = [_row("speed", 0.9), _row("position", -3.0)]
+    assert not [*_describes_nothing(adrift, ["speed", "position"])]
+
+
+def _row(signal: str, explained: float) -> ExplainedSignal:
+    return ExplainedSignal(recording="a", signal=signal, explained=explained, error=1.0, unit="1")
+
+
+def test_an_identified_model_replaces_nothing_that_it_was_made_from(tmp_path: Path) -> None:
+    for name in ("model.toml", "train.csv"):
+        (tmp_path / name).write_bytes((DEMO / name).read_bytes())
+    fit = rwn.identify(tmp_path / "train.csv", tmp_path / "model.toml")
+    for name in ("model.toml", "train.csv"):
+        with pytest.raises(rwn.InputError, match="input"):
+            rwn.save(fit, tmp_path / name, overwrite=True)
+    recording = rwn.read_recording(tmp_path / "train.csv")
+    with pytest.raises(rwn.InputError, match="input"):
+        rwn.save(recording, tmp_path / "train.csv", overwrite=True)
+    rwn.save(fit.model, tmp_path / "model.toml", overwrite=True)  # a model that was read may be edited
