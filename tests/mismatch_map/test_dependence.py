@@ -55,3 +55,12 @@ def test_a_cog_depends_on_the_angle_with_its_order_and_size(recorded: tuple[str,
 
 def test_a_motor_that_lacks_nothing_depends_on_nothing() -> None:
     assert [law.coordinate for law in found(lambda *_: 0.0) if law.share > CLEAR] == []
+
+
+@pytest.mark.parametrize("coordinate", ["speed", "current"])
+def test_the_curve_lies_on_the_points_that_it_is_drawn_over(coordinate: str) -> None:
+    """Also over a state of which the nominal parameters explain a part, as a torque constant does of the current."""
+    law = next(law for law in found(lambda w, _: -PEAK * (w / 90.0) ** 3) if law.coordinate == coordinate)
+    on_curve = np.interp(law.state, law.x, law.torque)
+    assert np.corrcoef(on_curve, law.left)[0, 1] > 0.5
+    assert np.polyfit(on_curve, law.left, 1)[0] > 0.5

@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 WAVELETS = 15
 CLEAR = 0.25  # least share of the error's energy for which a dependence is put into words
 ORDERS = np.arange(1, 61)
+CURVE, CLOUD, FEWEST = 60, 400, 20  # points of a drawn curve and of what it is drawn through, and samples behind each
 DRAWN = 20_000  # samples of a picture; of longer recordings as many means of consecutive samples
 COORDINATES = {"speed": "rad/s", "acceleration": "rad/s^2", "current": "A", "time": "s"}
 
@@ -39,7 +40,9 @@ class Law:
     amplitude: float  # sqrt(2) rms of the function over the samples [N m or N]
     periods: int  # per revolution; 0 where the state is not the angle
     x: Array  # (n,) values of the state along the curve, in `unit`
-    torque: Array  # (n,) [N m or N]
+    torque: Array  # (n,) [N m or N]; without what the nominal parameters may explain, as `left`
+    state: Array  # (m,) of the recordings, in `unit`
+    left: Array  # (m,) unknown torque there that no change of the nominal parameters explains; means of many samples
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +52,15 @@ class _Error:
     states: dict[str, Array]
     value: Array  # (n,)
     answer: Callable[[Array], Array]  # torque columns (n, k) to what they do to the error
-    nominal: Array  # (n, 5) answers of the nominal regressors
+    regressors: Array  # (n, 5) torques of the nominal parameters
+    nominal: Array  # (n, 5) their answers
+
+    def beyond_nominal(self, torque: Array) -> Array:
+        """What no change of the nominal parameters makes of a torque (n,)."""
+        scale = np.maximum(np.linalg.norm(self.regressors, axis=0), 1e-300)
+        weights = np.linalg.lstsq(self.regressors / scale, torque)[0]
+        left: Array = torque - self.regressors / scale @ weights
+        return left
 
 
 def laws(
@@ -89,8 +100,8 @@ def _error(problem: Problem, this: Fit, unknown: Sequence[UnknownInputs]) -> _Er
         simulated = (problem.simulate(r, this.vector, this.active).signals["current"] for r in problem.runs)
         current = np.concatenate([_means(i, thin) for i in simulated])
     speed = states["speed"]
-    regressors = [speed, np.sign(speed), states["acceleration"], current, np.ones(speed.size)]
-    return _Error(states=states, value=value, answer=answer, nominal=answer(np.stack(regressors, axis=1)))
+    regressors = np.stack([speed, np.sign(speed), states["acceleration"], current, np.ones(speed.size)], axis=1)
+    return _Error(states=states, value=value, answer=answer, regressors=regressors, nominal=answer(regressors))
 
 
 def _means(values: Array, count: int) -> Array:
@@ -105,17 +116,26 @@ def _over(name: str, error: _Error, linear: bool) -> Law:
     x = np.clip((error.states[name] - low) / max(high - low, 1e-300), 0.0, 1.0)
     basis = _wavelets(x)
     share, weights = _fitted(error.answer(basis), error)
-    grid = np.linspace(0.0, 1.0, 200)
-    curve = _wavelets(grid) @ weights
+    made = error.beyond_nominal(basis @ weights)
+    along, curve = _means_over(error.states[name], made, CURVE)
+    state, left = _means_over(error.states[name], error.beyond_nominal(error.states["torque"]), CLOUD)
     unit = COORDINATES[name].replace("rad", "m") if linear else COORDINATES[name]
     return Law(
-        coordinate=name, unit=unit, share=share, periods=0, x=low + (high - low) * grid, torque=curve - curve.mean(),
-        amplitude=float(np.sqrt(2.0) * np.std(basis @ weights)),
+        coordinate=name, unit=unit, share=share, periods=0, amplitude=float(np.sqrt(2.0) * np.std(made)),
+        x=along, torque=curve, state=state, left=left,
     )  # fmt: skip
+
+
+def _means_over(x: Array, y: Array, most: int) -> tuple[Array, Array]:
+    """Means of x (n,) and y (n,) in at most so many parts of the samples, in the order of x; none holds few."""
+    parts = np.array_split(np.argsort(x, kind="stable"), max(1, min(most, x.size // FEWEST)))
+    return np.array([x[p].mean() for p in parts]), np.array([y[p].mean() for p in parts])
 
 
 def _over_angle(error: _Error) -> Law:
     angle = error.states["angle"]
+    within = np.mod(angle, 2.0 * np.pi)
+    state, left = _means_over(within, error.beyond_nominal(error.states["torque"]), CLOUD)
 
     def pair_of(order: int) -> Array:
         return error.answer(np.stack([np.cos(order * angle), np.sin(order * angle)], axis=1))
@@ -132,7 +152,7 @@ def _over_angle(error: _Error) -> Law:
     curve = np.stack([np.cos(order * grid), np.sin(order * grid)], axis=1) @ weights
     return Law(
         coordinate="angle", unit="rad", share=share, periods=order, x=grid, torque=curve,
-        amplitude=float(np.hypot(*weights)),
+        amplitude=float(np.hypot(*weights)), state=state, left=left,
     )  # fmt: skip
 
 

@@ -37,7 +37,7 @@ def plots(
     named = bool(chosen.added) and network is None
     drawn = laws_of_effects(ranking, chosen, linear=linear) if named else ()
     if not drawn:
-        drawn = tuple(over_its_state(law, unknown, torque_unit) for law in laws[:1] if law.share > CLEAR)
+        drawn = tuple(over_its_state(law, torque_unit) for law in laws[:1] if law.share > CLEAR)
     if network is not None:
         drawn = (*drawn, network_over_its_state(network))
     spectrum = _spectrum(ranking, linear)

@@ -124,18 +124,16 @@ def _bins(x: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return place, counts
 
 
-def over_its_state(law: Law, unknown: Sequence[UnknownInputs], torque_unit: str) -> Plot:
-    """What depends on one state and has no name: the wavelet network over the points that it was fitted to."""
+def over_its_state(law: Law, torque_unit: str) -> Plot:
+    """What depends on one state and has no name: the wavelet network over the unknown torque of the recordings."""
     what = "force" if torque_unit == "N" else "torque"
-    state = _states(unknown)[law.coordinate]
-    torque = np.concatenate([u.torque for u in unknown])
-    torque, kept = torque - np.mean(torque), thin_cloud(torque)
     return Plot(
         slot="law", title=f"Unknown {what} over {law.coordinate}", x_label=law.coordinate, x_unit=law.unit,
-        y_label=f"unknown {what}", y_unit=torque_unit, shown=worth_seeing(torque, law.torque),
+        y_label=f"unknown {what}", y_unit=torque_unit, shown=worth_seeing(law.left, law.torque),
         traces=(
-            Trace(name="along the recordings", role="before", x=state[kept], y=torque[kept], points=True),
+            Trace(name="of the recordings, means", role="before", x=law.state, y=law.left, points=True),
             Trace(name="wavelet network", role="reference", x=law.x, y=law.torque),
         ),
-        note=f"It explains {law.share:.0%} of the refitted nominal model's error on samples that it was not fitted to.",
+        note=f"It explains {law.share:.0%} of the refitted nominal model's error on samples that it was not fitted to. "
+        "Points and line are without what other values of the nominal parameters would explain.",
     )  # fmt: skip
