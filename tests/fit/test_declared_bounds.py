@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -66,6 +67,16 @@ def test_a_phase_is_not_bounded(value: float) -> None:
     cogging = {"amplitude": 0.01, "periods_per_rev": 7.0, "phase": value}
     model = replace(MOTOR, effects={"cogging-torque": cogging})
     check_declared(model, [prepare([_run()], model).scales])
+
+
+@pytest.mark.parametrize(("share", "refused"), [(0.001, False), (0.96, False), (1.1, True), (3.0, True)])
+def test_a_load_is_a_part_of_the_inertia_that_the_model_states(share: float, refused: bool) -> None:
+    """Which every recording has: no other is ten times larger."""
+    load = {"stiffness": 50.0, "damping": 0.01, "load_viscous_share": 0.3}
+    load["load_inertia"] = share * MOTOR.motor["inertia"]
+    model = replace(MOTOR, effects={"shaft-compliance": load})
+    with pytest.raises(InputError, match="load_inertia is") if refused else nullcontext():
+        check_declared(model, [prepare([_run()], model).scales])
 
 
 @pytest.mark.parametrize(("current", "refused"), [(1e-6, False), (0.1, False), (1e12, True), (1e-12, True)])

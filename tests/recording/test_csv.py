@@ -90,6 +90,9 @@ def test_columns_that_are_not_used_are_noted(tmp_path: Path) -> None:
 # name: (content, what the line must hold)
 REFUSED: dict[str, tuple[str, tuple[str, ...]]] = {
     "decimal commas between commas": (HEADER + _rows(decimal=","), ("decimal commas", "another separator", "line 2")),
+    "decimal commas between commas, after whole numbers": (
+        HEADER + "0,-1,22,0,5\n" + _rows(decimal=","), ("decimal commas", "another separator")
+    ),
     "separators of thousands": (
         HEADER.replace(",", ";") + _rows(";").replace("0.005;1.192", "0.005;1,111.192"),
         ("'1,111.192' in column 'voltage'", "separators of thousands", "line 7"),

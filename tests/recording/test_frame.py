@@ -44,6 +44,20 @@ def _pyarrow() -> Any:
     return imported("pyarrow").table(NAMED)
 
 
+def _pyarrow_with_units_of_its_fields() -> Any:
+    pyarrow = imported("pyarrow")
+    table = pyarrow.table({name: NAMED[f"{name} [{unit}]"] for name, unit in UNITS.items()})
+    fields = [f.with_metadata({"unit": UNITS[f.name]}) for f in table.schema]
+    return table.cast(pyarrow.schema(fields))
+
+
+def _pandas_with_an_index_of_durations() -> Any:
+    """That says its unit though its values have one."""
+    frame = _pandas_with_an_index()
+    frame.index.name = "time [s]"
+    return frame
+
+
 def _xarray() -> Any:
     xarray = imported("xarray")
     return xarray.Dataset(
@@ -82,6 +96,8 @@ OBJECTS: dict[str, Callable[[], Any]] = {
     "pandas of decimals": _pandas_of_decimals,
     "polars": _polars,
     "pyarrow": _pyarrow,
+    "pyarrow with units of its fields": _pyarrow_with_units_of_its_fields,
+    "pandas with a named index of durations": _pandas_with_an_index_of_durations,
     "xarray": _xarray,
     "xarray with units in its names": _xarray_with_units_in_its_names,
     "xarray with instants": _xarray_with_instants,

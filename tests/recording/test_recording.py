@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -159,3 +160,15 @@ def test_emps_reads_with_the_model_that_comes_with_rwn(shared: Path) -> None:
     assert recording.linear
     np.testing.assert_allclose(recording.signals["force"], 35.15065 * raw["vir"].ravel())
     np.testing.assert_allclose(recording.signals["position"], raw["qm"].ravel())
+
+
+def test_a_name_is_shown_as_a_terminal_may_show_it(tmp_path: Path) -> None:
+    run = read_recording(_write(tmp_path / "a\x1b[31mb\x07.csv", "time [s],voltage [V],speed [rpm]"))
+    assert run.name == r"a\x1b[31mb\x07.csv"
+    assert Path(run.source).exists()
+    assert "\x1b" not in repr(replace(run, name="a\x1b[31mb"))
+
+
+def test_a_name_is_a_text() -> None:
+    with pytest.raises(InputError, match=r'name is None.*name="run 1"'):
+        Recording(name=None, time=np.arange(3.0), signals={})  # type: ignore[arg-type]

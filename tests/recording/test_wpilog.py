@@ -126,7 +126,8 @@ def test_entries_that_are_not_wanted_or_no_numbers_are_named_or_left_out(tmp_pat
 
 @pytest.mark.parametrize(
     ("metadata", "unit"),
-    [("Volt", "volt"), ("Rotation per Second", "rotation per second"), ("", None), ('{"source":"NT"}', None),
+    [("Volt", "volt"), ("A", "A"), ("mA", "mA"), ("RPM", "rpm"),
+     ("Rotation per Second", "rotation per second"), ("", None), ('{"source":"NT"}', None),
      ("from the driver", None), ("m" + " " * 58, "m" + " " * 58), ("m" + " " * 59, None)],
 )  # fmt: skip
 def test_metadata_are_a_unit_where_they_can_be_read_as_one(metadata: str, unit: str | None, tmp_path: Path) -> None:

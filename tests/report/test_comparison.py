@@ -6,8 +6,10 @@ import re
 from dataclasses import replace
 
 import made_up
+from rwn.fit.intervals import Estimate
 from rwn.report.comparison import comparison
 from rwn.report.diagnosis import Diagnosis
+from rwn.report.nominal_fit import FittedParameter
 
 
 def rows(first: Diagnosis, second: Diagnosis) -> dict[str, tuple[str, ...]]:
@@ -41,3 +43,22 @@ def test_both_laws_are_drawn_apart() -> None:
     drawn = re.findall(r'data-figure="(figure-[^"]*)"', text)
     assert len(drawn) == len(set(drawn)) == 2
     assert "a<b" not in text.split("<main>")[1]
+
+
+def test_what_the_second_model_holds_is_not_said_to_be_gone() -> None:
+    """Before: Coulomb friction was found. After: the model that was corrected by it, which lacks nothing."""
+    found, after = made_up.found(), made_up.adequate()
+    torque = Estimate(value=0.0208, unit="N m", interval=(0.0203, 0.0213))
+    held = FittedParameter(nominal=0.02, uncertainty=0.2, refitted=torque)
+    parameters = {**after.nominal_fit.parameters, "coulomb_friction": held}
+    told = rows(found, replace(after, nominal_fit=replace(after.nominal_fit, parameters=parameters)))
+    assert told["Coulomb friction"] == ("probability 97 %", "in the model", "no")
+    assert told["Coulomb torque T_c"] == ("20.8 ± 0.5 mN m", "20.8 ± 0.5 mN m", "no")
+
+
+def test_a_parameter_of_one_model_alone_has_its_row() -> None:
+    after = made_up.adequate()
+    more = FittedParameter(nominal=1e-3, uncertainty=0.2, refitted=Estimate(value=1e-3, unit="N m"))
+    parameters = {**after.nominal_fit.parameters, "pendulum_torque": more}
+    told = rows(after, replace(after, nominal_fit=replace(after.nominal_fit, parameters=parameters)))
+    assert told["Pendulum torque"] == ("–", "1.00 mN m", "–")

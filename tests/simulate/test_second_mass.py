@@ -77,12 +77,13 @@ def test_no_bounce_is_overlooked_in_long_steps(friction: float, damping: float) 
 
 
 @pytest.mark.parametrize("effect", ["backlash", "shaft-compliance"])
-def test_a_load_heavier_than_the_whole_has_no_motion(effect: str) -> None:
+def test_a_load_heavier_than_the_whole_is_refused_by_its_name(effect: str) -> None:
     law = {"gap": 0.2, "contact_rate": 1500.0, "contact_damping_ratio": 0.3} | BEHIND if effect == "backlash" else {
         "stiffness": 1.0, "damping": 1e-5} | BEHIND  # fmt: skip
     model = Model(kind="dc", parameters=MOTOR, effects={effect: {**law, "load_inertia": 1.2 * J}})
     seen = rwn.Recording(name="two.csv", time=np.arange(LEVELS.size) / RATE, signals={"voltage": LEVELS})
-    assert rwn.simulate(model, seen).status == "diverged"
+    with pytest.raises(rwn.InputError, match=rf"load_inertia is {1.2 * J:g}.*of the drive"):
+        rwn.simulate(model, seen)
 
 
 def test_a_load_that_rattles_far_faster_than_the_samples_keeps_its_mean_motion() -> None:

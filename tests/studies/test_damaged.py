@@ -21,8 +21,10 @@ from rwn.studies.trials.said import said_in, timing_of
 from rwn.studies.trials.seal import ANSWERS, HASH, seal
 from rwn.studies.trials.trial_files import read_speed
 
+RAISED = [KeyError("verdict"), TypeError("x"), ValueError("x"), EOFError("x"), zlib.error(), RecursionError("x")]
 
-@pytest.mark.parametrize("error", [KeyError("verdict"), TypeError("x"), ValueError("x"), EOFError("x"), zlib.error()])
+
+@pytest.mark.parametrize("error", RAISED)
 def test_what_a_damaged_file_raises_is_one_line_with_its_name(error: Exception, tmp_path: Path) -> None:
     said = r"diagnosis\.json: this cannot be read.*fix: "
     with pytest.raises(InputError, match=said), reading(tmp_path / "diagnosis.json"):

@@ -41,7 +41,7 @@ def check_nominal(values: Mapping[str, float], known: Iterable[NominalParameter]
                     f"there is no {entry.name} ({entry.meaning})",
                     where=where,
                     expected=f"a number in {unit}",
-                    fix="add it to [motor] from the data sheet, and its doubt to [uncertainty]",
+                    fix="add it from the data sheet, and its doubt to [uncertainty]",
                 )
             continue
         value = values[entry.name]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.errors import InputError
+from rwn.errors import InputError, plain
 from rwn.recording.check import check_lengths, check_samples
 from rwn.recording.columns import (
     Layout,
@@ -68,6 +68,11 @@ class Recording(Values):
     units: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise InputError(
+                f"name is {self.name!r}", where="Recording", expected="what messages and pictures call it",
+                fix='pass for instance name="run 1"',
+            )  # fmt: skip
         if not isinstance(self.signals, Mapping):
             raise InputError(
                 f"signals is a {type(self.signals).__name__}", where=self.name, expected="a dictionary of arrays",
@@ -99,7 +104,8 @@ class Recording(Values):
         return len(self.time)
 
     def __repr__(self) -> str:
-        return f"<Recording {self.name}: {', '.join(self.signals)}; {len(self)} samples in {self.duration:.4g} s>"
+        signals = ", ".join(self.signals)
+        return f"<Recording {plain(self.name)}: {signals}; {len(self)} samples in {self.duration:.4g} s>"
 
     def table(self) -> pandas.DataFrame | dict[str, Array]:
         """Time and signals (n_t,) as columns `speed [rad/s]` in SI, which `read_recording` takes.

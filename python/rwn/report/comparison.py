@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 
 from rwn.fit.intervals import Estimate
+from rwn.model.vocabulary import table as table_of_effects
 from rwn.name.found_effect import FoundEffect
 from rwn.report import text as words
 from rwn.report.account_picture import account_picture
 from rwn.report.diagnosis_data import DiagnosisData
+from rwn.report.nominal_fit import FittedParameter
 from rwn.report.page import document, figures, section
 from rwn.report.sentences import before_after, headline, sentences
 from rwn.report.tables import table
@@ -43,22 +45,48 @@ def _rows(first: DiagnosisData, second: DiagnosisData) -> Iterator[list[str]]:
     yield ["Verdict", first.verdict, second.verdict, _differs(first.verdict != second.verdict)]
     yield ["Error, proved", _proof(first), _proof(second), "–"]
     effects = [{effect.name: effect for effect in found.effects} for found in (first, second)]
-    for name in dict.fromkeys((*effects[0], *effects[1])):
-        yield from _effect(name, effects[0].get(name), effects[1].get(name))
     fits = [found.nominal_fit.parameters for found in (first, second)]
-    for name in (n for n in fits[0] if n in fits[1]):
-        best = [p.refitted if p.corrected is None else p.corrected for p in (fits[0][name], fits[1][name])]
-        yield [escape(words.capital(words.unknown_name(name))), *map(_value, best), _apart(*best)]
+    told = set[str]()
+    for name in dict.fromkeys((*effects[0], *effects[1])):
+        yield from _effect(name, effects[0].get(name), effects[1].get(name), fits)
+        told |= {*_in_nominal(name).values()}
+    for name in dict.fromkeys((*fits[0], *fits[1])):
+        if name not in told or all(name in parameters for parameters in fits):
+            best = [_best(parameters, name) for parameters in fits]
+            yield [escape(words.capital(words.unknown_name(name))), *map(_value, best), _apart(*best)]
 
 
-def _effect(name: str, first: FoundEffect | None, second: FoundEffect | None) -> Iterator[list[str]]:
-    both = (first, second)
+def _effect(
+    name: str, first: FoundEffect | None, second: FoundEffect | None, fits: Sequence[Mapping[str, FittedParameter]]
+) -> Iterator[list[str]]:
+    """What each result found of an effect, or has of it in the model that it began with."""
+    both, nominal = (first, second), _in_nominal(name)
     title = f"<b>{escape(words.capital(words.plain_name(name)))}</b>"
-    said = [f"probability {words.likelihood(effect.probability)}" if effect else "not found" for effect in both]
-    yield [title, *said, _differs(first is None or second is None)]
+    said = []
+    for effect, parameters in zip(both, fits, strict=True):
+        known = any(p in parameters for p in nominal.values())
+        found = f"probability {words.likelihood(effect.probability)}" if effect else ""
+        said.append(found or ("in the model" if known else "not found"))
+    yield [title, *said, _differs("not found" in said)]
     for parameter in next(effect for effect in both if effect).parameters:
-        values = [effect.parameters.get(parameter) if effect else None for effect in both]
+        values = [
+            effect.parameters.get(parameter) if effect else _best(parameters, nominal.get(parameter, ""))
+            for effect, parameters in zip(both, fits, strict=True)
+        ]
         yield [escape(words.capital(words.parameter_name(name, parameter))), *map(_value, values), _apart(*values)]
+
+
+def _in_nominal(name: str) -> dict[str, str]:
+    """What the parameters of an effect are called in a model that holds it, or the plain law that it takes over."""
+    known = table_of_effects().get(name)
+    return {p.name: p.replaces or f"{name}.{p.name}" for p in known.parameters} if known else {}
+
+
+def _best(parameters: Mapping[str, FittedParameter], name: str) -> Estimate | None:
+    found = parameters.get(name)
+    if found is None:
+        return None
+    return found.refitted if found.corrected is None else found.corrected
 
 
 def _proof(found: DiagnosisData) -> str:

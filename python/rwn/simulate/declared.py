@@ -29,11 +29,11 @@ def check_declared(
             continue
         lower, upper, slack = _bounds(p, units, model)
         if not lower <= value <= upper:
+            times = f"{slack:g} times {p.lower:g} to {p.upper:g} x " if slack > 1.0 else "a part of the "
             raise InputError(
                 f"{p.name} is {value:g} {p.unit}",
                 where=f"{model.source or 'model'}, [effects.{effect.name}]",
-                expected=f"{lower:.2g} to {upper:.2g} {p.unit}: {slack:g} times {p.lower:g} to {p.upper:g} x "
-                f"{p.scale.words} of the drive, {told}",
+                expected=f"{lower:.2g} to {upper:.2g} {p.unit}: {times}{p.scale.words} of the drive, {told}",
                 fix=f"correct the value or its unit, or the unit of the recordings; see rwn effects {effect.name}",
             )
 
@@ -65,6 +65,8 @@ def _judged(
 def _bounds(p: Parameter, units: Sequence[float], model: Model) -> tuple[float, float, float]:
     """The lowest and the highest value that passes, and by how much they lie beyond the bounds of the table."""
     slack = SHARP if p.idealised else SLACK
+    if p.scale.powers == {"inertia": 1}:  # a part of a whole that the model states, which no recording makes larger
+        return min(p.lower, -1.0 if p.lower < 0.0 else 0.0) * units[0], max(units), 1.0
     lower = min(p.lower * unit for unit in units) * (slack if p.lower < 0.0 else 1.0 / slack)
     replaced = model.motor.get(p.replaces, 0.0) if p.replaces else 0.0
     return lower, slack * max(replaced, *(p.upper * unit for unit in units)), slack

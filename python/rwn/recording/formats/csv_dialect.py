@@ -129,7 +129,8 @@ def _without_header(
     names = tuple(str(j + 1) for j in range(width))
     if any(name in wanted for name in names):
         return Dialect(delimiter=delimiter, names=names, units=(None,) * width, first=told[at][0], called=called)
-    above = split(told[at - 1][1].lstrip("# "), delimiter, where) if at else []
+    rows = (split(line.lstrip("# "), delimiter, where) for _, line in reversed(told[:at]))
+    above = next((row for row in rows if not any(map(is_number, row))), [])  # the same commas make rows of other widths
     if delimiter == "," and len(above) + 1 < width <= 2 * len(above):
         raise InputError(
             f"{width} values in {len(above)} columns: decimal commas between cells that commas separate",

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from rwn.errors import InputError
+from rwn.recording.formats.arrow import unit_of_field
 from rwn.recording.formats.csv_dialect import name_and_unit
 from rwn.recording.formats.table import Table, refuse_doubles, table_of
 
@@ -44,7 +45,8 @@ def table_of_object(source: Any, wanted: Collection[str]) -> Table:
 def columns_of_frame(frame: Any) -> Iterator[tuple[str, Any, str | None]]:
     """Name, values and unit of each column, and of an index that has a name or holds instants.
 
-    A unit is in the column's name, `speed [rpm]`, or in the frame's attrs: `units` by name, or MATLAB's lists.
+    A unit is in the column's name, `speed [rpm]`, in the frame's attrs: `units` by name, or MATLAB's lists, or in the
+    metadata of a field of pyarrow.
     """
     from narwhals import stable
 
@@ -55,7 +57,7 @@ def columns_of_frame(frame: Any) -> Iterator[tuple[str, Any, str | None]]:
     index: Any = getattr(frame, "index", None)
     if getattr(getattr(index, "dtype", None), "kind", "") in ("m", "M"):
         plain = index.tz_convert(None) if getattr(index, "tz", None) is not None else index
-        yield str(index.name or "time"), np.asarray(plain), "s"
+        yield name_and_unit_of(str(index.name or "time"))[0], np.asarray(plain), "s"
     elif getattr(index, "name", None):
         name, unit = name_and_unit_of(str(index.name))
         yield name, np.asarray(index), unit or given.get(name)
@@ -64,6 +66,8 @@ def columns_of_frame(frame: Any) -> Iterator[tuple[str, Any, str | None]]:
         names = list(map(_joined, frame.columns))
         frame = frame.set_axis([str(k) for k in range(len(names))], axis=1)
     wrapped = stable.v1.from_native(frame, eager_only=True)
+    fields = [unit_of_field(field) for field in frame.schema] if stable.v1.dependencies.is_pyarrow_table(frame) else ()
+    listed = fields or listed
     for k, (column, own) in enumerate(zip(names or wrapped.columns, wrapped.columns, strict=True)):
         name, unit = name_and_unit_of(column)
         values = wrapped[own].to_numpy()

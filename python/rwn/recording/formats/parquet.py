@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rwn.errors import InputError
+from rwn.recording.formats.arrow import unit_of_field
 from rwn.recording.formats.extra import library
 from rwn.recording.formats.frame import name_and_unit_of
 from rwn.recording.formats.table import MAX_SAMPLES, Table, refuse_doubles, table_of, too_long
@@ -41,7 +42,7 @@ def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
             expected="a complete Parquet file",
             fix="write it again, or export the recording as CSV",
         ) from error
-    units = {name: unit or _in_metadata(schema.field(column)) for column, (name, unit) in told.items()}
+    units = {name: unit or unit_of_field(schema.field(column)) for column, (name, unit) in told.items()}
     arrays = {name: None for name, _ in told.values()}
     arrays |= {told[column][0]: content.column(column).to_numpy() for column in content.column_names}
     table = table_of(str(path), arrays, units, wanted)
@@ -52,10 +53,3 @@ def _named(field: Any) -> str:
     """Its name; pandas calls an index that has none by its place: where it holds instants it is the time."""
     unnamed = field.name == "__index_level_0__" and str(field.type).startswith(_TIMES)
     return TIME.name if unnamed else str(field.name)
-
-
-def _in_metadata(field: Any) -> str | None:
-    for key in (b"unit", b"units"):
-        if key in (field.metadata or {}):
-            return str(field.metadata[key].decode("utf-8", "replace"))
-    return None

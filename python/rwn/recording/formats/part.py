@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Self
 
-from rwn.errors import InputError
+from rwn.errors import InputError, plain
 from rwn.recording.formats.table import Table
 from rwn.recording.signals import TIME
 
@@ -22,9 +22,12 @@ def file_and_part(path: Path) -> tuple[Path, str]:
 
 
 def name_of(path: Path) -> str:
-    """The file's name, with its part; a part may hold slashes, as the topics of a bag do."""
+    """The file's name, with its part; a part may hold slashes, as the topics of a bag do.
+
+    As a terminal may show it: a name may hold control characters.
+    """
     file, part = file_and_part(path)
-    return f"{file.name}{_MARK}{part}" if part else file.name
+    return plain(f"{file.name}{_MARK}{part}" if part else file.name)
 
 
 class _Within(frozenset[str]):

@@ -5,6 +5,7 @@ Source of the format: allwpilib, wpiutil/doc/datalog.adoc.
 
 from __future__ import annotations
 
+import re
 import struct
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field, replace
@@ -20,6 +21,7 @@ from rwn.recording.formats.table import Table
 _MAGIC = b"WPILOG"
 _HEADER = struct.Struct("<6sHI")  # magic, version, length of a text that follows
 _TYPES = {"boolean": "?", "int64": "<i8", "float": "<f4", "double": "<f8"}  # of a number, as numpy names them
+_WORD = re.compile("[A-Za-z]{3}")
 _CONTROL, _START, _METADATA = 0, 0, 2
 
 
@@ -129,5 +131,7 @@ def _channel(entry: _Entry, column: int) -> Channel:
 
 def _unit(metadata: str) -> str | None:
     """A unit that SysIdRoutineLog wrote as metadata ("Meter per Second"); JSON and other notes are none."""
-    text = metadata.replace("_", " ").lower()
+    text = metadata.replace("_", " ")
+    if _WORD.search(text):  # of a symbol, as A, the case says which unit it is
+        text = text.lower()
     return text if text and len(text) < 60 and "{" not in text and units.is_unit(text) else None

@@ -22,7 +22,7 @@ def reading(path: Path) -> Iterator[None]:
         yield
     except InputError:
         raise
-    except (ValueError, LookupError, TypeError, AttributeError, EOFError, OSError, zlib.error) as error:
+    except (ValueError, LookupError, TypeError, AttributeError, EOFError, OSError, RecursionError, zlib.error) as error:
         if isinstance(error, OSError) and error.filename is not None:
             raise
         raise refused(path, f"this cannot be read ({type(error).__name__}: {error})") from error
