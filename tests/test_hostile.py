@@ -255,9 +255,9 @@ def test_a_hostile_recording_is_refused_in_one_line(case: str, refused: Refused)
 def test_a_run_that_does_not_reach_its_end_is_no_result(
     refused: Refused, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    law = {"stiffness": 1.0, "damping": 1e-5, "load_inertia": 4e-4, "load_viscous_share": 0.3}
-    heavy = "[effects.shaft-compliance]\n" + "".join(f"{name} = {value}\n" for name, value in law.items())
-    Path("motor.toml").write_text(MODEL + heavy)
+    k = '{ unit = "N m s/rad", lower = 0, upper = 10, start = 1, strength = true, meaning = "slope" }'
+    driven = f'[own_effects.drive]\nterm = "torque"\nequation = "k * speed"\nparameters.k = {k}\n'
+    Path("motor.toml").write_text(MODEL + driven + "[effects.drive]\nk = 0.3\n")
     assert "diverged" in refused(*SIMULATE, code=3)
     code, said = _run([*SIMULATE, "--partial"], monkeypatch, capsys)
     assert code == 3

@@ -23,9 +23,10 @@ from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit
 from rwn.recording.inspection import Finding, inspected
+from rwn.recording.recording import Recording
 from rwn.simulate.declared import check_declared
 from rwn.simulate.explained_signal import ExplainedSignal, explained_signals
-from rwn.values import table_of_rows
+from rwn.values import Shown, table_of_rows
 
 if TYPE_CHECKING:
     import pandas
@@ -38,7 +39,7 @@ NOTHING_LEARNED = 0.9  # standard deviation after the fit over the declared one,
 
 
 @dataclass(frozen=True, kw_only=True)
-class Identification:
+class Identification(Shown):
     """A fitted model with what can be said of it.
 
     `model`: with the fitted values (SI). `parameters`: the fitted ones by name, each with value, SI unit and 95 %
@@ -47,7 +48,7 @@ class Identification:
     rms of what the fit leaves, in units of the noise; 1: nothing but noise. `explained`: how much of every recorded
     output the model explains in free run. `failure`: why it is no model of these recordings, which `rwn.save` refuses
     to write; empty where it is one. `findings`: what is odd in the recordings, and what was done about it; `warnings`:
-    what reading them told. `sources`: the files of all that it was made from.
+    what reading them told. `recordings`: what it was fitted to.
     """
 
     model: Model
@@ -60,7 +61,7 @@ class Identification:
     failure: str = ""
     findings: tuple[Finding, ...] = ()
     warnings: tuple[str, ...] = ()
-    sources: tuple[str, ...] = ()
+    recordings: tuple[Recording, ...] = ()
 
     def __repr__(self) -> str:
         if self.failure:
@@ -128,7 +129,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
         residual_over_noise=left.variance**0.5,
         findings=findings,
         warnings=tuple(warning for recording in given for warning in recording.warnings),
-        sources=tuple(source for source in (model.source, *(recording.source for recording in given)) if source),
+        recordings=tuple(given),
     )
 
 

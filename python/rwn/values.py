@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from html import escape
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -28,6 +29,26 @@ class Values:
     def _repr_html_(self) -> str:
         """For notebooks."""
         return f"<code>{escape(repr(self))}</code>"
+
+
+SHOWN_BY: dict[str, Callable[..., Any]] = {}  # method -> what does it; the report, above all that it shows, fills it in
+
+
+class Shown:
+    """What `rwn.plot` and `rwn.save` do, as methods."""
+
+    def plot(self, *others: Any, **options: Any) -> Any:
+        """Its figure (plotly), as `rwn.plot` draws it: a recording over time, also beside `others`, models.
+
+        A model is drawn over a recording that is passed, the result of `identify` over its own.
+
+        Raises InputError as `rwn.plot` does.
+        """
+        return SHOWN_BY["plot"](self, *others, **options)
+
+    def save(self, path: str | Path, *, overwrite: bool = False) -> None:
+        """Writes it to the file `path`, as `rwn.save` does. Raises InputError and NoResultError as that does."""
+        SHOWN_BY["save"](self, path, overwrite=overwrite)
 
 
 def same(one: Any, other: Any) -> bool:

@@ -55,3 +55,29 @@ def test_a_diagnosis_is_written_to_a_folder_of_either_kind(tmp_path: Path) -> No
     assert rwn.Diagnosis.load(tmp_path) == made_up.found()
     with pytest.raises(rwn.InputError, match="the path is 5"):
         made_up.found().write(5)  # type: ignore[arg-type]
+
+
+def test_what_can_be_shown_has_its_methods(tmp_path: Path) -> None:
+    """They do what the functions do; without them a result is a dead end in a notebook."""
+    demo = Path(rwn.__file__).parent / "demo"
+    recording, model = rwn.read_recording(demo / "train.csv").beginning(800), rwn.read_model(demo / "model.toml")
+    fit, made = rwn.identify(recording, model), rwn.simulate(model, recording)
+    assert recording.plot() == rwn.plot(recording)
+    assert recording.plot(model) == model.plot(recording) == rwn.plot(recording, model)
+    assert fit.plot(signal="current") == rwn.plot(recording, {"fitted": fit}, signal="current")
+    assert [trace.y.size for trace in made.plot().data] == [800] * len(made.signals)
+    made.save(tmp_path / "made.csv")
+    np.testing.assert_allclose(rwn.read_recording(tmp_path / "made.csv").signals["speed"], made.signals["speed"], 1e-6)
+    fit.save(tmp_path / "fit.toml")
+    assert rwn.read_model(tmp_path / "fit.toml").parameters == pytest.approx(fit.model.parameters)
+    with pytest.raises(rwn.InputError, match="pass the recording"):
+        model.plot()
+
+
+@pytest.mark.parametrize("name", ["run.mat", "run", "run.toml"])
+def test_a_recording_has_the_ending_of_what_is_written(name: str, tmp_path: Path) -> None:
+    """It would be CSV, and read as something else."""
+    run = rwn.Recording(name="a", time=np.arange(3.0), signals={"speed": np.arange(3.0)})
+    with pytest.raises(rwn.InputError, match=r"written as \.csv"):
+        rwn.save(run, tmp_path / name)
+    assert not list(tmp_path.iterdir())

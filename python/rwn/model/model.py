@@ -27,7 +27,7 @@ from rwn.model.own_effects import OwnEffect, check_constants, check_own_effects,
 from rwn.model.vocabulary import Effect, Parameter
 from rwn.recording.columns import Layout
 from rwn.recording.units import linear_unit
-from rwn.values import table_of_rows
+from rwn.values import Shown, table_of_rows
 
 if TYPE_CHECKING:
     import pandas
@@ -69,7 +69,7 @@ LOADS = {
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Model:
+class Model(Shown):
     """A drive of a `kind` (docs/models.md) with its nominal `parameters` (SI).
 
     `effects`: name -> parameter values (SI); `own_effects`: those that the user defines; `load`: known loads, name ->

@@ -33,7 +33,7 @@ from rwn.recording.intersample import PiecewiseInput
 from rwn.recording.selection import selected
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
 from rwn.recording.units import factor
-from rwn.values import Values, table_of_columns
+from rwn.values import Shown, Values, table_of_columns
 
 if TYPE_CHECKING:
     import pandas
@@ -45,7 +45,7 @@ ENOUGH = 50_000  # rows that tell how a recording was made: mean squares of so m
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Recording(Values):
+class Recording(Shown, Values):
     """Signals of one run: `time` (n_t,) [s], `signals` name -> (n_t,), in SI units (see docs/recordings.md).
 
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what

@@ -22,7 +22,8 @@ from rwn.report.plot import Plot, Role, Trace
 from rwn.report.plots import drawn
 from rwn.report.thinning import thin_line
 from rwn.report.time_figures import Compared, FreeRun, panels_of
-from rwn.simulate.simulation import simulate
+from rwn.simulate.simulation import Simulation, simulate
+from rwn.values import SHOWN_BY
 
 if TYPE_CHECKING:
     import plotly.graph_objects
@@ -41,7 +42,8 @@ def plot(
 ) -> plotly.graph_objects.Figure:
     """The signals of a recording over time; with `models`, one signal, what each makes of the input, and the errors.
 
-    `recording`: a recording, a path or a table in Python. `models`: one or at most three, by the names that they are
+    `recording`: a recording, a path, a table in Python or a simulation; the result of `identify` alone is drawn over
+    what it was fitted to. `models`: one or at most three, by the names that they are
     shown with or in a list, each a model, its file or the result of `identify`. `signal`: what is compared, else the
     speed where it was recorded.
 
@@ -49,6 +51,17 @@ def plot(
     """
     if isinstance(recording, Diagnosis):
         raise InputError("this is a diagnosis", where="plot", expected="a recording", fix="call its method plot()")
+    if isinstance(recording, Model):
+        fix = "pass the recording, then the model"
+        raise InputError("this is a model", where="plot", expected="a recording", fix=fix)
+    if isinstance(recording, Identification):
+        if models is None:
+            models = {"fitted": recording}
+        recording = next(iter(recording.recordings), None)
+    if isinstance(recording, Simulation):
+        recording = Recording(
+            name="simulation", time=recording.time, signals=recording.signals, linear=recording.linear
+        )
     named = _named(models)
     if len(named) > len(_ROLES):
         raise InputError(f"{len(named)} models are given", where="plot", expected="at most three",
@@ -59,6 +72,16 @@ def plot(
     read = {name: m.model if isinstance(m, Identification) else model_of(m) for name, m in named.items()}
     (run,) = read_recordings([recording], next(iter(read.values())))
     return drawn(_compared(run, read, signal), run.name)
+
+
+def _as_method(what: Any, *others: Any, **options: Any) -> plotly.graph_objects.Figure:
+    """`what.plot(..)`: of a model over the first of `others`."""
+    if isinstance(what, Model) and others:
+        return plot(others[0], [what, *others[1:]], **options)
+    return plot(what, list(others) or None, **options)
+
+
+SHOWN_BY["plot"] = _as_method
 
 
 def _named(models: Mapping[str, Drawn] | Sequence[Drawn] | Drawn | None) -> Mapping[str, Drawn]:

@@ -27,7 +27,7 @@ from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import Run, run_of
 from rwn.simulate.scales import scales_of_input, under_usual_input
 from rwn.simulate.simulator import Simulator
-from rwn.values import Values
+from rwn.values import Shown, Values
 
 if TYPE_CHECKING:
     import pandas
@@ -41,7 +41,7 @@ BEYOND = (
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Simulation(Values):
+class Simulation(Shown, Values):
     """`signals` name -> (n_t,), SI, at `time` (n_t,) [s] of the recording, as its sensors would show them.
 
     `status`: `ok`, `diverged` or `formula-failed`, from where on each signal is held; `advice`: what to do about it.
