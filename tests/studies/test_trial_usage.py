@@ -141,7 +141,9 @@ def test_without_a_stated_name_no_probability_is_judged(tmp_path: Path) -> None:
     pytest.importorskip("plotly")
     bins = [Bin(0.0, 0.5, 0.3, Share(2, 10)), Bin(0.5, 1.0, 0.9, Share(9, 10))]
     reliability_plot(bins, tmp_path / "plot.html")
-    assert "<html" in (tmp_path / "plot.html").read_text()
+    page = (tmp_path / "plot.html").read_text()
+    assert "<html" in page
+    assert len(page) < 1.5e6, "a slim plotly, as in a report"
 
 
 def test_a_late_channel_without_a_current_is_put_behind_a_gear(tmp_path: Path) -> None:

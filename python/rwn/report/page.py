@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import gzip
 import json
 import math
 import re
@@ -31,6 +32,7 @@ _VERDICTS = {
 _PANELS = ("response", "residual-time", "input")  # of a recording, over one time axis
 _OFFLINE = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
 _HERE = Path(__file__).parent
+_PLOTLY = _HERE / "vendor" / "plotly-basic.min.js.gz"
 
 
 def page(found: DiagnosisData) -> str:
@@ -43,10 +45,15 @@ def page(found: DiagnosisData) -> str:
     return document(f"{kind} – rwn diagnosis", colour, f"{head}\n{_facts(found)}\n{sections}")
 
 
+def plotly_script() -> str:
+    """The part of plotly that draws lines and points."""
+    return gzip.decompress(_PLOTLY.read_bytes()).decode("utf-8")
+
+
 def document(title: str, colour: str, body: str) -> str:
     """A whole page of HTML around its body; its content security policy lets nothing in it reach outside."""
     style, script = ((_HERE / name).read_text(encoding="utf-8") for name in ("style.css", "script.js"))
-    plotly = base64.b64encode((_HERE / "vendor" / "plotly-basic.min.js.gz").read_bytes()).decode("ascii")
+    plotly = base64.b64encode(_PLOTLY.read_bytes()).decode("ascii")
     return f"""<!doctype html>
 <html lang="en"><head><meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="{_OFFLINE}">

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rich.table import Table
 
+from rwn.report.page import plotly_script
 from rwn.studies.trials import score
 from rwn.studies.trials.grade import NO_RESULT, Grade, Graded
 from rwn.studies.trials.plan import FIRST_TEST_SEED
@@ -118,4 +119,7 @@ def reliability_plot(bins: Sequence[score.Bin], path: Path) -> None:
     )
     figure.update_xaxes(title="stated probability", range=[0, 1])
     figure.update_yaxes(title="share right", range=[0, 1])
-    figure.write_html(path, include_plotlyjs=True)
+    config = {"plotlyServerURL": "", "displaylogo": False}  # nothing leads out of a page that is read offline
+    drawn = figure.to_html(include_plotlyjs=False, full_html=False, config=config)
+    head = f'<meta charset="utf-8"><title>Reliability</title><script>{plotly_script()}</script>'
+    path.write_text(f"<!doctype html><html><head>{head}</head><body>{drawn}</body></html>", encoding="utf-8")
