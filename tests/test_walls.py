@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,16 @@ def test_the_contracts_of_imports_are_kept(monkeypatch: pytest.MonkeyPatch, caps
     cli = pytest.importorskip("importlinter.cli")
     monkeypatch.chdir(ROOT)
     assert cli.lint_imports(no_cache=True) == cli.EXIT_STATUS_SUCCESS, capsys.readouterr().out
+
+
+def test_whatever_stands_at_the_top_may_not_import_the_references() -> None:
+    """The contract lists its sources: a room that is added is on the list."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    contracts = project["tool"]["importlinter"]["contracts"]
+    (listed,) = (set(c["source_modules"]) for c in contracts if c.get("forbidden_modules") == ["rwn.reference"])
+    package = Path(rwn.__file__).parent
+    rooms = {p.parent.name for p in package.glob("*/__init__.py")} | {p.stem for p in package.glob("*.py")}
+    assert {f"rwn.{room}" for room in rooms - {"__init__", "reference"}} == listed
 
 
 def test_from_the_top_stages_take_the_extension_alone() -> None:

@@ -16,8 +16,8 @@ import typer
 from rwn.errors import NoResultError, plain
 
 REFUSED = 2  # exit code of bad input
-NO_RESULT = 3  # of a computation that ran and has no result to stand by
-STOPPED = 130  # of Ctrl-C
+NO_RESULT = 3  # exit code of a computation that ran and has no result to stand by
+STOPPED = 130  # exit code after Ctrl-C
 
 
 class _CtrlC:

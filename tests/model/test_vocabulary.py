@@ -35,17 +35,20 @@ def test_a_special_case_starts_from_the_general_law(effect: Effect) -> None:
 def test_the_table_says_what_the_stages_treat_by_itself() -> None:
     """By a trait: no stage knows an effect by name (tests/test_walls.py)."""
     effects = table()
-    assert [n for n, e in effects.items() if e.offset] == ["constant-load"]
-    assert [n for n, e in effects.items() if e.holds] == ["coulomb-friction", "stribeck-friction", "actuator-deadzone"]
-    assert [n for n, e in effects.items() if e.rectifies] == ["sensor-rectification"]
-    assert [n for n, e in effects.items() if e.delays] == ["input-delay"]
-    assert [n for n, e in effects.items() if e.jumps] == ["sensor-quantization"]
-    assert {s: e.name for s, e in analog_filters(effects).items()} == {
-        "speed": "speed-sensor-lag", "current": "current-sensor-lag"
-    }  # fmt: skip
-    assert [(e.name, p.beside) for e in effects.values() for p in e.parameters if p.beside] == [
-        ("viscous-friction", "viscous_friction")
-    ]
+    having = {
+        "offset": {"constant-load"},
+        "holds": {"coulomb-friction", "stribeck-friction", "actuator-deadzone"},
+        "rectifies": {"sensor-rectification"},
+        "delays": {"input-delay"},
+        "jumps": {"sensor-quantization"},
+    }
+    for trait, known in having.items():
+        found = {name for name, effect in effects.items() if getattr(effect, trait)}
+        assert known <= found < set(effects), trait
+    lags = {signal: effect.name for signal, effect in analog_filters(effects).items()}
+    assert {"speed": "speed-sensor-lag", "current": "current-sensor-lag"}.items() <= lags.items()
+    beside = [(e.name, p.beside) for e in effects.values() for p in e.parameters if p.beside]
+    assert ("viscous-friction", "viscous_friction") in beside
 
 
 def test_a_drag_of_the_second_power_is_quadratic() -> None:

@@ -40,8 +40,8 @@ class Evidence:
     share: float  # of what the nominal model leaves above the noise, that goes without the effect; mean of signals
     unseen: float  # that share on the halves that were not fitted, and on recordings kept back
     part: float  # of what the other effects leave above the noise, that goes with it; mean of signals but the position
-    odds: float  # log evidence for its explanation against the best without it and its rivals, by all recordings; at
-    # most that against the same without it by what is new in each error
+    odds: float  # log evidence for its explanation against the best without it and its rivals, by all recordings; no
+    # more than the log evidence that the innovations of the errors give against the same explanation without it
     curve: float  # squared error with the best curve over one state in its place, in units of that with it; at most 1
 
 

@@ -24,8 +24,8 @@ from rwn.unnamed_law.places import Place, all_places
 from rwn.unnamed_law.screening import most_promising
 
 AT_FIRST = 2  # iterations of every curve: the weights are linear but for the motion that they change
-FURTHER = 4  # further ones of those that leave least
-GO_ON = 3  # so many
+FURTHER = 4  # iterations after the first, of the curves that leave least
+GO_ON = 3  # curves that leave least
 SHARES = 16  # of the work of a stage, for each curve
 SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights at the best of all places
 MOST = 0.5  # share of the squared error above the noise that the curve has to explain

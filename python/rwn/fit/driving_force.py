@@ -28,7 +28,7 @@ from rwn.simulate.simulator import NormalEquations
 Array = NDArray[np.float64]
 
 SLOPE = 1e-4  # step of the differences that derivatives are taken by, relative to a parameter's value
-SMALL = 1e-9  # value that counts as one for that
+SMALL = 1e-9  # least value of a parameter that the step is relative to
 
 
 @dataclass(frozen=True, kw_only=True)

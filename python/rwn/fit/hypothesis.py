@@ -108,7 +108,7 @@ def _motor_unknown(name: str, prior: Prior) -> Unknown:
         return replace(_free_unknown(name), prior=value, prior_std=prior.uncertainty[name])
     parameter = motor_parameters()[name]
     tie = next((pair for pair in prior.one_numbers if pair.name == name and _may_be_one(pair, prior)), None)
-    positive = name not in ("viscous_friction", "coulomb_friction", "pendulum_torque") and value > 0.0
+    positive = parameter.lower > 0.0 and value > 0.0  # else it may be 0: a friction, a load
     return Unknown(
         name=name,
         unit=parameter.unit,

@@ -35,7 +35,7 @@ from rwn.parallel import side_by_side
 
 RESOLUTION = 0.1  # changes of the cost below this decide nothing between explanations
 ITERATIONS = 4  # iterations of every start in the first round, which is made on the screening part
-FURTHER = 6  # iterations after these, before the promising ones are chosen
+FURTHER = 6  # iterations after the first round, before the promising ones are chosen
 NO_GAIN = 0.98  # cost, as a share of the base's, above which a start with a non-smooth error has gained nothing
 STEEP = 0.5  # a fit goes on, whatever the others have, while a round leaves at most this share of its first cost
 OF_THE_MACHINE = 3  # most effects of the machine itself in one explanation, as in every set of trials

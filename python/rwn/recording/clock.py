@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 IRREGULAR = 1e-3  # jitter that is more than rounded timestamps
 FIRST = 512  # rows that show a clock beside which they lie up to 0.4 periods off
-SEARCHED = 4.0  # deviations of the median step of these, within which the period is looked for
+SEARCHED = 4.0  # deviations of the median step of the first rows, within which the period is looked for
 LOST = 0.05  # of the rows, at most, where their times are rounded
 FARTHEST = 0.3  # relative distance from the median step beyond which most steps would skip a tick
 PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows

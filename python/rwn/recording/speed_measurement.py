@@ -23,7 +23,7 @@ VANISHING = 0.05  # ratio below which there is no power, as of central differenc
 LONGEST = 8  # samples of a difference: a moving average of so many differences over one
 FASTEST = 0.2  # highest frequency of a motion, of the sampling rate: what moves a drive is slower
 STRETCH = 64  # samples of which the power near half the rate is told from that near a quarter
-QUIET = 30.0  # per cent of these, in which the motion is slowest
+QUIET = 30.0  # per cent of the stretches: those in which the motion is slowest are looked at
 RISING = 1.4  # above this ratio a speed is a difference over one sample
 
 

@@ -12,7 +12,7 @@ from rwn.simulate.scales import LEAST
 # Factor by which a value may lie beyond a bound of the table: bounds are measured by what recordings show, and another
 # run of the same drive may be ten times slower or weaker, while a slip of a unit is a factor of 1000.
 SLACK = 100.0
-SHARP = 1e6  # such a factor for what idealises a law (`idealised`), which may be as sharp as one likes
+SHARP = 1e6  # factor beyond a bound for what idealises a law (`idealised`), which may be as sharp as one likes
 
 
 def check_declared(

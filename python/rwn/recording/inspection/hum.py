@@ -29,7 +29,7 @@ CLOCK = 0.002  # how far a line may lie off, relatively: the mains 0.1 Hz, and a
 LEVEL = 0.001  # chance of hum in a signal without it: 1 % of a diagnosis, of some ten signals
 TAPERS = 7  # of which the odd ones see a line; each line takes a band of (TAPERS + 1) / length
 FINER = 4  # frequencies looked at per 1 / length
-CYCLES = 25  # fewest of the mains in what is looked at: this band is then a third of its frequency at most
+CYCLES = 25  # fewest of the mains in what is looked at: the band of a line is then a third of its frequency at most
 
 
 @dataclass(frozen=True, kw_only=True)
