@@ -1,4 +1,4 @@
-# make demo | demo-real | test | check | test-sanitize | test-browser | mutants | lint | bench | stubs | docs; everything else is set up by these.
+# make demo | demo-real | test | test-slow | check | test-sanitize | test-browser | mutants | lint | bench | stubs | docs; everything else is set up by these.
 PY := .venv/bin/python
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 JOBS ?= $(shell nproc)
@@ -9,7 +9,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 export PYTHONDONTWRITEBYTECODE :=
 PIP := $(PY) -m pip install -q --disable-pip-version-check
 
-.PHONY: demo demo-real test check check-python test-cpp test-sanitize test-sanitize-lint test-python test-browser mutants lint lint-only bench install \
+.PHONY: demo demo-real test check check-python test-cpp test-sanitize test-sanitize-lint test-python test-slow test-browser mutants lint lint-only bench install \
   install-cmake install-tools install-test stubs docs develop clean
 
 # Installed once; again only where something that goes into it has changed.
@@ -47,7 +47,7 @@ demo-real: install
 	@.venv/bin/rwn diagnose $(EMPS)/DATA_EMPS.mat --heldout $(EMPS)/DATA_EMPS_PULSES.mat \
 	  --model python/rwn/demo/emps.toml --out demo-out/emps --overwrite
 
-# Everything that CI runs. The sanitized build goes on beside pip, which waits for downloads much of its time; the linters,
+# What CI runs first; `test-slow` has the tests that take more than about a second of one quiet core. The sanitized build goes on beside pip, which waits for downloads much of its time; the linters,
 # which read the packages that pip installs, beside pytest.
 test:
 	@$(MAKE) -j2 --no-print-directory test-sanitize-lint test-python
@@ -55,15 +55,15 @@ test:
 test-sanitize-lint: test-sanitize install-test
 	@$(MAKE) --no-print-directory lint-only
 
-# What to run while working: lint, types, imports, and every test that is not marked slow, on the checkout as it is, which
-# `make develop` installed. The linters go on beside pytest.
+# What to run while working: lint, types, imports, and the tests that are not slow of what changed (tools/changed.py), on the
+# checkout as it is, which `make develop` installed. The linters go on beside pytest.
 check:
 	@diff -rq -x '*.so' -x __pycache__ python/rwn .venv/lib/python3*/site-packages/rwn >/dev/null 2>&1 || \
 	  { echo "check: what is installed is not this checkout; run 'make develop' first" >&2; exit 2; }
 	@$(MAKE) -j2 --no-print-directory lint-only check-python
 
 check-python:
-	$(PY) -m pytest -q -n $(JOBS) --dist worksteal -m "not slow"
+	$(PY) -m pytest -q -n $(JOBS) --dist worksteal -m "not slow" $$($(PY) tools/changed.py)
 
 # The C++ tests as they are shipped: optimised, with the kernels of this processor.
 test-cpp: install-cmake
@@ -81,7 +81,10 @@ test-sanitize: install-cmake
 	for isa in $(ISAS_$(KERNELS_FOR)); do RWN_ISA=$$isa build/sanitize/rwn_tests --gtest_brief=1 || exit 1; done
 
 test-python: install-test
-	$(PY) -m pytest -n $(JOBS) --dist worksteal
+	$(PY) -m pytest -n $(JOBS) --dist worksteal -m "not slow"
+
+test-slow: install-test
+	$(PY) -m pytest -n $(JOBS) --dist worksteal -m slow
 
 # The report in headless Chromium: three widths, dark, on paper, links between its plots, axe-core. Not part of `make test`: a machine
 # without Chromium would download it each time.
