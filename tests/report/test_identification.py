@@ -130,3 +130,10 @@ def test_an_identified_model_replaces_nothing_that_it_was_made_from(tmp_path: Pa
     with pytest.raises(rwn.InputError, match="input"):
         rwn.save(recording, tmp_path / "train.csv", overwrite=True)
     rwn.save(fit.model, tmp_path / "model.toml", overwrite=True)  # a model that was read may be edited
+
+
+def test_a_model_that_leaves_nothing_open_says_that_nothing_was_fitted() -> None:
+    model = replace(rwn.read_model(DEMO / "model.toml"), uncertainty={})
+    said = "\n".join(identification.lines(rwn.identify(WRONG["nothing"], model), model))
+    assert "warning: nothing was fitted" in said
+    assert "[uncertainty]" in said
