@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -35,8 +36,15 @@ WRONG: dict[str, Recording] = {
 }
 
 
+def _model() -> Model:
+    """Said to be held from row to row: no other law is looked for."""
+    model = rwn.read_model(DEMO / "model.toml")
+    return replace(model, recording=replace(model.recording, intersample="held"))
+
+
+@cache
 def _identified(case: str) -> tuple[Identification, Model, list[str], str]:
-    run, model = WRONG[case], rwn.read_model(DEMO / "model.toml")
+    run, model = WRONG[case], _model()
     fit = rwn.identify(run, model)
     doubts = [line for line in identification.lines(fit, model) if line.startswith("warning")]
     return fit, model, doubts, fit.failure
@@ -67,7 +75,7 @@ def test_a_sign_error_that_drives_a_parameter_to_the_end_of_its_search_is_no_fit
 
 
 def test_a_friction_that_comes_out_as_nothing_is_a_fit() -> None:
-    model = rwn.read_model(DEMO / "model.toml")
+    model = _model()
     exact = replace(model, parameters={**model.parameters, "viscous_friction": 1e-12}, uncertainty={})
     given = rwn.read_recording(DEMO / "train.csv")
     rng = np.random.default_rng(1)
@@ -79,8 +87,8 @@ def test_a_friction_that_comes_out_as_nothing_is_a_fit() -> None:
 
 def test_the_error_is_said_in_the_units_of_the_file(tmp_path: Path) -> None:
     """By hand: the rms of what the fitted model leaves, in rpm and mA; a recording without units says it in SI."""
-    model = rwn.read_model(DEMO / "model.toml")
-    run = _as(lambda _: {})
+    model = _model()
+    run = _as(lambda _: {}, 1000)
     rwn.save(replace(run, units={"speed": "rpm", "current": "mA"}), tmp_path / "run.csv")
     fit = rwn.identify(run, model)
     made = rwn.simulate(fit.model, run).signals
@@ -120,8 +128,8 @@ def _row(signal: str, explained: float) -> ExplainedSignal:
 
 
 def test_an_identified_model_replaces_nothing_that_it_was_made_from(tmp_path: Path) -> None:
-    for name in ("model.toml", "train.csv"):
-        (tmp_path / name).write_bytes((DEMO / name).read_bytes())
+    (tmp_path / "model.toml").write_bytes((DEMO / "model.toml").read_bytes())
+    rwn.save(WRONG["a run of 120 samples"], tmp_path / "train.csv")
     fit = rwn.identify(tmp_path / "train.csv", tmp_path / "model.toml")
     for name in ("model.toml", "train.csv"):
         with pytest.raises(rwn.InputError, match=r"input|written as \.toml"):
@@ -133,7 +141,7 @@ def test_an_identified_model_replaces_nothing_that_it_was_made_from(tmp_path: Pa
 
 
 def test_a_model_that_leaves_nothing_open_says_that_nothing_was_fitted() -> None:
-    model = replace(rwn.read_model(DEMO / "model.toml"), uncertainty={})
+    model = replace(_model(), uncertainty={})
     said = "\n".join(identification.lines(rwn.identify(WRONG["nothing"], model), model))
     assert "warning: nothing was fitted" in said
     assert "[uncertainty]" in said

@@ -124,6 +124,7 @@ def test_without_its_curves_it_is_read_all_the_same(tmp_path: Path) -> None:
         ("diagnosis.json", "[]", "no diagnosis of this version"),
         ("diagnosis.json", '{"verdict": "perhaps"}', "no diagnosis of this version"),
         ("diagnosis.json", '{"format": 99, "verdict": "adequate"}', "format 99"),
+        ("curves.json", "{}", "no 'curves' in curves.json"),
         ("curves.json", "[1]", "no diagnosis of this version"),
         ("curves.json", "\x00", "no diagnosis of this version"),
         ("curves.json", "[" * 100_000, "no diagnosis of this version"),

@@ -160,7 +160,7 @@ class Diagnosis(DiagnosisData):
 
     @classmethod
     def _read(cls, folder: Path) -> Diagnosis:
-        result, curves = folder / RESULT, b"{}"
+        result, curves = folder / RESULT, None
         with input_file(result, "the result of rwn diagnose"):
             text = result.read_bytes()
         if (folder / CURVES).exists():

@@ -111,8 +111,8 @@ class DiagnosisData:
         return b'{"format": %d, "curves": [\n%b\n]}\n' % (FORMAT, lines)
 
     @classmethod
-    def from_json(cls, text: bytes | str, curves: bytes | str = b"{}") -> Self:
-        """The inverse of `to_json` and `curves_json`.
+    def from_json(cls, text: bytes | str, curves: bytes | str | None = None) -> Self:
+        """The inverse of `to_json` and `curves_json`; without these a diagnosis has none.
 
         Raises ValueError (`msgspec.ValidationError` with the path of what is wrong).
         """
@@ -120,9 +120,11 @@ class DiagnosisData:
         if isinstance(plain, dict):
             if plain.get("format", FORMAT) != FORMAT:
                 raise ValueError(f"format {plain['format']}, this version reads {FORMAT}")
-            drawn = msgspec.json.decode(curves)
+            drawn = msgspec.json.decode(curves) if curves is not None else {"curves": []}
             plain = {name: value for name, value in plain.items() if name not in LEFT_OUT}
-            plain["curves"] = drawn.get("curves", []) if isinstance(drawn, dict) else drawn
+            if isinstance(drawn, dict) and "curves" not in drawn:
+                raise ValueError("no 'curves' in curves.json")
+            plain["curves"] = drawn["curves"] if isinstance(drawn, dict) else drawn
         return msgspec.convert(plain, cls, dec_hook=_array, strict=False)  # strict: no number may be a word
 
     @classmethod

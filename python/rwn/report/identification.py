@@ -26,7 +26,7 @@ def lines(fit: Identification, nominal: Model) -> Iterator[str]:
 def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
     """What moved to a bound or far off was seen, however unsure its value is."""
     if not fit.parameters:
-        yield "nothing was fitted: the model declares nothing uncertain; say under [uncertainty] what is, as inertia = 0.1"
+        yield "nothing was fitted: the model declares nothing uncertain; say what is under [uncertainty]"
     at_bound = [name for name, value in fit.parameters.items() if at_a_bound(value)]
     unseen = [name for name in fit.not_identifiable if name not in at_bound]
     if at_bound:
