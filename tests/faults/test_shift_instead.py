@@ -10,6 +10,7 @@ import pytest
 from scipy.signal import lfilter
 
 import rwn
+from rwn.faults import delay
 from rwn.faults.delay import shift_instead
 from rwn.fit.preparation import prepare
 from rwn.measurement.filter_colour import SensorFilter
@@ -64,3 +65,15 @@ def test_a_speed_is_late_where_that_fits_as_well_as_the_law_of_its_sensor(model:
         assert fault.removes.share > 0.9
     else:
         assert fault is None
+
+
+def test_a_bias_of_a_sensor_is_no_lag_that_a_late_channel_may_be_instead(
+    model: Model, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What was named does not delay: nothing asks for a shift in its place."""
+    late = _recording(model, late=2, lag=0.0)
+    late = replace(late, signals={**late.signals, "current": late.signals["current"] + 0.1})
+    ranking = rank(prepare([late], model), progress=_silent, names=["sensor-bias"], at_once=1)
+    biased = next(r for r in ranking.fits if r.added == ("sensor-bias",))
+    monkeypatch.setattr(delay, "_shifts", lambda *_: pytest.fail("it was asked"))
+    assert shift_instead([late], model, [], replace(ranking, fits=(biased,))) is None

@@ -27,6 +27,7 @@ from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, noise_before_filters
 from rwn.model.model import Model
 from rwn.model.recordings import LONGEST_SHIFT
+from rwn.model.vocabulary import Effect
 from rwn.name.ranking import Ranking
 from rwn.name.screening import FURTHER
 from rwn.parallel import side_by_side
@@ -152,7 +153,7 @@ def shift_instead(
     sensors, under which the ranking was found.
     """
     best, lagging = ranking.fits[0].fit, filtered(prepare(recordings, model), filters)
-    sensors = [name for name in best.added if lagging.prior.table[name].site == "sensor"]
+    sensors = [name for name in best.added if _lags(lagging.prior.table[name])]
     if not sensors or not lagging.drive.winding or any("current" not in r.signals for r in recordings):
         return None
     (this,) = refitted_beside([best], lagging)
@@ -172,6 +173,11 @@ def shift_instead(
     nothing = variance(lagging, fit_nominal(lagging))
     shares = (1.0 - (found[fault] - 1.0) / max(total - 1.0, found[fault] - 1.0, 1e-300) for total in (nothing, left))
     return replace(fault, removes=ErrorReduction(*shares))
+
+
+def _lags(effect: Effect) -> bool:
+    """Whether it is a sensor's and takes time: an offset or a rounding is no delay."""
+    return effect.site == "sensor" and any(p.unit == "s" for p in effect.parameters)
 
 
 def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:
