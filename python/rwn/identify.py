@@ -14,7 +14,7 @@ import numpy as np
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
 from rwn.fit.intervals import Estimate, deviations, estimates
-from rwn.fit.noise import noise_of
+from rwn.fit.noise import noise_of, without_drift
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.residuals import Statistics, join, statistics, structured
@@ -112,6 +112,9 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     this = fit_nominal(problem)
     problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))
     this = fit_nominal(problem)
+    drifting = without_drift(problem, this)
+    if drifting is not None:
+        problem, this = drifting, fit_nominal(drifting)
     left, status, fitted = statistics(problem, this), this.minimum.status, fitted_model(this, model)
     parameters, explained = estimates(this, left), explained_signals(fitted, given)
     name = status.name.lower().replace("_", "-")

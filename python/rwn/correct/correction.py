@@ -8,6 +8,7 @@ from itertools import chain, combinations
 
 import numpy as np
 
+from rwn.correct.drift import free_of_drift
 from rwn.correct.free_run import by_free_run
 from rwn.correct.network import NetworkCorrection, proved_network
 from rwn.decide.decision import Decision, together
@@ -52,6 +53,7 @@ class Correction:
 
 def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: int) -> Correction:
     """The model with what is stated; where nothing is, with a network or the leading names, what is best proved."""
+    decision = free_of_drift(decision, heldout, seed=seed)
     if decision.verdict == "unexplained":
         found = _without_a_name(decision, heldout, model, seed=seed)
         if found:

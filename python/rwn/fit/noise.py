@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import join
-from rwn.recording.noise import Noise, noise_from_differences
+from rwn.recording.noise import LEAST, STABLE, Noise, noise_from_differences
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -48,13 +48,44 @@ def with_noise_of(problem: Problem, this: Fit) -> Problem:
     """`problem` weighted by the noise that a fit leaves."""
     residuals = problem.residuals(this.vector, this.active)
     noise = _coloured(problem, noise_of(problem.runs, residuals), residuals)
+    excess = _excess(problem, noise, residuals)
+    if excess > 1.0:
+        noise["position"] = noise["position"].scaled(excess**0.5)
+    return replace(problem, noise=noise)
+
+
+def without_drift(problem: Problem, this: Fit) -> Problem | None:
+    """`problem` weighted by what is new in the error of a position that drifts; None where it does not.
+
+    A position in free run adds up every small torque that is missing: where it is off by more than the other signals
+    its error is a random walk, of which each step is new. Plain least squares bends whatever parameter follows it.
+    """
+    residuals = problem.residuals(this.vector, this.active)
+    noise = noise_of(problem.runs, residuals)
+    if not _excess(problem, noise, residuals) > 1.0:
+        return None
+    noise = {**problem.noise, "position": _random_walk(problem, residuals)}
+    noise["position"] = noise["position"].scaled(max(_excess(problem, noise, residuals), 1.0) ** 0.5)
+    return replace(problem, noise=noise)
+
+
+def _excess(problem: Problem, noise: Mapping[str, Noise], residuals: Sequence[Mapping[str, Array]]) -> float:
+    """Mean squared error of the position in units of the largest that it may weigh; 0 where it stands alone."""
     errors = join(replace(problem, noise=noise), residuals)
     variances = {s: float(np.nanmean(r**2)) for s, r in errors.items()}
     others = [v for s, v in variances.items() if s != "position"]
-    if "position" in variances and others:
-        excess = variances["position"] / (DRIFT * max(*others, 1.0))
-        noise["position"] = noise["position"].scaled(np.sqrt(max(excess, 1.0)))
-    return replace(problem, noise=noise)
+    return variances["position"] / (DRIFT * max(*others, 1.0)) if "position" in variances and others else 0.0
+
+
+def _random_walk(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> Noise:
+    """The noise of a position whose error is a random walk, of the steps that the residuals show."""
+    walk = Noise(level=1.0, reflection=(STABLE,))
+    levels = [
+        _noise(walk.innovations(run.masked("position", left["position"]), restart=run.restart_every))
+        for run, left in zip(problem.runs, residuals, strict=True)
+        if "position" in left
+    ]
+    return walk.scaled(max(float(np.median(levels)), LEAST))
 
 
 def _coloured(

@@ -166,7 +166,9 @@ def _warnings(
         )
     explained = {f.signal for f in filters}  # a filter that is fitted colours the noise that went through it
     for signal, noise in ranking.weighted.noise.items():
-        if noise.reflection and signal not in explained:
+        if signal == "position" and noise.reflection:
+            texts.append("the position drifts in free run: parameters are fitted to the steps of its error, not to it")
+        elif noise.reflection and signal not in explained:
             texts.append(
                 f"what is left of the {signal} lasts (its correlation from sample to sample is "
                 f"{noise.reflection[0]:.2f}): the corrected model was fitted to what is new in it"

@@ -57,7 +57,7 @@ def _now_and_then(x: Array, repeats: Flags) -> Flags:
     moves. A value that comes back is that of a standstill, or the end of a range; values on a step are of a coarse
     signal between whose samples the rows lie.
     """
-    from scipy.stats import poisson  # late: the command line starts without it
+    from scipy.special import pdtrc  # late: the command line starts without it
 
     begins = repeats & ~np.append(False, repeats[:-1])
     values, runs = np.unique(x[begins], return_counts=True)
@@ -67,18 +67,18 @@ def _now_and_then(x: Array, repeats: Flags) -> Flags:
     if often < FEWEST or noise == 0.0 or quantum(x) > 0.0 or quantum(x[held]) > 0.0:
         return np.zeros(x.size, dtype=bool)
     by_chance = x.size * float(np.min(change[change > 0.0])) / (2.0 * np.sqrt(np.pi) * noise)
-    return held if poisson.sf(often - 1, by_chance) < LEVEL else np.zeros(x.size, dtype=bool)
+    return held if pdtrc(often - 1, by_chance) < LEVEL else np.zeros(x.size, dtype=bool)
 
 
 def _updates(ticks: NDArray[np.int64], changes: Flags, widths: Sequence[int]) -> Flags | None:
     """The samples (n,) on the first grid, one of every so many ticks, that nearly all changes lie on; None: on none."""
-    from scipy.stats import binom  # late: the command line starts without it
+    from scipy.special import bdtrc  # late: the command line starts without it
 
     at = ticks[changes][1:]  # the first sample is no change
     for every in widths:
         phase = np.bincount(at % every, minlength=every)
         most = int(np.argmax(phase))
-        chance = every * float(binom.sf(phase[most] - 1, at.size, 1.0 / every))
+        chance = every * float(bdtrc(phase[most] - 1, at.size, 1.0 / every))
         if phase[most] > AT_ONCE * at.size and chance < LEVEL / len(widths):
             return np.asarray(ticks % every == most, dtype=np.bool_)
     return None

@@ -57,7 +57,7 @@ def _departures(recording: Recording, signal: str) -> Array:
 
 def _goes_with(noise: Array, other: Array) -> float:
     """Chance that white noise (n,) goes as closely with another signal (n,), some rows before and after, by nothing."""
-    from scipy.stats import chi2  # late: the command line starts without it
+    from scipy.special import chdtrc  # late: the command line starts without it
 
     lags = np.arange(-LAGS, LAGS + 1)
     every = [int(k) for k in lags]
@@ -67,4 +67,4 @@ def _goes_with(noise: Array, other: Array) -> float:
     spread = np.mean(noise**2) * alike[np.abs(lags[:, None] - lags[None, :])]  # of white noise beside this signal
     if not alike[0] > 0.0:
         return 1.0
-    return float(chi2.sf(along @ np.linalg.pinv(spread, hermitian=True) @ along, lags.size))
+    return float(chdtrc(lags.size, along @ np.linalg.pinv(spread, hermitian=True) @ along))
