@@ -49,6 +49,10 @@ MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
         MODEL + "[effects.coulomb-friction]\ncoulomb_torqe = 1.0\n",
         ("'coulomb_torqe'", "did you mean 'coulomb_torque'"),
     ),
+    "a load that ends before it begins": (
+        MODEL + "[effects.load-disturbance]\ntorque = 0.01\nt_start = 1.0\nt_end = 0.5\n",
+        ("t_end is 0.5 s, t_start 1: it never acts", "exchange the two"),
+    ),
     "two second masses": (
         MODEL
         + "[effects.backlash]\ngap = 0.1\nload_inertia = 1e-5\ncontact_rate = 1e3\n"

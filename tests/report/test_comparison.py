@@ -62,3 +62,16 @@ def test_a_parameter_of_one_model_alone_has_its_row() -> None:
     parameters = {**after.nominal_fit.parameters, "pendulum_torque": more}
     told = rows(after, replace(after, nominal_fit=replace(after.nominal_fit, parameters=parameters)))
     assert told["Pendulum torque"] == ("–", "1.00 mN m", "–")
+
+
+def test_results_of_two_models_say_so() -> None:
+    found = made_up.found()
+    other = replace(found, sources=tuple(replace(s, sha256="x" * 64) if s.use == "model" else s for s in found.sources))
+    assert [s for s in found.sources if s.use == "model"]
+    assert rows(found, found)["Model that it began with"][-1] == "no"
+    assert rows(found, other)["Model that it began with"][-1] == "yes"
+
+
+def test_a_result_without_a_law_says_so() -> None:
+    text = comparison(made_up.found(), made_up.adequate(), ("before", "after"))
+    assert text.count("No law is drawn.") == 1

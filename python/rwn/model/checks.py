@@ -107,6 +107,17 @@ def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> 
             )
 
 
+    ends = [values[p.name] for p in effect.instants if p.name in values]
+    if len(ends) == 2 and ends[0] >= ends[1]:
+        first, last = effect.instants
+        raise InputError(
+            f"{last.name} is {ends[1]:g} {last.unit}, {first.name} {ends[0]:g}: it never acts",
+            where=where,
+            expected=f"{first.name} before {last.name}",
+            fix=f"exchange the two, or remove [effects.{effect.name}]",
+        )
+
+
 def bounds_beforehand(p: Parameter) -> tuple[float, float]:
     """Bounds (SI) of a parameter as far as they are known without a recording: the sign alone of what is relative."""
     if not p.scale.powers:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
+from pathlib import Path
 
 from rwn.fit.intervals import Estimate
 from rwn.model.vocabulary import table as table_of_effects
@@ -16,6 +17,8 @@ from rwn.report.page import document, figures, section
 from rwn.report.sentences import before_after, headline, sentences
 from rwn.report.tables import table
 
+NO_LAW = "<p>No law is drawn.</p>"
+
 
 def comparison(first: DiagnosisData, second: DiagnosisData, names: tuple[str, str]) -> str:
     """A page with what each diagnosis says, what both name, and how parameters and laws differ."""
@@ -26,7 +29,7 @@ def comparison(first: DiagnosisData, second: DiagnosisData, names: tuple[str, st
         for name, found in zip(names, pair, strict=True)
     )
     laws = "".join(
-        f"<div><h3>{name}</h3>{figures(found, ('law',), prefix=f'{k}-')}</div>"
+        f"<div><h3>{name}</h3>{figures(found, ('law',), prefix=f'{k}-') or NO_LAW}</div>"
         for k, (name, found) in enumerate(zip(head, pair, strict=True))
     )
     drawn = any(plot.slot == "law" for found in pair for plot in found.curves)
@@ -43,6 +46,9 @@ def comparison(first: DiagnosisData, second: DiagnosisData, names: tuple[str, st
 def _rows(first: DiagnosisData, second: DiagnosisData) -> Iterator[list[str]]:
     """Label, what each says, and whether they differ by more than their intervals."""
     yield ["Verdict", first.verdict, second.verdict, _differs(first.verdict != second.verdict)]
+    models = [{source.sha256 for source in found.sources if source.use == "model"} for found in (first, second)]
+    if all(models):
+        yield ["Model that it began with", *map(_model, (first, second)), _differs(models[0] != models[1])]
     yield ["Error, proved", _proof(first), _proof(second), "–"]
     effects = [{effect.name: effect for effect in found.effects} for found in (first, second)]
     fits = [found.nominal_fit.parameters for found in (first, second)]
@@ -87,6 +93,10 @@ def _best(parameters: Mapping[str, FittedParameter], name: str) -> Estimate | No
     if found is None:
         return None
     return found.refitted if found.corrected is None else found.corrected
+
+
+def _model(found: DiagnosisData) -> str:
+    return ", ".join(escape(Path(source.path).name) for source in found.sources if source.use == "model")
 
 
 def _proof(found: DiagnosisData) -> str:
