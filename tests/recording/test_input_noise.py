@@ -9,7 +9,7 @@ import pytest
 
 import rwn
 from rwn.recording.inspection import inspected
-from rwn.recording.inspection.input_noise import without_input_noise
+from rwn.recording.inspection.input_noise import _goes_with, without_input_noise
 from rwn.recording.noise import noise_of_differences
 
 MOTOR = rwn.Model(
@@ -120,3 +120,14 @@ def test_two_estimates_of_white_noise_differ_by_their_deviation() -> None:
     drawn = rng.standard_normal((200, 500))
     ratios = [noise_of_differences(np.diff(x, 4), 4) / noise_of_differences(np.diff(x, 2), 2) for x in drawn]
     assert np.std(ratios) * np.sqrt(500) == pytest.approx(0.85, rel=0.15)
+
+
+def test_what_rounding_makes_negative_is_a_chance_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The distance of two signals that are as unlike as can be may come out below 0; a chance that is no number decides
+    as if the two went together."""
+    rng = np.random.default_rng(1)
+    noise, other = rng.standard_normal((2, 4000))
+    assert 0.0 <= _goes_with(noise, other) <= 1.0
+    pinv = np.linalg.pinv
+    monkeypatch.setattr(np.linalg, "pinv", lambda *of, **how: -pinv(*of, **how))
+    assert _goes_with(noise, other) == 1.0

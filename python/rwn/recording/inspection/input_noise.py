@@ -67,4 +67,5 @@ def _goes_with(noise: Array, other: Array) -> float:
     spread = np.mean(noise**2) * alike[np.abs(lags[:, None] - lags[None, :])]  # of white noise beside this signal
     if not alike[0] > 0.0:
         return 1.0
-    return float(chdtrc(lags.size, along @ np.linalg.pinv(spread, hermitian=True) @ along))
+    distance = float(along @ np.linalg.pinv(spread, hermitian=True) @ along)
+    return float(chdtrc(lags.size, max(distance, 0.0)))  # where the two are less alike than rounding, it may be below 0
