@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import gc
 import hashlib
+import re
 import sys
 import time
 from collections import Counter
@@ -23,7 +24,6 @@ from rwn.diagnose import LEAST_EFFORT
 from tools.trust import page
 from tools.trust.stopping import until_stopped
 
-PAGE = 4096  # bytes
 GROWTH = 4.0  # kB a diagnosis
 EVERY = 10  # diagnoses between two looks at the memory: what is no longer in use is collected before each
 MOTOR = {
@@ -43,9 +43,10 @@ def recording(model: rwn.Model) -> rwn.Recording:
 
 
 def resident() -> float:
-    """Memory of this process [kB]."""
+    """Memory that this process has written [kB]; what is mapped of files comes and goes as the system likes."""
     gc.collect()
-    return int(Path("/proc/self/statm").read_text().split()[1]) * PAGE / 1024
+    status = Path("/proc/self/status").read_text(encoding="utf-8")
+    return float(re.findall(r"RssAnon:\s+(\d+) kB", status)[0])
 
 
 def growth(memory: Sequence[float]) -> float:
