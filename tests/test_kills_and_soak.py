@@ -96,6 +96,9 @@ def test_growth_is_of_the_last_half_and_of_a_diagnosis() -> None:
     assert growth([0.0, 500.0, 700.0, 700.0, 700.0, 700.0]) == pytest.approx(0.0, abs=1e-9)
     assert growth([0.0, 0.0, 3.0 * EVERY, 6.0 * EVERY]) == pytest.approx(3.0)
     assert growth([1.0]) == 0.0
+    assert growth([1.0] * 60 + [2300.0] * 40) == 0.0, "one step of the allocator"
+    leak = [100.0 * (k // 9) for k in range(100)]  # by arenas: 100 kB every 90 diagnoses
+    assert growth(leak) == pytest.approx(100.0 / 90.0, rel=0.1)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
