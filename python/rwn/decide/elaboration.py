@@ -20,7 +20,7 @@ from rwn.name.weights import RankedFit
 
 @dataclass(frozen=True, kw_only=True)
 class NestedLawTest:
-    """An explanation whose elaborate laws each add to the plain ones."""
+    """What comes of the test of each elaborate law of an explanation against its plain one: what adds to it stays."""
 
     leading: RankedFit
     validation: CrossValidation  # of it

@@ -105,8 +105,6 @@ def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> 
                 expected=f"{to} ({p.meaning})",
                 fix=f"correct the value or its unit; see rwn effects {effect.name}",
             )
-
-
     ends = [values[p.name] for p in effect.instants if p.name in values]
     if len(ends) == 2 and ends[0] >= ends[1]:
         first, last = effect.instants

@@ -13,7 +13,7 @@ from rwn.name.weights import log_odds
 
 
 class LevelsTest(NamedTuple):
-    """An explanation with a level of a quantity for each recording."""
+    """What comes of the test whether a quantity has a level of its own in each recording."""
 
     log_odds: float  # evidence for the levels
     problem: Problem  # with the levels

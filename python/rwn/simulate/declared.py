@@ -66,7 +66,7 @@ def _bounds(p: Parameter, units: Sequence[float], model: Model) -> tuple[float, 
     """The lowest and the highest value that passes, and by how much they lie beyond the bounds of the table."""
     slack = SHARP if p.idealised else SLACK
     if p.scale.powers == {"inertia": 1}:  # a part of a whole that the model states, which no recording makes larger
-        return min(p.lower, -1.0 if p.lower < 0.0 else 0.0) * units[0], max(units), 1.0
+        return (-max(units) if p.lower < 0.0 else 0.0), max(units), 1.0
     lower = min(p.lower * unit for unit in units) * (slack if p.lower < 0.0 else 1.0 / slack)
     replaced = model.motor.get(p.replaces, 0.0) if p.replaces else 0.0
     return lower, slack * max(replaced, *(p.upper * unit for unit in units)), slack
