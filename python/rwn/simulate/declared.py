@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from rwn.errors import InputError
@@ -12,61 +13,78 @@ from rwn.simulate.scales import LEAST
 # Factor by which a value may lie beyond a bound of the table: bounds are measured by what recordings show, and another
 # run of the same drive may be ten times slower or weaker, while a slip of a unit is a factor of 1000.
 SLACK = 100.0
+USUAL = 10.0  # the same beyond what a usual recording shows instead: a motor of 24 V may be one of 2.4 or 240 V
 SHARP = 1e6  # factor beyond a bound for what idealises a law (`idealised`), which may be as sharp as one likes
 
 
 def check_declared(
-    model: Model, known: Sequence[Mapping[str, float]], *, told: str = "as the recordings show it"
+    model: Model,
+    known: Sequence[Mapping[str, float]],
+    usual: Sequence[Mapping[str, float]] = (),
+    *,
+    told: str = "as the recordings show it",
 ) -> None:
     """Raises InputError where a parameter lies far beyond bounds that are relative to the size of the drive.
 
-    `known`: the scales (`rwn.simulate.scales`) by which that is measured; within the bounds of one is enough. `told`:
-    what measured it. Not judged: phases, what a user's own effect searches, 0: it is off, and what is measured by a
-    quantity that is not shown, as the current of an axis.
+    `known`: the scales (`rwn.simulate.scales`) by which that is measured, `usual`: those of recordings that might have
+    been instead; within the bounds of one is enough. `told`: what measured it. Not judged: phases, what a user's own
+    effect searches, 0: it is off, and what is measured by a quantity that is not shown, as the current of an axis.
     """
-    for effect, p, value, units in _judged(model, known):
-        if not units:
-            continue
-        lower, upper, slack = _bounds(p, units, model)
+    for effect, p, value in _judged(model):
+        lower, upper = _bounds(p, known, usual, model)
         if not lower <= value <= upper:
-            times = f"{slack:g} times {p.lower:g} to {p.upper:g} x " if slack > 1.0 else "a part of the "
+            beyond = "a part of the " if _is_a_part(p) else f"far beyond {p.lower:g} to {p.upper:g} x "
             raise InputError(
                 f"{p.name} is {value:g} {p.unit}",
                 where=f"{model.source or 'model'}, [effects.{effect.name}]",
-                expected=f"{lower:.2g} to {upper:.2g} {p.unit}: {times}{p.scale.words} of the drive, {told}",
+                expected=f"{lower:.2g} to {upper:.2g} {p.unit}: {beyond}{p.scale.words} of the drive, {told}",
                 fix=f"correct the value or its unit, or the unit of the recordings; see rwn effects {effect.name}",
             )
 
 
 def surely_passes(model: Model, known: Sequence[Mapping[str, float]]) -> bool:
     """Whether `check_declared` passes by these scales and by whatever further ones: those widen the bounds."""
-    for _, p, value, units in _judged(model, known):
-        if not units:
+    for _, p, value in _judged(model):
+        if not _shown(p, known):
             return False
-        lower, upper, _ = _bounds(p, units, model)
+        lower, upper = _bounds(p, known, (), model)
         if not lower <= value <= upper:
             return False
     return True
 
 
-def _judged(
-    model: Model, known: Sequence[Mapping[str, float]]
-) -> Iterator[tuple[Effect, Parameter, float, list[float]]]:
-    """The values that are judged, each with what `known` measures it by: nothing where none shows its quantity."""
+def _judged(model: Model) -> Iterator[tuple[Effect, Parameter, float]]:
+    """The values that are judged."""
     for name, values in model.effects.items():
         effect = model.effect_table[name]
         for p in effect.parameters:
             value = values.get(p.name, 0.0)
-            if effect.own or p.cyclic or p.natural or not p.scale.powers or not value:
-                continue
-            yield effect, p, value, [p.scale.of(s) for s in known if all(s[q] > LEAST for q in p.scale.powers)]
+            if not effect.own and not p.cyclic and not p.natural and p.scale.powers and value:
+                yield effect, p, value
 
 
-def _bounds(p: Parameter, units: Sequence[float], model: Model) -> tuple[float, float, float]:
-    """The lowest and the highest value that passes, and by how much they lie beyond the bounds of the table."""
-    slack = SHARP if p.idealised else SLACK
-    if p.scale.powers == {"inertia": 1}:  # a part of a whole that the model states, which no recording makes larger
-        return (-max(units) if p.lower < 0.0 else 0.0), max(units), 1.0
-    lower = min(p.lower * unit for unit in units) * (slack if p.lower < 0.0 else 1.0 / slack)
+def _shown(p: Parameter, known: Sequence[Mapping[str, float]]) -> list[float]:
+    """What a parameter is measured by (SI), by each of the scales that show its quantity."""
+    return [p.scale.of(s) for s in known if all(s[q] > LEAST for q in p.scale.powers)]
+
+
+def _is_a_part(p: Parameter) -> bool:
+    """Whether it is part of a whole that the model states, which no recording makes larger."""
+    return dict(p.scale.powers) == {"inertia": 1}
+
+
+def _bounds(
+    p: Parameter, known: Sequence[Mapping[str, float]], usual: Sequence[Mapping[str, float]], model: Model
+) -> tuple[float, float]:
+    """The lowest and the highest value (SI) that passes; all do where nothing shows its quantity."""
+    measures = [(unit, SLACK) for unit in _shown(p, known)] + [(unit, USUAL) for unit in _shown(p, usual)]
+    if not measures:
+        return -math.inf, math.inf
+    if _is_a_part(p):
+        whole = max(unit for unit, _ in measures)
+        return (-whole if p.lower < 0.0 else 0.0), whole
+    if p.idealised:
+        measures = [(unit, SHARP) for unit, _ in measures]
+    lower = min(p.lower * unit * (slack if p.lower < 0.0 else 1.0 / slack) for unit, slack in measures)
     replaced = model.motor.get(p.replaces, 0.0) if p.replaces else 0.0
-    return lower, slack * max(replaced, *(p.upper * unit for unit in units)), slack
+    return lower, max(slack * max(replaced, p.upper * unit) for unit, slack in measures)

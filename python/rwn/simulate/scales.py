@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,7 @@ from rwn.simulate.simulator import Simulator
 Array = NDArray[np.float64]
 
 LEAST = 1e-12  # in place of a quantity that recordings do not show, or that a drive does not have
-RATES = ((1e-6, 1e-3), (1.0, 1e6))  # time step and duration [s] of the fastest and the longest recording
+USUAL_STEPS, USUAL_ROWS = (2e-4, 0.02), 1000  # time steps [s] and rows of a fast and of a long recording
 
 
 def scales(
@@ -45,27 +44,27 @@ def scales(
     }
 
 
-def scales_of_input(run: Run, drive: Drive, simulator: Simulator, vector: Array) -> list[dict[str, float]]:
-    """The scales that the input of a run shows through the motor alone; none of a motor that runs away.
-
-    `vector`: parameters (all,). Also as they would be of a briefer, a longer and a denser recording: a run that is
-    simulated may be so beside those that its model was fitted to.
-    """
-    output = simulator.simulate(run, vector, [])
-    if output.status != "ok":
-        return []
-    found = scales(drive, vector, [run], [output.signals])
-    return [found, *({**found, "time_step": step, "duration": duration} for step, duration in RATES)]
-
-
-def under_usual_input(run: Run, drive: Drive, vector: Array) -> Run:
-    """The run with a usual input instead of its own, which may be much weaker; nothing of it was recorded.
+def scales_of_input(runs: Sequence[Run], drive: Drive, simulator: Simulator, vector: Array) -> list[dict[str, float]]:
+    """The scales that the inputs of runs show through the motor alone; none of a motor that runs away.
 
     `vector`: parameters (all,).
     """
-    usual = np.full(run.input.size, drive.usual_input(motor_values(vector)))
-    nothing = np.empty(0)
-    return replace(run, input=usual, applied_input=None, current=nothing, speed=nothing, position=nothing)
+    outputs = [simulator.simulate(run, vector, []) for run in runs]
+    if any(output.status != "ok" for output in outputs):
+        return []
+    return [scales(drive, vector, runs, [output.signals for output in outputs])]
+
+
+def usual_scales(drive: Drive, simulator: Simulator, vector: Array) -> list[dict[str, float]]:
+    """The scales that a drive shows when it is run from rest with a usual input: by rows of a fast and of a long run.
+
+    `vector`: parameters (all,).
+    """
+    given = np.full(USUAL_ROWS, drive.usual_input(motor_values(vector)))
+    times = [step * np.arange(USUAL_ROWS, dtype=np.float64) for step in USUAL_STEPS]
+    runs = [Run(name="usual", time=time, input=given) for time in times]
+    both = scales_of_input(runs, drive, simulator, vector)
+    return [{**one, "time_step": float(t[1]), "duration": float(t[-1])} for one in both for t in times]
 
 
 def _best(run: Run, output: dict[str, Array], signal: str) -> Array:

@@ -25,7 +25,7 @@ from rwn.simulate.declared import check_declared, surely_passes
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.initial_state import nearest_state
 from rwn.simulate.run import Run, run_of
-from rwn.simulate.scales import scales_of_input, under_usual_input
+from rwn.simulate.scales import scales_of_input, usual_scales
 from rwn.simulate.simulator import Simulator
 from rwn.values import Shown, Values
 
@@ -114,13 +114,11 @@ def _check_size(model: Model, run: Run, simulator: Simulator, vector: Array) -> 
     A usual input is simulated only where this one does not settle it.
     """
     drive = model.drive
-    known = scales_of_input(run, drive, simulator, vector)
+    known = scales_of_input([run], drive, simulator, vector)
     if surely_passes(model, known):
         return
-    known += scales_of_input(under_usual_input(run, drive, vector), drive, simulator, vector)
-    if known:
-        told = f"under this input or {drive.usual_input(model.motor):.2g} {drive.input_unit}"
-        check_declared(model, known, told=told)
+    told = f"under this input or {drive.usual_input(model.motor):.2g} {drive.input_unit}"
+    check_declared(model, known, usual_scales(drive, simulator, vector), told=told)
 
 
 def _believable(values: Array) -> Flags:
