@@ -21,7 +21,6 @@ from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
-from rwn.summation import total
 
 RIVAL = 0.05  # evidence against that of the leading explanation, from which a name is among those not told apart
 LARGEST_SET = 3  # names that are still an answer
@@ -88,7 +87,7 @@ def _acting(name: str, found: Evidence, rivals: Mapping[str, float]) -> ActingEf
     together = calibration().probability(found)
     return ActingEffect(
         name=name,
-        probability=together / (1.0 + total(rivals.values())),
+        probability=together / (1.0 + sum(rivals.values())),
         together=together,
         share=float(np.clip(found.share, 0.0, 1.0)),
         evidence=found,

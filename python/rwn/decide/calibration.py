@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.decide.evidence import Evidence
-from rwn.summation import total
 
 Array = NDArray[np.float64]
 
@@ -49,7 +48,7 @@ class Calibration:
 
     def probability_by(self, **known: float) -> float:
         """Probability that it acts where some features alone are known, by name; the others count as usual."""
-        z = total(
+        z = sum(
             weight * (_SCALES[name](known[name]) - mean) / deviation
             for name, weight, mean, deviation in zip(FEATURES, self.weights, self.means, self.deviations, strict=True)
             if name in known

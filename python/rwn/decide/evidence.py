@@ -27,7 +27,6 @@ from rwn.name.weights import RankedFit, effective_samples, weighed_beside
 from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
-from rwn.summation import total
 
 Array = NDArray[np.float64]
 
@@ -107,7 +106,7 @@ class CrossValidation:
     def _odds(self, other: RankedFit) -> float:
         """Against another explanation: by what was fitted, and by what was kept back."""
         found = self._leading.score - other.score
-        return found + total(_predicted(judge, self._leading.final, other.final) for judge in self._heldout)
+        return found + sum(_predicted(judge, self._leading.final, other.final) for judge in self._heldout)
 
     @property
     def birge(self) -> float:

@@ -14,7 +14,6 @@ from rwn.fit.fit import NEAR_ITS_END, Fit, refit
 from rwn.fit.problem import Problem
 from rwn.fit.unknown import prior_cost
 from rwn.measurement.likelihood import log_likelihoods, under_own_colour
-from rwn.summation import total
 
 ROUNDS = 4  # of fits under a noise that is estimated anew
 NO_MORE = 1.0  # logarithm of a likelihood from which a round is no better than the one before
@@ -30,7 +29,7 @@ class Innovations(NamedTuple):
     @property
     def log_posterior(self) -> float:
         """Of the fit, all signals together; up to a constant."""
-        return total(self.likelihoods.values()) - 0.5 * self.prior_cost
+        return sum(self.likelihoods.values()) - 0.5 * self.prior_cost
 
     def log_odds(self, other: Innovations, samples: int) -> float:
         """Log evidence for the fit against another of the same `samples`.

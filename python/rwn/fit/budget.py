@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 
 from rwn import _core
-from rwn.summation import total
 
 TOTAL = 13e9  # work of a usual search by so many effects: 16 s of one core of 2026, 10 s of two
 STAGE = 0.1  # share of the work that is left, for the fits of a stage together
@@ -57,8 +56,8 @@ def equal_shares(work: _core.Work, count: int) -> list[float]:
 
 def shares_of_steps(work: _core.Work, costs: list[float]) -> list[float]:
     """What fits may cost that are to come equally far, given what a step of each costs."""
-    whole = max(total(costs), 1.0)
-    return [one_stage(work) * cost / whole for cost in costs]
+    total = max(sum(costs), 1.0)
+    return [one_stage(work) * cost / total for cost in costs]
 
 
 def shares_by_rank(work: _core.Work, costs: list[float]) -> list[float]:

@@ -13,7 +13,6 @@ from rwn.fit.problem import Problem
 from rwn.recording.noise import WHITE
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
-from rwn.summation import total
 
 Array = NDArray[np.float64]
 
@@ -138,7 +137,7 @@ def variances(problem: Problem, this: Fit) -> dict[str, float]:
 def variance(problem: Problem, this: Fit) -> float:
     """Mean squared weighted error of a fit over all recordings and signals; 1: noise alone, inf: it ran away."""
     joined = join(problem, problem.residuals(this.vector, this.active))
-    left = total(_energies(joined).values()) / max(_count(joined), 1)
+    left = sum(_energies(joined).values()) / max(_count(joined), 1)
     return left if left < RAN_AWAY else np.inf
 
 
@@ -172,10 +171,10 @@ def losses(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> Array:
 def statistics_of(joined: Mapping[str, Array]) -> Statistics:
     """Statistics of weighted residuals (n,) by signal."""
     energies, count = _energies(joined), _count(joined)
-    whole = total(energies.values())
+    whole = sum(energies.values())
     if whole > RAN_AWAY:  # a simulation that ran away shows one thing
         return Statistics(count=count, variance=np.inf, correlation_time=float(max(count, 1)), coloured=np.inf)
-    correlated = total(energies[s] * correlation_time(r) for s, r in joined.items())
+    correlated = sum(energies[s] * correlation_time(r) for s, r in joined.items())
     return Statistics(
         count=count,
         variance=whole / max(count, 1),

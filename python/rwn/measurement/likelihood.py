@@ -21,7 +21,6 @@ from rwn.fit.unknown import prior_cost
 from rwn.recording.interpolated import between_ticks
 from rwn.recording.noise import autoregression
 from rwn.simulate.run import Run
-from rwn.summation import total
 
 Array = NDArray[np.float64]
 
@@ -53,7 +52,7 @@ def under_own_colour(problem: Problem, this: Fit) -> Problem:
 
 def log_likelihood(problem: Problem, this: Fit) -> float:
     """Of what a fit leaves, all signals together; up to a constant."""
-    return total(log_likelihoods(problem, this).values())
+    return sum(log_likelihoods(problem, this).values())
 
 
 def log_likelihoods(problem: Problem, this: Fit) -> dict[str, float]:

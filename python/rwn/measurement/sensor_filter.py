@@ -26,7 +26,6 @@ from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior
 from rwn.measurement.noise_spectrum import FASTEST, NoiseColour
 from rwn.parallel import side_by_side
 from rwn.recording.filters import share_before
-from rwn.summation import total
 
 Array = NDArray[np.float64]
 
@@ -85,7 +84,7 @@ def filters_and_likelihood(
 def _by_noise(told: Mapping[str, NoiseColour], filters: Sequence[SensorFilter]) -> float:
     """How likely (log) the noise by itself is with these filters; `told`: what it shows of each signal."""
     shares = {f.signal: f.share for f in filters}
-    return total(one.log_likelihood(shares.get(signal, 0.0)) for signal, one in told.items())
+    return sum(one.log_likelihood(shares.get(signal, 0.0)) for signal, one in told.items())
 
 
 def _filters_beside(

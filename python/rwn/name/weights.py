@@ -9,7 +9,6 @@ import numpy as np
 
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
-from rwn.summation import total
 
 LOST = 1e12  # log of evidence against a fit whose simulation ran away: what no recording outweighs, and still a number
 
@@ -69,7 +68,7 @@ def weigh(
     scores = []
     for f in finals:
         unknowns = f.unknowns_seen - base
-        names = total((prior or {}).get(name, 0.0) for name in f.added)
+        names = sum((prior or {}).get(name, 0.0) for name in f.added)
         scores.append(
             -(min((f.cost - least) / scale, LOST) if np.isfinite(f.cost) else LOST)
             - 0.5 * unknowns * np.log(max(effective, 2.0))

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
-from rwn.summation import total
 
 Array = NDArray[np.float64]
 
@@ -57,8 +56,8 @@ def autoregression(errors: Sequence[Array], order: int) -> Noise:
     backward, reflection = forward, list[float]()
     for _ in range(order):
         pairs = [(f[1:], b[:-1]) for f, b in zip(forward, backward, strict=True) if f.size > 1]
-        energy = total(float(f @ f + b @ b) for f, b in pairs)
-        last = float(np.clip(2.0 * total(float(f @ b) for f, b in pairs) / energy, -STABLE, STABLE)) if energy else 0.0
+        energy = sum(float(f @ f + b @ b) for f, b in pairs)
+        last = float(np.clip(2.0 * sum(float(f @ b) for f, b in pairs) / energy, -STABLE, STABLE)) if energy else 0.0
         forward, backward = [f - last * b for f, b in pairs], [b - last * f for f, b in pairs]
         reflection.append(last)
     new = np.concatenate(forward) if forward else np.zeros(1)
