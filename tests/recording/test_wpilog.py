@@ -60,6 +60,12 @@ def test_the_entries_of_a_routine_are_known_by_their_beginnings(tmp_path: Path) 
         read_recording(_routine(tmp_path, "left", "right"), layout=Layout(profile="sysid"))
 
 
+@pytest.mark.parametrize("motors", [("left",), ("left", "right")])
+def test_without_the_profile_the_refusal_names_it(motors: tuple[str, ...], tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"no column is called like a signal; .*fix: --profile sysid, which knows"):
+        read_recording(_routine(tmp_path, *motors))
+
+
 def test_what_is_lost_of_a_log_is_said(tmp_path: Path) -> None:
     path = _routine(tmp_path, "left")
     layout = Layout(profile="sysid")

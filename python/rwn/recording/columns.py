@@ -14,8 +14,8 @@ from rwn.errors import InputError, closest, plain
 from rwn.recording import units
 from rwn.recording.formats import Table
 from rwn.recording.intersample import AUTO, known_law
-from rwn.recording.profiles import Wanted, names_of, profile, sources
-from rwn.recording.signals import COLUMNS, Signal, meant
+from rwn.recording.profiles import Wanted, exporters, names_of, profile, sources
+from rwn.recording.signals import COLUMNS, TIME, Signal, meant
 
 Initial = Literal["auto", "rest", "estimate"]
 Array = NDArray[np.float64]
@@ -92,7 +92,7 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
     slips = {name: signal for name in others if (signal := meant(name)) is not None and signal not in mapping}
     if slips:
         raise _no_known_signals(table, slips)
-    if not mapping:
+    if not set(mapping) - {TIME.name}:
         parts = [name.rpartition(".")[0] for name in table.units if name.rpartition(".")[2] in COLUMNS]
         if any(parts):
             raise InputError(
@@ -101,11 +101,15 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
                 expected="the one that is meant",
                 fix=f"write it after the file: {table.where}#{next(filter(None, parts))}",
             )
+        exported_by = exporters(table.units)
+        source = next((name for name in table.units if name != TIME.name), "w")
         raise InputError(
             f"no column is called like a signal; there are {', '.join(table.units) or 'none'}",
             where=table.where,
             expected="a column map, [recording.columns] in the model file",
-            fix=f'write for instance: columns.speed = {{ source = "{next(iter(table.units), "w")}", unit = "rad/s" }}',
+            fix=f"--profile {exported_by[0]}, which knows these names"
+            if exported_by
+            else f'write for instance: columns.speed = {{ source = "{source}", unit = "rad/s" }}',
         )
     return mapping
 

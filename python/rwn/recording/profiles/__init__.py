@@ -100,6 +100,22 @@ def sources(known: Profile, names: Collection[str], *, where: object) -> Mapping
     return found
 
 
+def exporters(names: Collection[str]) -> list[str]:
+    """The profiles that know an input and what it moved by such names, those of most signals first."""
+    found = {name: _signals_of(profile(name), names) for name in PROFILES}
+    driven = [n for n, of in found.items() if of & {"voltage", "current", "torque"} and of & {"speed", "position"}]
+    return sorted(driven, key=lambda name: -len(found[name]))
+
+
+def _signals_of(known: Profile, names: Collection[str]) -> set[str]:
+    """The signals that a profile knows by some of `names`."""
+    return {
+        signal
+        for signal, column in known.columns.items()
+        if any(_ends(name, wanted.lower()) for name in names for wanted in column.names)
+    }
+
+
 def _ends(name: str, end: str) -> bool:
     plain = name.lower()
     return plain == end or (plain.startswith(end) if end.endswith("-") else plain.endswith(f".{end}"))
