@@ -1,9 +1,9 @@
 """Builds the wheel twice, from two folders, and compares their files and what they answer: `make wheels`.
 
-Each is installed by pip into an empty environment, with what it says it needs and no more: every module must load
-there, and the command diagnoses the demonstration. So is the wheel that each other --python builds, in an environment
-of its own. Exit code 1 where a byte differs that is not the time of a file, where a committed file of the package is
-missing, or where the installed wheels answer differently.
+Each is installed by pip into an empty environment, with what it says it needs and no more, numpy and scipy in the
+versions of this environment: every module must load there, and the command diagnoses the demonstration. So is the wheel
+that each other --python builds, in an environment of its own. Exit code 1 where a byte differs that is not the time of
+a file, where a committed file of the package is missing, or where the installed wheels answer differently.
 """
 
 from __future__ import annotations
@@ -14,11 +14,13 @@ import os
 import subprocess
 import sys
 import zipfile
+from importlib.metadata import version
 from pathlib import Path
 
 from tools.trust import page
 from tools.trust.aside import folder_aside
 
+NUMERICS = ("numpy", "scipy")  # of the same version under every Python: the last digits are theirs
 ROOT = Path(__file__).resolve().parents[2]
 EVERY_MODULE = """
 import importlib, pkgutil, sys
@@ -75,7 +77,7 @@ def installed(python: str, wheel: Path, folder: Path) -> tuple[str, str, str]:
         command = [str(folder / "venv" / "bin" / words[0]), *words[1:]]
         return subprocess.run(command, cwd=folder, env=apart(), check=True, stdout=subprocess.PIPE, text=True).stdout
 
-    run("pip", "install", "-q", "--disable-pip-version-check", str(wheel))
+    run("pip", "install", "-q", "--disable-pip-version-check", str(wheel), *(f"{n}=={version(n)}" for n in NUMERICS))
     run("pip", "check")
     modules = run("python", "-c", EVERY_MODULE).strip()
     run("rwn", "demo", "--out", "demo-out")
@@ -111,7 +113,8 @@ def main() -> int:
         f"{'the same' if whole else 'not the same'} file. {len(missing)} committed files of the packages are missing"
         f"{': ' + ', '.join(missing) if missing else ''}.",
         "Each was installed by pip into an empty environment with what it requires alone, and so was the wheel of each "
-        "other Python: modules that load there, and the digest of the diagnosis.json that `rwn demo` writes.",
+        f"other Python, all with {' and '.join(f'{n} {version(n)}' for n in NUMERICS)}, whose rounding differs between "
+        "versions: modules that load there, and the digest of the diagnosis.json that `rwn demo` writes.",
         page.table(("built and run by", "modules", "diagnosis.json"), found),
     )  # fmt: skip
     return 1 if differ or missing or len({answer for _, _, answer in found}) != 1 else 0
