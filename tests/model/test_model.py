@@ -174,13 +174,20 @@ def test_nominal_parameters_are_those_of_the_core() -> None:
 
 
 @pytest.mark.parametrize(("linear", "unit"), [(False, "N m"), (True, "N")])
-def test_effects_are_written_with_their_units(*, linear: bool, unit: str, tmp_path: Path) -> None:
+def test_effects_are_written_and_read_in_the_units_of_their_drive(*, linear: bool, unit: str, tmp_path: Path) -> None:
+    """An actuator's law is of the input: a dead zone of volts in a motor's, of newtons in an axis'."""
+    effects = {"coulomb-friction": {"coulomb_torque": 20.4}, "actuator-deadzone": {"deadzone": 1.5}}
     values = {"inertia": 95.0, "viscous_friction": 203.5}
-    model = Model(
-        kind="axis", linear=linear, parameters=values, effects={"coulomb-friction": {"coulomb_torque": 20.4}}
-    )
+    model = Model(kind="axis", linear=linear, parameters=values, effects=effects)
     write_model(model, tmp_path / "model.toml")
-    assert f"coulomb_torque = 20.4  # {unit}\n" in (tmp_path / "model.toml").read_text(encoding="utf-8")
+    text = (tmp_path / "model.toml").read_text(encoding="utf-8")
+    assert f"coulomb_torque = 20.4  # {unit}\n" in text
+    assert f"deadzone = 1.5  # {unit}\n" in text
+    assert [model.unit(name) for name in model.effect_values] == [unit, unit]
+    written_out = text.replace("= 20.4", f'= "20.4 {unit}"').replace("= 1.5", f'= "1.5 {unit}"')
+    assert _read(tmp_path, written_out).effects == model.effects
+    with pytest.raises(InputError, match="wrong dimension"):
+        _read(tmp_path, text.replace("= 1.5", '= "1.5 V"'))
 
 
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)

@@ -6,17 +6,17 @@ from pathlib import Path
 
 from rwn.errors import InputError
 from rwn.input_file import input_file, path_of
-from rwn.model.model import EffectTable, Model
+from rwn.model.model import Model
 from rwn.model.toml_reader import parse_model
 from rwn.model.toml_writer import format_model
 
 
-def read_model(path: str | Path, *, effects: EffectTable | None = None) -> Model:
-    """Read the model file at `path`; see docs/models.md. `effects`: what may stand in [effects] (default: all known).
+def read_model(path: str | Path) -> Model:
+    """Read the model file at `path`; see docs/models.md.
 
     Raises InputError: what, in which table and key, what was expected, how to fix it.
     """
-    return parse_model(_read_text(path_of(path, "motor.toml")), where=str(path), effects=effects)
+    return parse_model(_read_text(path_of(path, "motor.toml")), where=str(path))
 
 
 def model_of(source: Model | str | Path) -> Model:

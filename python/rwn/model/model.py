@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from html import escape
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,6 @@ from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
 from rwn.model.own_effects import OwnEffect, check_constants, check_own_effects, with_own
 from rwn.model.vocabulary import Effect, Parameter
 from rwn.recording.columns import Layout
-from rwn.recording.units import linear_unit
 from rwn.values import Shown, table_of_rows
 
 if TYPE_CHECKING:
@@ -48,16 +47,6 @@ class EffectParameter(Protocol):
     def fixed(self) -> bool:
         """Whether it is a constant, never fitted."""
 
-
-class EffectEntry(Protocol):
-    """What is read of one effect of the table."""
-
-    @property
-    def parameters(self) -> tuple[Any, ...]:
-        """Each an EffectParameter."""
-
-
-EffectTable = Mapping[str, EffectEntry]
 
 GRAVITY = 9.80665  # standard gravity [m/s^2]
 LOADS = {
@@ -213,8 +202,7 @@ class Model(Shown):
     def unit(self, parameter: str) -> str:
         """SI unit of a nominal parameter, or of one of an effect as "effect.parameter"."""
         if parameter in self.effect_values:
-            unit, own = self.effect_values[parameter][0].unit, self.effect_table[parameter.split(".")[0]].own
-            return linear_unit(unit) if self.linear and not own else unit  # a user has written units as they are
+            return self.drive.unit_of(self.effect_table[parameter.split(".")[0]], self.effect_values[parameter][0].unit)
         entry = next(p for p in self.nominal if p.name == parameter)
         return (entry.linear_unit if self.linear else entry.unit) or entry.unit
 
@@ -232,8 +220,3 @@ def _require(names: Iterable[str], kind: str, known: Iterable[str], *, where: st
     for name in names:
         if name not in known:
             raise unknown(kind, name, known, where=where)
-
-
-def effect_table() -> EffectTable:
-    """The effects that rwn knows, from the core."""
-    return cast(EffectTable, vocabulary.table())

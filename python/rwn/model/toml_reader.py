@@ -8,10 +8,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rwn.errors import InputError, plain, unknown
+from rwn.model import vocabulary
 from rwn.model.checks import LARGEST, check_numbers
 from rwn.model.drives import KINDS
 from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
-from rwn.model.model import LOADS, EffectTable, Model, effect_table
+from rwn.model.model import LOADS, Model
 from rwn.model.own_effects import OwnEffect, check_own_effects
 from rwn.model.toml_own_effects import from_entry
 from rwn.model.toml_schema import ColumnEntry, File, LoadTable, Number, RecordingTable, decode
@@ -24,7 +25,7 @@ from rwn.recording.signals import COLUMNS, MEASURED, TIME
 _MOST_ROWS = 10**6  # that one row stands for: what is fitted has at least 50 of them, and no bench records 5e7
 
 
-def parse_model(text: str, *, where: str, effects: EffectTable | None = None) -> Model:
+def parse_model(text: str, *, where: str) -> Model:
     """The model that `text` describes. Raises InputError."""
     file = decode(text, where)
     place = f"{where}, [motor]"
@@ -43,7 +44,7 @@ def parse_model(text: str, *, where: str, effects: EffectTable | None = None) ->
         kind=drive.kind,
         parameters=parameters,
         uncertainty=uncertainty,
-        effects=_effects(file.effects, own, effects, where) if file.effects else {},
+        effects=_effects(file.effects, own, drive, where) if file.effects else {},
         own_effects=tuple(own.values()),
         load=_load(file.load, drive, where),
         linear=linear,
@@ -135,21 +136,24 @@ def _deviation(value: Number, where: str) -> float:
 def _effects(
     given: Mapping[str, Mapping[str, Number]],
     own: Mapping[str, OwnEffect],
-    table: EffectTable | None,
+    drive: Drive,
     where: str,
 ) -> dict[str, dict[str, float]]:
-    table = {**(effect_table() if table is None else table), **own}
+    known = vocabulary.table()
     found: dict[str, dict[str, float]] = {}
     for name, values in given.items():
         place = f"{where}, [effects.{name}]"
-        if name not in table:
-            raise unknown("effect", name, table, where=f"{where}, [effects]")
-        entries = {p.name: p for p in table[name].parameters}
+        if name not in known and name not in own:
+            raise unknown("effect", name, [*known, *own], where=f"{where}, [effects]")
+        if name in own:
+            entries = {p.name: p.unit for p in own[name].parameters}  # as the user has written them
+        else:
+            entries = {p.name: drive.unit_of(known[name], p.unit) for p in known[name].parameters}
         for key in values:
             if key not in entries:
                 raise unknown("parameter", key, entries, where=place)
-        found[name] = {k: _number(v, _si(entries[k].unit), f"{place} {k}") for k, v in values.items()}
-    second = [name for name in found if getattr(table[name], "second_mass", False)]
+        found[name] = {k: _number(v, _si(entries[k]), f"{place} {k}") for k, v in values.items()}
+    second = [name for name in found if name in known and known[name].second_mass]
     if len(second) > 1:
         raise InputError(
             f"{' and '.join(second)} each bring a second mass",

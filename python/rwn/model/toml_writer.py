@@ -9,7 +9,6 @@ import msgspec
 from rwn.model.model import Model
 from rwn.model.toml_own_effects import to_lines
 from rwn.recording.columns import Layout
-from rwn.recording.units import linear_unit
 
 
 def format_model(model: Model) -> str:
@@ -33,8 +32,7 @@ def _parameter_lines(model: Model) -> list[str]:
 
 def _effect_lines(model: Model, name: str, values: Mapping[str, float]) -> list[str]:
     effect = model.effect_table[name]
-    rotary = model.linear and not effect.own  # a user has written units as they are
-    return _commented(values, {p.name: linear_unit(p.unit) if rotary else p.unit for p in effect.parameters})
+    return _commented(values, {p.name: model.drive.unit_of(effect, p.unit) for p in effect.parameters})
 
 
 def _commented(values: Mapping[str, float], units: Mapping[str, str]) -> list[str]:

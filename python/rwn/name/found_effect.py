@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rwn.fit.intervals import NO_WIDENING, Estimate, Widening, estimates
+from rwn.model.drives.drive import Drive
 from rwn.model.vocabulary import Effect
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
@@ -34,8 +35,8 @@ def found_effects(
     """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts)."""
     final = chosen.final
     numbers, known = estimates(final, ranking.counted, widening=widening), final.hypothesis.table
-    if ranking.problem.drive.linear:
-        numbers = {name: replace(e, unit=_unit_on_an_axis(name, e.unit, known)) for name, e in numbers.items()}
+    drive = ranking.problem.drive
+    numbers = {name: replace(e, unit=_unit(name, e.unit, drive, known)) for name, e in numbers.items()}
     rows = []
     for name, probability in probabilities.items():
         effect = known[name]
@@ -44,7 +45,8 @@ def found_effects(
         }
         for p in effect.parameters:
             if p.fixed:
-                parameters[p.name] = Estimate(value=float(final.vector[effect.at(p.name)]), unit=p.unit)
+                value = float(final.vector[effect.at(p.name)])
+                parameters[p.name] = Estimate(value=value, unit=drive.unit_of(effect, p.unit))
         rows.append(
             FoundEffect(
                 name=name,
@@ -73,7 +75,9 @@ def coarse_speed(ranking: Ranking) -> FoundEffect | None:
     )  # fmt: skip
 
 
-def _unit_on_an_axis(unknown: str, unit: str, known: Mapping[str, Effect]) -> str:
-    """The unit of an unknown of a linear axis; a user has written those of own effects as they are."""
+def _unit(unknown: str, unit: str, drive: Drive, known: Mapping[str, Effect]) -> str:
+    """The unit of an unknown on this drive, where the tables have `unit`."""
     owner = known.get(unknown.split(".")[0])
-    return unit if owner is not None and owner.own else linear_unit(unit)
+    if owner is not None:
+        return drive.unit_of(owner, unit)
+    return linear_unit(unit) if drive.linear else unit

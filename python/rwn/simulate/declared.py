@@ -34,10 +34,11 @@ def check_declared(
         lower, upper = _bounds(p, known, usual, model)
         if not lower <= value <= upper:
             beyond = "a part of the " if _is_a_part(p) else f"far beyond {p.lower:g} to {p.upper:g} x "
+            unit = model.drive.unit_of(effect, p.unit)
             raise InputError(
-                f"{p.name} is {value:g} {p.unit}",
+                f"{p.name} is {value:g} {unit}",
                 where=f"{model.source or 'model'}, [effects.{effect.name}]",
-                expected=f"{lower:.2g} to {upper:.2g} {p.unit}: {beyond}{p.scale.words} of the drive, {told}",
+                expected=f"{lower:.2g} to {upper:.2g} {unit}: {beyond}{p.scale.words} of the drive, {told}",
                 fix=f"correct the value or its unit, or the unit of the recordings; see rwn effects {effect.name}",
             )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,10 @@ from numpy.typing import NDArray
 from rwn import _core
 from rwn.errors import InputError, unknown
 from rwn.recording.signals import SIGNALS
+from rwn.recording.units import linear_unit
+
+if TYPE_CHECKING:
+    from rwn.model.vocabulary import Effect
 
 Numbers = TypeVar("Numbers", float, NDArray[np.float64])
 
@@ -77,6 +81,13 @@ class Drive:
         """The SI unit of the input."""
         signal = SIGNALS[self.input]
         return signal.linear_unit if self.linear else signal.unit
+
+    def unit_of(self, effect: Effect, unit: str) -> str:
+        """The SI unit of a parameter of an effect on this drive, where the table has `unit`."""
+        if effect.own:  # a user has written units as they are
+            return unit
+        here = linear_unit(unit) if self.linear else unit
+        return here.replace("V", self.input_unit) if effect.site == "actuator" else here
 
     def driving_torque(self, motor: Mapping[str, float], current: Numbers, given: Numbers) -> Numbers:  # noqa: ARG002
         """What drives the mechanics [N m] at a current [A] and an input; numbers or (n,) each.
