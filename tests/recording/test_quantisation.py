@@ -24,6 +24,14 @@ def test_the_steps_of_a_coarse_converter_are_found() -> None:
     assert quantum(coarse) == pytest.approx(2.337)
 
 
+def test_steps_on_the_edge_of_two_last_digits_are_steps() -> None:
+    """78.125 rpm written with six digits: 8359.375 stands there as 8359.37 and as 8359.38."""
+    counts = 78.125 * np.round(np.gradient(ANGLE, 1e-3) / 4.0)
+    written = np.array([float(f"{x + d:.6g}") for x, d in zip(counts, 1e-9 * (-1.0) ** np.arange(4000), strict=True)])
+    assert np.unique(written).size > 1.2 * np.unique(counts).size
+    assert quantum(written) == pytest.approx(78.125, rel=1e-5)
+
+
 def test_the_decimals_of_a_file_are_no_steps() -> None:
     rng = np.random.default_rng(0)
     assert quantum(np.round(100.0 * rng.standard_normal(4000), 3)) == 0.0

@@ -21,8 +21,16 @@ def quantum(signal: Array) -> float:
         return 0.0
     values: Array = np.unique(signal - signal[0])
     gaps = np.diff(values)
-    apart = gaps > 1e-9 * max(float(np.ptp(values)), 1e-300)  # others differ by how they were computed
-    values, gaps = values[np.append(apart, True)], gaps[apart]
+    if gaps.size < 2:
+        return 0.0
+    computed = 1e-9 * max(float(np.ptp(values)), 1e-300)  # values nearer to each other differ by how they were computed
+    written = 1e-3 * float(np.percentile(gaps, 75))  # or by how they were written: one on the edge of two last digits
+    return max(_step(values[np.append(gaps > least, True)], signal.size) for least in (computed, written))
+
+
+def _step(values: Array, samples: int) -> float:
+    """The step that different `values` (n,), ascending, of a signal of so many samples are multiples of; 0: none."""
+    gaps = np.diff(values)
     if gaps.size < 2:
         return 0.0
     step = float(np.median(gaps[gaps < 1.5 * np.percentile(gaps, 5)]))
@@ -38,7 +46,7 @@ def quantum(signal: Array) -> float:
     if step <= 0.0:
         return 0.0
     off = np.abs(values / step - np.round(values / step))
-    repeats = values.size < signal.size / 3
+    repeats = values.size < samples / 3
     return step if np.percentile(off, 95) < 0.1 and (repeats or not _decimal(step)) else 0.0
 
 
