@@ -77,3 +77,24 @@ def test_a_bias_of_a_sensor_is_no_lag_that_a_late_channel_may_be_instead(
     biased = next(r for r in ranking.fits if r.added == ("sensor-bias",))
     monkeypatch.setattr(delay, "_shifts", lambda *_: pytest.fail("it was asked"))
     assert shift_instead([late], model, [], replace(ranking, fits=(biased,))) is None
+
+
+@pytest.mark.parametrize("late", [True, False])
+def test_a_current_is_late_where_that_fits_as_well_as_an_input_that_is(model: Model, late: bool) -> None:
+    """The inductance gives way to the delay that was named, and the speed hardly shows it."""
+    model = replace(model, uncertainty={**model.uncertainty, "inductance": 0.2})
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    recording = recording.beginning(len(recording) // 2)
+    step = float(np.median(np.diff(recording.time)))
+    effects = {} if late else {"input-delay": {"delay": step}}
+    out = rwn.simulate(replace(model, effects=effects), recording).signals
+    rng = np.random.default_rng(1)
+    noisy = {s: out[s] + 0.01 * out[s].std() * rng.standard_normal(out[s].size) for s in ("current", "speed")}
+    if late:
+        noisy["current"] = np.append(noisy["current"][0], noisy["current"][:-1])
+    signals = {"voltage": recording.signals["voltage"], **noisy}
+    recordings = [rwn.Recording(name="run", time=recording.time, signals=signals)]
+    ranking = rank(prepare(recordings, model), progress=_silent, names=["input-delay"], at_once=1)
+    assert ranking.fits[0].added == ("input-delay",)
+    fault = shift_instead(recordings, model, [], ranking)
+    assert (fault and (fault.signals, fault.delay)) == ((("current",), 1) if late else None)

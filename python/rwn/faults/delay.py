@@ -147,20 +147,20 @@ def refined(
 def shift_instead(
     recordings: Sequence[Recording], model: Model, filters: Sequence[SensorFilter], ranking: Ranking
 ) -> Fault | None:
-    """A channel that comes late by whole samples, where that fits no worse than the lag of its sensor that was named.
+    """A channel that comes late by whole samples, where that fits no worse than the lag or the delay that was named.
 
-    Filters of other channels, and physics, hide such a shift from a look at the nominal model. `filters`: of the
-    sensors, under which the ranking was found.
+    Filters of other channels, and physics, hide such a shift from a look at the nominal model; an inductance that gives
+    way makes it a delay of the input. `filters`: of the sensors, under which the ranking was found.
     """
     best, lagging = ranking.fits[0].fit, filtered(prepare(recordings, model), filters)
-    sensors = [name for name in best.added if _lags(lagging.prior.table[name])]
-    if not sensors or not lagging.drive.winding or any("current" not in r.signals for r in recordings):
+    late = [name for name in best.added if _comes_late(lagging.prior.table[name])]
+    if not late or not lagging.drive.winding or any("current" not in r.signals for r in recordings):
         return None
     (this,) = refitted_beside([best], lagging)
     lagging = with_noise_of(lagging, this)
     left = variance(lagging, this)
     found: dict[Fault, float] = {}
-    for name in sensors:
+    for name in late:
         others = tuple(other for other in best.added if other != name)
         bare = hypothesis(lagging.prior, others, lagging.scales, best.starts(others), best.motor)
         begun = Fit(hypothesis=bare, minimum=replace(this.minimum, values=bare.start))
@@ -175,9 +175,9 @@ def shift_instead(
     return replace(fault, removes=ErrorReduction(*shares))
 
 
-def _lags(effect: Effect) -> bool:
-    """Whether it is a sensor's and takes time: an offset or a rounding is no delay."""
-    return effect.site == "sensor" and any(p.unit == "s" for p in effect.parameters)
+def _comes_late(effect: Effect) -> bool:
+    """Whether signals come late by it: through a sensor that takes time, or since the input acts later."""
+    return effect.delays or (effect.site == "sensor" and any(p.unit == "s" for p in effect.parameters))
 
 
 def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:
