@@ -90,7 +90,7 @@ def test_the_difference_of_a_position_that_starts_from_rest_is_no_motion(recorde
     counts = np.round(512 / (2.0 * np.pi) * 40_000.0 * TIME**2) * (2.0 * np.pi / 512)
     speed = np.gradient(counts, TIME)
     signals = {"voltage": np.full(TIME.size, 5.0), "speed": speed} | ({"position": counts} if recorded else {})
-    assert initial_state_of(TIME, signals, MODEL).in_motion
+    assert initial_state_of(TIME, signals, MODEL).in_motion is not recorded  # taken for a speed
     assert not initial_state_of(TIME, signals, MODEL, way=CENTRAL).in_motion
 
 
@@ -100,3 +100,30 @@ def test_the_difference_of_a_position_that_moves_is_a_motion() -> None:
     start = initial_state_of(TIME, signals, MODEL, way=CENTRAL)
     assert start.in_motion
     assert start.state[1] == pytest.approx(60.0, rel=0.15)
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize(("first", "in_motion"), [(0.0, False), (12.0, True)])
+def test_a_start_from_rest_that_no_parabola_follows_is_a_rest(seed: int, first: float, in_motion: bool) -> None:
+    """A voltage that rises from 0 moves the shaft with the fourth power of the time, seen by a position alone."""
+    time = 0.5e-3 * np.arange(400)
+    noise = 4e-4 * np.random.default_rng(seed).standard_normal(time.size)
+    position = first * time + 2e6 * np.maximum(time - 1e-3, 0.0) ** 4 + noise
+    start = initial_state_of(time, {"voltage": 300.0 * time, "position": position}, MODEL)
+    assert start.in_motion is in_motion
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize(("first", "in_motion"), [(0.0, False), (6e-3, True)])
+def test_a_speed_whose_noise_lasts_is_no_motion_where_the_position_rests(
+    seed: int, first: float, in_motion: bool
+) -> None:
+    """The mean of 8 differences of a noisy position: differences show a third of its noise."""
+    noise = 1e-6 * np.random.default_rng(seed).standard_normal(TIME.size + 8)
+    position = first * TIME + 5e-4 * TIME**2 + noise[8:]
+    speed = first + 1e-3 * TIME + (noise[8:] - noise[:-8]) / 8e-3
+    speed[0] = first + 1.2e-3  # as far off as the noise has it now and then
+    speed[1:4] = speed[0] - np.array([3e-5, 9e-5, 3e-4])
+    axis = Model(kind="axis", parameters={"inertia": 40.0, "viscous_friction": 160.0}, linear=True)
+    signals = {"force": np.zeros(TIME.size), "speed": speed, "position": position}
+    assert initial_state_of(TIME, signals, axis).in_motion is in_motion

@@ -86,9 +86,45 @@ def is_moving(
 ) -> bool:  # fmt: skip
     """Whether the shaft turns, or current flows, at the first sample of signals (n,) in SI: more than their noise."""
     known_to = _known_to(signals, first, missing)
-    speed, off = _first_speed(time, signals, known_to, first, way)
     flowing = abs(_first_current(signals)) > CERTAIN * known_to.get("current", 0.0)
-    return abs(speed) > CERTAIN * off or flowing
+    speed, off = _first_speed(time, signals, known_to, first, way)
+    turning = abs(speed) > CERTAIN * off and not _starts_from_rest(speed, time, signals, known_to, first, way)
+    return turning or flowing
+
+
+def _starts_from_rest(
+    speed: float, time: Array, signals: Mapping[str, Array], known_to: Mapping[str, float], first: int,
+    way: SpeedMeasurement,
+) -> bool:  # fmt: skip
+    """Whether the first positions show a start from rest, whatever the first `speed` is.
+
+    They have to contradict a speed that was recorded, as where its noise lasts longer than its differences show. A
+    speed that is their own slope has to bring a curve nearer to them than any from rest.
+    """
+    travelled = _travelled(time, signals, known_to, first, way)
+    if travelled is None:
+        return False
+    position, noise = travelled
+    since, recorded = time[: position.size] - time[0], _is_recorded(signals, first, time, way)
+    rest = _misfit(since, position)
+    moving = _misfit(since, position - speed * since, moving=not recorded)
+    certainly = CERTAIN**2 * max(noise**2, min(rest, moving) / max(position.size - 3, 1))
+    return moving - rest > certainly if recorded else rest - moving <= certainly
+
+
+def _misfit(time: Array, position: Array, *, moving: bool = False) -> float:
+    """Squares that the nearest curve leaves of positions (n,): at rest up to a sample, a power of the time from there.
+
+    `moving`: on top of a motion of any speed. `time` (n,) begins with 0.
+    """
+    left = []
+    for begin in time[: max(time.size - 2, 1)]:
+        since = np.maximum((time - begin) / time[-1], 0.0)
+        for degree in range(2, MOST_DEGREE + 1):
+            powers = np.column_stack([np.ones(time.size), since**degree, *([time] if moving else [])])
+            found = np.linalg.lstsq(powers, position, rcond=None)[0]
+            left.append(float(np.sum((position - powers @ found) ** 2)))
+    return min(left)
 
 
 def _from_measured(signal: Array, missing: NDArray[np.bool_] | None, first: int) -> Array:
@@ -109,20 +145,36 @@ def _first_current(signals: Mapping[str, Array]) -> float:
     return float(signals["current"][0]) if "current" in signals else 0.0
 
 
+def _is_recorded(signals: Mapping[str, Array], first: int, time: Array, way: SpeedMeasurement) -> bool:
+    """Whether the first sample of a recorded speed is a speed there, not a difference over samples before."""
+    return "speed" in signals and (not way.is_difference or min(first, time.size - 1) < 2)
+
+
 def _first_speed(
     time: Array, signals: Mapping[str, Array], known_to: Mapping[str, float], first: int, way: SpeedMeasurement
 ) -> tuple[float, float]:
     """Speed at the first sample and its standard deviation; of a position alone, the slope of its first samples."""
-    k = min(first, time.size - 1)
-    if "speed" in signals and (not way.is_difference or k < 2):
+    if _is_recorded(signals, first, time, way):
         return float(signals["speed"][0]), known_to["speed"]
-    if "position" in signals and k >= 2:
-        return _first_slope(time[:k] - time[0], signals["position"][:k], known_to["position"])
-    if "speed" not in signals:
+    travelled = _travelled(time, signals, known_to, first, way)
+    if travelled is None:
         return 0.0, np.inf
+    position, noise = travelled
+    return _first_slope(time[: position.size] - time[0], position, noise)
+
+
+def _travelled(
+    time: Array, signals: Mapping[str, Array], known_to: Mapping[str, float], first: int, way: SpeedMeasurement
+) -> tuple[Array, float] | None:
+    """The first samples of the position, or of the sum of a speed that is its difference, and their noise."""
+    k = min(first, time.size - 1)
+    if "position" in signals and k >= 2:
+        return signals["position"][:k], known_to["position"]
+    if "speed" not in signals or not way.is_difference or k < 2:
+        return None
     step = float(np.median(np.diff(time[:k])))
     turned = integral(way, time[:k], signals["speed"][:k])
-    return _first_slope(time[:k] - time[0], turned, known_to["speed"] * step * (way.before + way.after))
+    return turned, known_to["speed"] * step * (way.before + way.after)
 
 
 def _first_slope(time: Array, position: Array, noise: float) -> tuple[float, float]:
