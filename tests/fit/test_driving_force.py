@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.fit.driving_force import BalancedRun, DrivingForceProblem
+from rwn.fit.driving_force import BalancedRun, DrivingForceProblem, balanced
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.residuals import statistics
+from rwn.recording.smoothing import LENGTHS
+from rwn.simulate.run import Run
 
 INERTIA, VISCOUS, COULOMB, COGGING, ORDER = 0.003, 0.05, 0.2, 0.3, 12
 STEP = 1e-3
@@ -76,3 +78,14 @@ def test_cogging_is_named_by_the_force_of_a_position_loop() -> None:
     force = next(r for r in found.heldout if r.signal == "driving force" and r.region == "all")
     assert force.corrected is not None
     assert force.corrected < 0.25 * force.refitted
+
+
+@pytest.mark.parametrize(("rate", "noise", "length"), [(500.0, 1e-9, LENGTHS[-1]), (20.0, 1e-4, LENGTHS[0])])
+def test_what_is_smoothed_away_of_the_force_and_the_noise_of_the_acceleration_are_weighed(
+    rate: float, noise: float, length: int
+) -> None:
+    """An exact force that changes within some rows or many, and the noise of a position."""
+    time = STEP * np.arange(4000)
+    position = np.sin(30.0 * time) + noise * np.random.default_rng(5).standard_normal(time.size)
+    run = Run(name="run", time=time, input=np.sin(rate * time), position=position)
+    assert np.median(np.diff(balanced(run, 1e-3).time)) == pytest.approx(length * STEP)

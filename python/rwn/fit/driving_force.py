@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from rwn.fit.noise import noise_of
 from rwn.fit.problem import Problem
 from rwn.parallel import side_by_side
-from rwn.recording.noise import Noise
+from rwn.recording.noise import Noise, noise_from_differences
 from rwn.recording.signals import DRIVING_FORCE
-from rwn.recording.smoothing import smooth, smoothing_length
+from rwn.recording.smoothing import LENGTHS, noise_gain, smooth, taken
 from rwn.simulate.inverse_dynamics import needed_force
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import NormalEquations
@@ -61,9 +61,9 @@ class BalancedRun(Run):
         return replace(super().until(end), velocity=self.velocity[:end], acceleration=self.acceleration[:end])  # type: ignore[call-arg,return-value]
 
 
-def balanced(run: Run) -> BalancedRun:
-    """A recording with a position as the balance of forces takes it, smoothed as far as leaves its force as it is."""
-    length, step = smoothing_length(run.input), run.sample_time
+def balanced(run: Run, inertia: float) -> BalancedRun:
+    """A recording with a position as the balance of forces takes it, of an axis of an `inertia` [kg m^2 or kg]."""
+    length, step = _length(run, inertia), run.sample_time
     rows = slice(length, run.time.size - length, length)
     flags = [run.missing[s] for s in ("speed", "position") if s in run.missing]
     lost = np.any(flags, axis=0) if flags else np.zeros(run.time.size, dtype=bool)
@@ -82,6 +82,17 @@ def balanced(run: Run) -> BalancedRun:
     )  # fmt: skip
 
 
+def _length(run: Run, inertia: float) -> int:
+    """The smoothing that errs least: by what it takes off the force, and by the noise in the force of inertia."""
+    noise = max(noise_from_differences(run.position), run.quantisation("position") / np.sqrt(12.0))
+
+    def error(length: int) -> float:
+        of_inertia = inertia * noise * noise_gain(length, derivative=2, step=run.sample_time)
+        return float(np.hypot(taken(run.input, length), of_inertia))
+
+    return min(LENGTHS, key=error)
+
+
 @dataclass(frozen=True, kw_only=True)
 class DrivingForceProblem(Problem):
     """As Problem; what is compared is the driving force along the recorded motion."""
@@ -97,7 +108,7 @@ class DrivingForceProblem(Problem):
 
     def on(self, runs: Sequence[Run]) -> Problem:
         """The problem on other recordings, judged by their driving force."""
-        return replace(self, runs=tuple(map(balanced, runs)))
+        return replace(self, runs=tuple(balanced(run, self.prior.motor["inertia"]) for run in runs))
 
     def residuals(self, vector: Array, active: Sequence[int]) -> list[dict[str, Array]]:
         """Recorded minus needed driving force (n,) [N m or N] per run; 0 where it is not compared."""
@@ -146,7 +157,7 @@ class DrivingForceProblem(Problem):
 
 def of_driving_force(problem: Problem) -> DrivingForceProblem:
     """The same problem judged by the force that the recorded motion took."""
-    runs = tuple(map(balanced, problem.runs))
+    runs = tuple(balanced(run, problem.prior.motor["inertia"]) for run in problem.runs)
     noise = noise_of(runs, [{DRIVING_FORCE: r.input} for r in runs])
     return DrivingForceProblem(
         drive=problem.drive, simulator=problem.simulator, runs=runs, whole=problem.whole, noise=noise,

@@ -28,13 +28,22 @@ def smooth(signal: Array, length: int, *, derivative: int = 0, step: float = 1.0
 
 def smoothing_length(signal: Array, *, resolution: float = 0.0) -> int:
     """The longest of LENGTHS that takes no more off the signal (n,) than its noise, `resolution` (rms) at the least."""
-    from scipy.signal import savgol_coeffs
-
-    def taken(length: int) -> float:  # noise that would explain what is smoothed away
-        left = 1.0 - float(savgol_coeffs(length, ORDER)[length // 2])
-        return float(np.sqrt(np.mean((signal - smooth(signal, length)) ** 2) / left))
-
     if signal.size <= LENGTHS[0]:
         return LENGTHS[0]
-    noise = max(taken(ORDER + 2), resolution)
-    return next((n for n in LENGTHS[:-1] if taken(n) <= UNTOUCHED * noise), LENGTHS[-1])
+    noise = max(taken(signal, ORDER + 2), resolution)
+    return next((n for n in LENGTHS[:-1] if taken(signal, n) <= UNTOUCHED * noise), LENGTHS[-1])
+
+
+def taken(signal: Array, length: int) -> float:
+    """The white noise (rms) that would explain what smoothing over `length` samples takes off a signal (n,)."""
+    from scipy.signal import savgol_coeffs
+
+    left = 1.0 - float(savgol_coeffs(length, ORDER)[length // 2])
+    return float(np.sqrt(np.mean((signal - smooth(signal, length)) ** 2) / left))
+
+
+def noise_gain(length: int, *, derivative: int, step: float) -> float:
+    """White noise (rms) of a derivative over `length` samples, of a signal of unit noise with samples `step` apart."""
+    from scipy.signal import savgol_coeffs
+
+    return float(np.linalg.norm(savgol_coeffs(length, ORDER, deriv=derivative, delta=step)))
