@@ -28,8 +28,10 @@ def _ranked(*added: str, score: float = 0.0) -> Any:
     return SimpleNamespace(added=added, score=score, final=f"fit of {added}")
 
 
-def _account(monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, Evidence]) -> tuple[Account, Any]:
-    """The account, and what the evidence was asked for."""
+def _account(
+    monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, Evidence], against: tuple[str, ...] = ()
+) -> tuple[Account, Any]:
+    """The account, and what the evidence was asked for; `against`: what the shaft alone contradicts."""
     asked: dict[str, Any] = {"rivals": {}}
 
     class CrossValidation:
@@ -42,8 +44,14 @@ def _account(monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, 
             asked["rivals"][name] = rivals
             return found[name]
 
+    def contradicted(*of: Any) -> tuple[str, ...]:
+        assert of == (asked["leading"].final, "the problem", MODEL)
+        return against
+
     monkeypatch.setattr(module, "CrossValidation", CrossValidation)
-    ranking: Any = SimpleNamespace(fits=fits, nothing_missing=next(f for f in fits if not f.added))
+    monkeypatch.setattr(module, "contradicted", contradicted)
+    nothing = next(f for f in fits if not f.added)
+    ranking: Any = SimpleNamespace(fits=fits, nothing_missing=nothing, problem="the problem")
     return account(ranking, HELDOUT, MODEL), asked
 
 
@@ -59,6 +67,13 @@ def test_the_account_is_of_the_best_explanation_that_has_effects(monkeypatch: py
     assert [e.evidence for e in found.effects] == [shares["b"], shares["a"]]
     assert found.effects[1].probability == calibration().probability(shares["a"])
     assert found.birge == 1.7
+
+
+def test_what_the_shaft_alone_contradicts_is_not_stated_and_the_others_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    fits = [_ranked("a", "b", score=4.0), _ranked(score=0.0)]
+    found, _ = _account(monkeypatch, fits, {"a": CERTAIN, "b": CERTAIN}, against=("b",))
+    assert {e.name: e.against for e in found.effects} == {"a": False, "b": True}
+    assert [e.name for e in found.stated] == ["a"]
 
 
 def test_a_law_that_elaborates_an_effect_is_no_evidence_against_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.elaboration import elaborated
 from rwn.decide.evidence import CrossValidation, Evidence
+from rwn.decide.shaft_alone import LEVEL, contradicted
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import join, structured, variance
 from rwn.model.model import Model
@@ -23,6 +24,7 @@ from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
 
 RIVAL = 0.05  # evidence against that of the leading explanation, from which a name is among those not told apart
+SURE = 0.99  # more is not told by a calibration on some hundred trials
 LARGEST_SET = 3  # names that are still an answer
 
 
@@ -36,11 +38,18 @@ class ActingEffect:
     share: float  # of the removable squared error, that goes with it and not without it
     evidence: Evidence
     rivals: tuple[str, ...] = ()  # that may act in its place
+    against: bool = False  # whether the shaft alone contradicts it (shaft_alone.py)
 
     @property
     def stated(self) -> bool:
         """Whether it or a rival acts more likely than not."""
         return self.together > ACTS
+
+    def contradicted(self) -> ActingEffect:
+        """With what such a contradiction leaves of its probability, which it would meet by chance alone if it acted."""
+        before = min(self.together, SURE)
+        left = before / self.together * LEVEL / (1.0 - before * (1.0 - LEVEL))  # Bayes; what does not act does meet it
+        return replace(self, probability=self.probability * left, together=self.together * left, against=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,6 +88,8 @@ def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     instead = {name: {*rivals[name], *family(name)} - {name} for name in leading.added}
     evidence = side_by_side(lambda name: validation.evidence(name, instead[name]), leading.added)
     rows = [_acting(name, e, rivals[name]) for name, e in zip(leading.added, evidence, strict=True)]
+    against = contradicted(leading.final, ranking.problem, model)
+    rows = [row.contradicted() if row.name in against else row for row in rows]
     return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading, birge=validation.birge)
 
 

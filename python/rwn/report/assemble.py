@@ -10,6 +10,7 @@ from rwn import _core
 from rwn._core import __version__
 from rwn.correct.correction import Correction
 from rwn.decide import excitation
+from rwn.decide.account import Account
 from rwn.decide.calibration import calibration
 from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
@@ -78,7 +79,8 @@ def assemble(
         curves=drawn,
         sensor_filters=filters,
         warnings=(
-            *_contradictions(chosen, model), *_warnings(ranking, chosen, rows, filters), *correction.warnings
+            *_contradictions(chosen, model), *_refuted(decision.account),
+            *_warnings(ranking, chosen, rows, filters), *correction.warnings,
         ),
         next_experiment=_next_experiment(ranking, said, alternatives, named=named),
         adequate_probability=ranking.nothing_missing.probability,
@@ -190,6 +192,17 @@ def _warnings(
             "limit: there the law bends towards one that it is not, and it is not named"
         )
     return tuple(texts)
+
+
+def _refuted(found: Account) -> Iterator[str]:
+    """What would be likelier, had the shaft by itself not told otherwise."""
+    for effect in found.effects:
+        if effect.against:
+            name = plain_name(effect.name)
+            yield (
+                f"driven by the recorded current, the shaft alone moves as it did without {name}, and not as with it: "
+                "the winding or what feeds it lacks something instead"
+            )
 
 
 def _contradictions(chosen: RankedFit, model: Model) -> Iterator[str]:

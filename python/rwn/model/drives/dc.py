@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from rwn.model.drives.axis import AXIS
 from rwn.model.drives.drive import MECHANICAL_TERMS, MECHANICS, USUAL_VOLTAGE, Drive, Numbers, OneNumber, nominal
 
 NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
@@ -17,6 +18,10 @@ class Winding(Drive):
     def driving_torque(self, motor: Mapping[str, float], current: Numbers, given: Numbers) -> Numbers:  # noqa: ARG002
         """Kt i, of numbers or (n,)."""
         return motor["torque_constant"] * current
+
+    def torque_spread(self, uncertainty: Mapping[str, float]) -> float:
+        """That of Kt."""
+        return float(uncertainty.get("torque_constant", 0.0))
 
     def resting_current(self, motor: Mapping[str, float], speed: Numbers, given: Numbers) -> Numbers:
         """Without inductance, of numbers or (n,): as that of the core's drive (drives/dc.hpp) without effects."""
@@ -81,4 +86,5 @@ DC = Winding(
     },
     one_numbers=(OneNumber(name="torque_constant", like="back_emf_constant", spread=0.02),),  # with a constant field
     winding=True,
+    mechanics=AXIS,
 )

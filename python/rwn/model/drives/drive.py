@@ -66,6 +66,7 @@ class Drive:
     linear: bool = False  # moves along a line: units of forces and metres
     shaft: bool = True  # turns, so that a pendulum may hang on it
     on_a_line: Drive | None = None  # the same moving along a line, where there is such
+    mechanics: Drive | None = None  # what its shaft is by itself, driven by the torque of a recorded current
 
     def nominal(self, order: int) -> tuple[NominalParameter, ...]:  # noqa: ARG002
         """The nominal parameters that a model of this kind can have; `order`: of a transfer function."""
@@ -95,6 +96,10 @@ class Drive:
         `motor`: values of its parameters, here and below.
         """
         return given
+
+    def torque_spread(self, uncertainty: Mapping[str, float]) -> float:  # noqa: ARG002
+        """Relative standard deviation of the driving torque at a known current; `uncertainty`: as of a model."""
+        return 0.0
 
     def resting_current(self, motor: Mapping[str, float], speed: Numbers, given: Numbers) -> Numbers:
         """The current [A] at which a winding is at rest with a speed [rad/s] under an input; numbers or (n,) each.

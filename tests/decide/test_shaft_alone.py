@@ -1,0 +1,80 @@
+"""The shaft by itself, driven by the recorded current, tells what acts on it from what acts on the winding."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rwn
+from made_up_motor import MOTOR
+from rwn.decide.account import ActingEffect
+from rwn.decide.evidence import Evidence
+from rwn.decide.shaft_alone import LEVEL, contradicted
+from rwn.fit.fit import Fit, fit
+from rwn.fit.hypothesis import hypothesis
+from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
+
+MODEL = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.05})
+DRAG = {"quadratic-drag": {"drag_coefficient": 1e-5}}
+BRUSHES = {"brush-voltage-drop": {"voltage_drop": 1.5, "transition_current": 0.5}}
+SPRING = {"shaft-compliance": {"stiffness": 8.0, "damping": 1e-3, "load_inertia": 1.5e-4, "load_viscous_share": 0.5}}
+
+
+def _recording(effects: Mapping[str, Mapping[str, float]], *, offset: float = 0.0) -> rwn.Recording:
+    rng, time = np.random.default_rng(4), 1e-3 * np.arange(3000)
+    voltage = 8.0 * np.sin(2.0 * time) + 3.0 * np.sign(np.sin(9.0 * time))
+    given = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    out = rwn.simulate(replace(MODEL, effects=effects), given).signals
+    current = out["current"] + offset + 0.02 * rng.standard_normal(time.size)
+    speed = out["speed"] + 0.1 * rng.standard_normal(time.size)
+    return rwn.Recording(name="run", time=time, signals={"voltage": voltage, "current": current, "speed": speed})
+
+
+def _fitted(recording: rwn.Recording, *names: str) -> tuple[Fit, Problem, rwn.Model]:
+    problem = prepare([recording], MODEL)
+    return fit(problem, hypothesis(problem.prior, names, problem.scales)), problem, MODEL
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.2])
+@pytest.mark.parametrize("name", ["quadratic-drag", "coulomb-friction"])
+def test_what_stands_for_a_loss_of_the_winding_is_contradicted(name: str, offset: float) -> None:
+    assert contradicted(*_fitted(_recording(BRUSHES, offset=offset), name)) == (name,)
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.2])
+@pytest.mark.parametrize("truth", [DRAG, SPRING, DRAG | BRUSHES], ids=["drag", "spring", "drag and brushes"])
+def test_what_acts_on_the_shaft_is_not(truth: Mapping[str, Mapping[str, float]], offset: float) -> None:
+    name = next(iter(truth))
+    assert contradicted(*_fitted(_recording(truth, offset=offset), name)) == ()
+
+
+def test_neither_is_what_acts_on_the_winding() -> None:
+    assert contradicted(*_fitted(_recording(DRAG), "brush-voltage-drop")) == ()
+
+
+@pytest.mark.parametrize("hiding", ["magnetic-saturation", "current-sensor-lag"])
+def test_a_current_that_does_not_tell_the_torque_is_no_witness(hiding: str) -> None:
+    assert contradicted(*_fitted(_recording(BRUSHES), "quadratic-drag", hiding)) == ()
+
+
+def test_without_a_current_or_a_motion_there_is_no_witness() -> None:
+    whole = _recording(BRUSHES)
+    for lost in ("current", "speed"):
+        seen = replace(whole, signals={s: x for s, x in whole.signals.items() if s != lost})
+        assert contradicted(*_fitted(seen, "quadratic-drag")) == ()
+
+
+def test_what_is_contradicted_keeps_what_chance_leaves_it() -> None:
+    evidence = Evidence(share=0.5, unseen=0.5, part=0.5, odds=10.0, curve=1.0)
+    effect = ActingEffect(name="quadratic-drag", probability=0.45, together=0.9, share=0.5, evidence=evidence)
+    assert not effect.against
+    after = effect.contradicted()
+    assert after.against
+    assert not after.stated
+    assert after.together / (1.0 - after.together) == pytest.approx(LEVEL * 0.9 / 0.1)
+    assert not replace(effect, together=0.99999).contradicted().stated
+    assert after.probability / after.together == pytest.approx(effect.probability / effect.together)
