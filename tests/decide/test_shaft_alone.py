@@ -12,7 +12,7 @@ import rwn
 from made_up_motor import MOTOR
 from rwn.decide.account import ActingEffect
 from rwn.decide.evidence import Evidence
-from rwn.decide.shaft_alone import LEVEL, contradicted
+from rwn.decide.shaft_alone import LEVEL, contradicted, shaft_alone
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
@@ -66,6 +66,18 @@ def test_without_a_current_or_a_motion_there_is_no_witness() -> None:
     for lost in ("current", "speed"):
         seen = replace(whole, signals={s: x for s, x in whole.signals.items() if s != lost})
         assert contradicted(*_fitted(seen, "quadratic-drag")) == ()
+
+
+@pytest.mark.parametrize(("truth", "moves"), [(BRUSHES, True), (DRAG, False)], ids=["brushes", "drag"])
+def test_the_shaft_alone_tells_which_equation_lacks_something(
+    truth: Mapping[str, Mapping[str, float]], moves: bool
+) -> None:
+    found = shaft_alone(*_fitted(_recording(truth)))
+    assert found is not None
+    assert found.signal == "speed"
+    assert found.moves_as_recorded is moves
+    assert found.drive > 1.0  # rad/s; its noise is 0.1
+    assert (found.alone < 0.3) is moves
 
 
 def test_what_is_contradicted_keeps_what_chance_leaves_it() -> None:

@@ -30,6 +30,19 @@ def test_a_torque_at_low_speed_is_found_there() -> None:
     assert places["reversals"].share > places["reversals"].samples_share
 
 
+def test_a_voltage_is_found_where_that_of_the_winding_is_asked_for() -> None:
+    still, high = np.zeros(TIME.size), np.where(np.abs(SPEED) > 80.0, 1.0, 0.0)
+    unknown = UnknownInputs(
+        time=TIME, speed=SPEED, acceleration=np.gradient(SPEED, TIME), current=still, angle=still,
+        torque=1.0 - high, voltage=high,
+    )  # fmt: skip
+    by_torque, by_voltage = (
+        next(r for r in regions([unknown], winding=winding) if r.coordinate == "speed") for winding in (False, True)
+    )
+    assert by_torque.low < 1.0
+    assert by_voltage.low == pytest.approx(80.0, rel=0.1)
+
+
 def test_a_shaft_at_rest_has_no_speed_that_rounding_made() -> None:
     """A tenth of the samples are at 0 and as many at 1e-14 rad/s, which alone have a torque: both are low speed."""
     at_rest = np.where(TIME < 1.0, 0.0, np.where(TIME < 2.0, 1e-14, SPEED + 100.0))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from rwn.decide.account import Account, Remainder, account, remainder
 from rwn.decide.other_law import curve_beside
+from rwn.decide.shaft_alone import ShaftAlone, shaft_alone
 from rwn.decide.verdict import Verdict, verdict_of
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
@@ -30,6 +31,7 @@ class Decision:
     verdict: Verdict
     rows: tuple[HeldoutRow, ...]
     other: Place | None = None  # where a law without a name is seen in what is left
+    shaft: ShaftAlone | None = None  # what is left with and without the winding, where nothing explains it
 
 
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
@@ -41,8 +43,9 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
     curve = curve_beside(ranking.problem, chosen.fit, model) if left.signals else None
     other = curve.place if curve is not None and curve.is_a_law else None
     return Decision(
-        ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other
-    )
+        ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other,
+        shaft=shaft_alone(chosen.final, ranking.problem, model) if verdict == "unexplained" else None,
+    )  # fmt: skip
 
 
 def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedFit]:

@@ -5,8 +5,9 @@ What a torque or a load does shows there too. What stands for something electric
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,32 @@ LEVEL = 0.01  # chance that an effect which acts is contradicted
 CERTAIN = 2.33  # deviations that a normal variable exceeds with that chance
 ON_THE_SHAFT = frozenset({"torque", "load"})
 PARTS = 16  # of the work of a stage, for each fit
+MOST = 0.5  # share of the squared error, below which the shaft alone has little of it
+_NONE: Mapping[str, Mapping[str, float]] = MappingProxyType({})
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftAlone:
+    """Rms errors of the shaft alone and of the drive: of the speed [rad/s], or else of the position [rad]."""
+
+    alone: float
+    drive: float
+    signal: str
+
+    @property
+    def moves_as_recorded(self) -> bool:
+        """Whether most of the squared error goes without the winding, which then is what lacks something."""
+        return self.alone**2 < MOST * self.drive**2
+
+
+def shaft_alone(this: Fit, problem: Problem, model: Model) -> ShaftAlone | None:
+    """What an explanation leaves with and without its winding; None where the current does not tell the torque."""
+    witness = _witness(this, problem, model)
+    if witness is None:
+        return None
+    alone, drive = (float(np.sqrt(np.mean(of))) for of in (witness.squares(), witness.explained))
+    signal = "speed" if all("speed" in run.recorded for run in problem.whole) else "position"
+    return ShaftAlone(alone=alone, drive=drive, signal=signal)
 
 
 def contradicted(this: Fit, problem: Problem, model: Model) -> tuple[str, ...]:
@@ -39,29 +66,58 @@ def contradicted(this: Fit, problem: Problem, model: Model) -> tuple[str, ...]:
     found, surely farther. The rest of the shaft is fitted both times. None where the current was not recorded or does
     not tell the torque: behind a filter, or where the flux depends on it.
     """
-    table, drive, whole = this.hypothesis.table, problem.drive, problem.in_free_run()
-    on_the_shaft = [name for name in this.added if table[name].site in ON_THE_SHAFT]
-    if not on_the_shaft or drive.mechanics is None or model.own_effects or "current" in problem.filters:
+    on_the_shaft = [name for name in this.added if this.hypothesis.table[name].site in ON_THE_SHAFT]
+    witness = _witness(this, problem, model) if on_the_shaft else None
+    if witness is None:
         return ()
-    hidden = (table[name].site == "flux" or table[name].filters == "current" for name in this.hypothesis.effects)
-    if any(hidden) or not all(run.current.size and len(run.recorded) > 1 for run in whole.runs):
-        return ()
-    motor, shaft = {**problem.prior.motor, **this.motor}, _shaft(model, this)
-    torques = [np.asarray(drive.driving_torque(motor, _bridged(run), run.input)) for run in whole.runs]
-    recordings = [_driven(run, torque) for run, torque in zip(whole.runs, torques, strict=True)]
-    beside = [name for name in this.added if name in on_the_shaft or _delays_the_speed(table[name])]
-    offset = [name for name, effect in table.items() if effect.offset]  # as which one of the current shows
-    explained = _squares(whole, this)
 
     def refuted(name: str) -> bool:
-        others = [other for other in dict.fromkeys([*beside, *offset]) if other != name]
-        without = _squares_of_the_shaft(recordings, shaft, others, this)
-        if not float(np.mean(without)) <= float(np.mean(explained)):
+        without = witness.squares(without=name)
+        if not float(np.mean(without)) <= float(np.mean(witness.explained)):
             return False
-        known = replace(shaft, effects={**shaft.effects, name: this.values_of(name)})
-        return loss_gained(without, _squares_of_the_shaft(recordings, known, others, this)) > CERTAIN
+        return loss_gained(without, witness.squares(without=name, known={name: this.values_of(name)})) > CERTAIN
 
     return tuple(name for name in on_the_shaft if refuted(name))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Witness:
+    """The shaft of a drive with the recordings of what drove it, and what an explanation of the drive has of it."""
+
+    recordings: Sequence[Recording]
+    shaft: Model
+    beside: Sequence[str]  # effects of the explanation that the shaft has too
+    offset: Sequence[str]  # as which one of the current shows
+    this: Fit
+    explained: Array  # squared errors of the explanation, of every sample of the motion
+
+    def squares(self, *, without: str = "", known: Mapping[str, Mapping[str, float]] = _NONE) -> Array:
+        """Squared error of every sample of the motion, with all effects but one fitted, and some `known`."""
+        problem = prepare(self.recordings, replace(self.shaft, effects={**self.shaft.effects, **known}))
+        others = tuple(name for name in dict.fromkeys([*self.beside, *self.offset]) if name != without)
+        starts = {name: values for name, values in self.this.starts(others).items() if name in self.this.added}
+        begun = hypothesis(problem.prior, others, problem.scales, starts)
+        return _squares(problem, fit(problem, begun, share=one_stage(problem.work) / PARTS))
+
+
+def _witness(this: Fit, problem: Problem, model: Model) -> _Witness | None:
+    """None where the current was not recorded, or does not tell the torque."""
+    table, drive, whole = this.hypothesis.table, problem.drive, problem.in_free_run()
+    if drive.mechanics is None or model.own_effects or "current" in problem.filters:
+        return None
+    hidden = (table[name].site == "flux" or table[name].filters == "current" for name in this.hypothesis.effects)
+    if any(hidden) or not all(run.current.size and len(run.recorded) > 1 for run in whole.runs):
+        return None
+    motor = {**problem.prior.motor, **this.motor}
+    torques = [np.asarray(drive.driving_torque(motor, _bridged(run), run.input)) for run in whole.runs]
+    return _Witness(
+        recordings=[_driven(run, torque) for run, torque in zip(whole.runs, torques, strict=True)],
+        shaft=_shaft(model, this),
+        beside=[n for n in this.added if table[n].site in ON_THE_SHAFT or _delays_the_speed(table[n])],
+        offset=[name for name, effect in table.items() if effect.offset],
+        this=this,
+        explained=_squares(whole, this),
+    )
 
 
 def _shaft(model: Model, this: Fit) -> Model:
@@ -96,14 +152,6 @@ def _bridged(run: Run) -> Array:
 
 def _delays_the_speed(effect: Effect) -> bool:
     return effect.site == "sensor" and any(p.unit == "s" for p in effect.parameters)
-
-
-def _squares_of_the_shaft(recordings: Sequence[Recording], shaft: Model, others: Sequence[str], this: Fit) -> Array:
-    """As `_squares`, of the shaft with `others` fitted from where they ended in an explanation."""
-    problem = prepare(recordings, shaft)
-    starts = {name: values for name, values in this.starts(others).items() if name in this.added}
-    begun = hypothesis(problem.prior, tuple(others), problem.scales, starts)
-    return _squares(problem, fit(problem, begun, share=one_stage(problem.work) / PARTS))
 
 
 def _squares(problem: Problem, this: Fit) -> Array:

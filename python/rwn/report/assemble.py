@@ -36,7 +36,7 @@ from rwn.report.diagnosis_data import Alternative, Beneath, Location
 from rwn.report.next_steps import NEAR
 from rwn.report.nominal_fit import nominal_fit
 from rwn.report.sensor_filter import FittedFilter, fitted_filters
-from rwn.report.text import listing, located, plain_name, times_given, unknown_name
+from rwn.report.text import listing, located, plain_name, shaft_in_words, times_given, unknown_name
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
@@ -57,10 +57,13 @@ def assemble(
     effects = (*said.faults, *physics, *((said.coarse,) if said.coarse else ()))
     alternatives = _alternatives(ranking, chosen)
     equation = effects[0].equation if effects else ""
-    where = regions(unknown, linear=model.linear)
-    torque_unknown = said.verdict != "adequate" and not model.drive.coefficients  # a transfer function has none
+    winding = decision.shaft is not None and decision.shaft.moves_as_recorded
+    where = regions(unknown, linear=model.linear, winding=winding)
+    # a transfer function has none, and what the winding lacks is no torque
+    torque_unknown = said.verdict != "adequate" and not model.drive.coefficients and not winding
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
-    place = located(where, depends, linear=model.linear, motion=not model.drive.coefficients)
+    motion = not model.drive.coefficients
+    place = located(where, depends, linear=model.linear, motion=motion, shaft=decision.shaft)
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
     filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
     shown = correction.by_free_run or chosen
@@ -82,7 +85,7 @@ def assemble(
             *_contradictions(chosen, model), *_refuted(decision.account),
             *_warnings(ranking, chosen, rows, filters), *correction.warnings,
         ),
-        next_experiment=_next_experiment(ranking, said, alternatives, named=named),
+        next_experiment=_next_experiment(decision, said, alternatives, named=named),
         adequate_probability=ranking.nothing_missing.probability,
         account=decision.account.effects,
         remainder=decision.remainder,
@@ -128,13 +131,17 @@ def _widening(decision: Decision) -> Widening:
     return Widening(birge=decision.account.birge, bias=calibration().bias * float(np.sqrt(share)))
 
 
-def _next_experiment(ranking: Ranking, said: Statement, alternatives: Sequence[Alternative], *, named: bool) -> str:
+def _next_experiment(
+    decision: Decision, said: Statement, alternatives: Sequence[Alternative], *, named: bool
+) -> str:
     """What would tell the rivals apart, of the faults first; else what is stated from the next explanations."""
     drive = said.beneath or said
-    problem = ranking.problem
+    problem, shaft = decision.ranking.problem, decision.shaft
     if drive.verdict == "insufficient-excitation":
         wanted = excitation.advice(problem.whole)
-    elif drive.verdict == "unexplained" and all(r.current.size for r in problem.whole):
+    elif shaft is not None and not shaft.moves_as_recorded:
+        wanted = f"Look at the shaft first: {shaft_in_words(shaft)}."
+    elif drive.verdict == "unexplained" and shaft is None and all(r.current.size for r in problem.whole):
         wanted = problem.drive.halves(problem.prior.motor)
     else:
         wanted = separated_by(drive.names) if len(drive.names) > 1 else ""

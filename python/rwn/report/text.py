@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from rwn.decide.shaft_alone import ShaftAlone
 from rwn.fit.intervals import Estimate
 from rwn.mismatch_map.dependence import CLEAR, Law
 from rwn.mismatch_map.regions import Region
 from rwn.model.vocabulary import table
+from rwn.recording.signals import SIGNALS
 
 EXCESS = 0.1  # share of the residual's energy beyond that of the samples, from which a region is worth naming
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
@@ -182,16 +184,30 @@ def region_in_words(region: Region) -> str:
     return ("" if region.coordinate == "time" else f"at {region.coordinate} ") + f"from {low_text} to {high_text}"
 
 
-def located(where: Sequence[Region], laws: Sequence[Law], *, linear: bool, motion: bool = True) -> str:
+def shaft_in_words(shaft: ShaftAlone) -> str:
+    """How far the shaft alone and the whole drive are from the recorded motion."""
+    alone, drive = (quantity(error, SIGNALS[shaft.signal].unit) for error in (shaft.alone, shaft.drive))
+    errs = f"errs by {alone} in {shaft.signal}, the whole drive by {drive}"
+    return f"driven by the recorded current, the shaft alone {errs}"
+
+
+def located(
+    where: Sequence[Region], laws: Sequence[Law], *, linear: bool, motion: bool = True, shaft: ShaftAlone | None = None
+) -> str:
     """What the mismatch depends on and where it is strongest, as one clause; empty where neither is clear.
 
-    `motion`: the regions are of what an equation of motion leaves over, and not of the error of an output.
+    `motion`: the regions are of what an equation of motion leaves over, and not of the error of an output. `shaft`:
+    without the winding, whose equation the regions are of where the shaft alone moves as recorded.
     """
+    winding = shaft is not None and shaft.moves_as_recorded
     parts = [law_in_words(laws[0], linear=linear)] if laws and laws[0].share > CLEAR else []
+    if shaft is not None and winding:
+        parts.append(f"it lies between the voltage and the current, since {shaft_in_words(shaft)}")
     standing_out = [r for r in where if r.share - r.samples_share > EXCESS]
     if standing_out:
         r = standing_out[0]
         left = f"the {'force' if linear else 'torque'} that the refitted equation of motion leaves over"
+        left = "the voltage that the refitted equation of the winding leaves over" if winding else left
         what = left if motion else "the error of the refitted model's output"
         much = f"{percent(r.samples_share)} of the samples hold {percent(r.share)} of its square"
         parts.append(f"{what} is strongest {region_in_words(r)}, where {much}")
