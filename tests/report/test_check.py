@@ -34,6 +34,21 @@ def test_a_start_in_motion_lost_rows_and_spikes_are_said() -> None:
     assert any("2 single samples of the speed" in line and "left out" in line for line in lines)
 
 
+def test_a_late_enable_is_said_of_its_recording() -> None:
+    time, rng = 1e-3 * np.arange(2000), np.random.default_rng(2)
+    voltage = 5.0 * np.repeat(rng.choice([-1.0, 1.0], 20), 100)
+    runs = []
+    for name, off in (("soon", 0), ("late", 400)):
+        acting = np.where(np.arange(time.size) < off, 0.0, voltage)
+        out = rwn.simulate(MODEL, rwn.Recording(name=name, time=time, signals={"voltage": acting})).signals
+        moved = {s: out[s] + 1e-2 * rng.standard_normal(time.size) for s in ("current", "speed")}
+        runs.append(rwn.Recording(name=name, time=time, signals={"voltage": voltage, **moved}))
+    lines = list(checked(runs, MODEL))
+    (said,) = (k for k, line in enumerate(lines) if "as before an enable: the voltage is taken as 0 until then" in line)
+    assert said > next(k for k, line in enumerate(lines) if line.startswith("late: "))
+    assert "for the first 0.4 s" in lines[said]
+
+
 def test_a_speed_that_is_a_difference_of_positions_is_said_to_be_one() -> None:
     clean = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
     position = np.cumsum(clean.signals["speed"]) * 1e-3

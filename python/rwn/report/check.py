@@ -1,9 +1,10 @@
-"""What a check of recordings says before any physics, a line each."""
+"""What a check of recordings says before any search for physics, a line each."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from rwn.faults.late_enable import late_enables
 from rwn.model.model import Model
 from rwn.recording.clock import clock_of
 from rwn.recording.inspection import inspected
@@ -12,13 +13,18 @@ from rwn.simulate.run import Run, run_of
 
 
 def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
-    """Sampling, start and sensors of each recording as they are taken, and what is odd with what is done about it."""
-    for each in recordings:
-        (recording,), findings = inspected([each])
+    """Sampling, start and sensors of each recording as they are taken, and what is odd with what is done about it.
+
+    Raises InputError where a recording does not fit the model.
+    """
+    usable = [inspected([each]) for each in recordings]
+    late = late_enables([recording for (recording,), _ in usable], model)
+    for place, ((recording,), findings) in enumerate(usable):
         run, signals = run_of(recording, model), ", ".join(recording.signals)
+        enabled = [one.as_finding(model.drive.input) for one in late if one.place == place]
         yield f"{recording.name}: {len(recording)} samples of {signals}, {recording.duration:.4g} s"
         yield from (f"  {words}" for words in (*_sampling(run), _start(run, model), *_speed(run)))
-        yield from (f"  {finding.words}: {finding.done}" for finding in findings)
+        yield from (f"  {finding.words}: {finding.done}" for finding in (*findings, *enabled))
         yield from (f"  {warning}" for warning in recording.warnings)
 
 
