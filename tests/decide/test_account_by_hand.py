@@ -29,9 +29,9 @@ def _ranked(*added: str, score: float = 0.0) -> Any:
 
 
 def _account(
-    monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, Evidence], against: tuple[str, ...] = ()
+    monkeypatch: pytest.MonkeyPatch, fits: list[Any], found: dict[str, Evidence], against: dict[str, str] | None = None
 ) -> tuple[Account, Any]:
-    """The account, and what the evidence was asked for; `against`: what the shaft alone contradicts."""
+    """The account, and what the evidence was asked for; `against`: what a half contradicts."""
     asked: dict[str, Any] = {"rivals": {}}
 
     class CrossValidation:
@@ -44,9 +44,9 @@ def _account(
             asked["rivals"][name] = rivals
             return found[name]
 
-    def contradicted(*of: Any) -> tuple[str, ...]:
+    def contradicted(*of: Any) -> dict[str, str]:
         assert of == (asked["leading"].final, "the problem", MODEL)
-        return against
+        return against or {}
 
     monkeypatch.setattr(module, "CrossValidation", CrossValidation)
     monkeypatch.setattr(module, "contradicted", contradicted)
@@ -71,8 +71,8 @@ def test_the_account_is_of_the_best_explanation_that_has_effects(monkeypatch: py
 
 def test_what_the_shaft_alone_contradicts_is_not_stated_and_the_others_are(monkeypatch: pytest.MonkeyPatch) -> None:
     fits = [_ranked("a", "b", score=4.0), _ranked(score=0.0)]
-    found, _ = _account(monkeypatch, fits, {"a": CERTAIN, "b": CERTAIN}, against=("b",))
-    assert {e.name: e.against for e in found.effects} == {"a": False, "b": True}
+    found, _ = _account(monkeypatch, fits, {"a": CERTAIN, "b": CERTAIN}, against={"b": "shaft"})
+    assert {e.name: e.against for e in found.effects} == {"a": "", "b": "shaft"}
     assert [e.name for e in found.stated] == ["a"]
 
 

@@ -13,7 +13,8 @@ import numpy as np
 from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.elaboration import elaborated
 from rwn.decide.evidence import CrossValidation, Evidence
-from rwn.decide.shaft_alone import LEVEL, contradicted
+from rwn.decide.half import LEVEL
+from rwn.decide.witness import contradicted
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import join, structured, variance
 from rwn.model.model import Model
@@ -38,18 +39,18 @@ class ActingEffect:
     share: float  # of the removable squared error, that goes with it and not without it
     evidence: Evidence
     rivals: tuple[str, ...] = ()  # that may act in its place
-    against: bool = False  # whether the shaft alone contradicts it (shaft_alone.py)
+    against: str = ""  # the half of the drive that contradicts it by itself: "shaft", "winding" (witness.py)
 
     @property
     def stated(self) -> bool:
         """Whether it or a rival acts more likely than not."""
         return self.together > ACTS
 
-    def contradicted(self) -> ActingEffect:
+    def contradicted_by(self, half: str) -> ActingEffect:
         """With what such a contradiction leaves of its probability, which it would meet by chance alone if it acted."""
         before = min(self.together, SURE)
         left = before / self.together * LEVEL / (1.0 - before * (1.0 - LEVEL))  # Bayes; what does not act does meet it
-        return replace(self, probability=self.probability * left, together=self.together * left, against=True)
+        return replace(self, probability=self.probability * left, together=self.together * left, against=half)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +90,7 @@ def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
     evidence = side_by_side(lambda name: validation.evidence(name, instead[name]), leading.added)
     rows = [_acting(name, e, rivals[name]) for name, e in zip(leading.added, evidence, strict=True)]
     against = contradicted(leading.final, ranking.problem, model)
-    rows = [row.contradicted() if row.name in against else row for row in rows]
+    rows = [row.contradicted_by(against[row.name]) if row.name in against else row for row in rows]
     return Account(effects=tuple(sorted(rows, key=lambda row: -row.share)), leading=leading, birge=validation.birge)
 
 

@@ -202,13 +202,18 @@ def _warnings(
 
 
 def _refuted(found: Account) -> Iterator[str]:
-    """What would be likelier, had the shaft by itself not told otherwise."""
+    """What would be likelier, had a half of the drive by itself not told otherwise."""
     for effect in found.effects:
-        if effect.against:
-            name = plain_name(effect.name)
+        name = plain_name(effect.name)
+        if effect.against == "shaft":
             yield (
                 f"driven by the recorded current, the shaft alone moves as it did without {name}, and not as with it: "
                 "the winding or what feeds it lacks something instead"
+            )
+        elif effect.against:
+            yield (
+                f"along the recorded motion, the winding alone carries its current as without {name}, and not as "
+                "with it: the shaft or its load lacks something instead"
             )
 
 

@@ -1,4 +1,4 @@
-"""The shaft by itself, driven by the recorded current, tells what acts on it from what acts on the winding."""
+"""Each half of a drive by itself tells what acts on it from what stands for something in the other."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ import rwn
 from made_up_motor import MOTOR
 from rwn.decide.account import ActingEffect
 from rwn.decide.evidence import Evidence
-from rwn.decide.shaft_alone import LEVEL, contradicted, shaft_alone
+from rwn.decide.half import LEVEL
+from rwn.decide.shaft_alone import shaft_alone
+from rwn.decide.witness import contradicted
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
@@ -42,30 +44,46 @@ def _fitted(recording: rwn.Recording, *names: str) -> tuple[Fit, Problem, rwn.Mo
 @pytest.mark.parametrize("offset", [0.0, 0.2])
 @pytest.mark.parametrize("name", ["quadratic-drag", "coulomb-friction"])
 def test_what_stands_for_a_loss_of_the_winding_is_contradicted(name: str, offset: float) -> None:
-    assert contradicted(*_fitted(_recording(BRUSHES, offset=offset), name)) == (name,)
+    assert contradicted(*_fitted(_recording(BRUSHES, offset=offset), name)) == {name: "shaft"}
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.2])
 @pytest.mark.parametrize("truth", [DRAG, SPRING, DRAG | BRUSHES], ids=["drag", "spring", "drag and brushes"])
 def test_what_acts_on_the_shaft_is_not(truth: Mapping[str, Mapping[str, float]], offset: float) -> None:
     name = next(iter(truth))
-    assert contradicted(*_fitted(_recording(truth, offset=offset), name)) == ()
+    assert contradicted(*_fitted(_recording(truth, offset=offset), name)) == {}
 
 
-def test_neither_is_what_acts_on_the_winding() -> None:
-    assert contradicted(*_fitted(_recording(DRAG), "brush-voltage-drop")) == ()
+@pytest.mark.parametrize("offset", [0.0, 0.2])
+@pytest.mark.parametrize("truth", [DRAG, SPRING | DRAG], ids=["drag", "spring and drag"])
+def test_what_stands_for_a_loss_of_the_shaft_is_contradicted(
+    truth: Mapping[str, Mapping[str, float]], offset: float
+) -> None:
+    found = contradicted(*_fitted(_recording(truth, offset=offset), "brush-voltage-drop", "sensor-bias"))
+    assert found == {"brush-voltage-drop": "winding"}
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.2])
+@pytest.mark.parametrize("truth", [BRUSHES, BRUSHES | DRAG], ids=["brushes", "brushes and drag"])
+def test_what_acts_on_the_winding_is_not(truth: Mapping[str, Mapping[str, float]], offset: float) -> None:
+    assert contradicted(*_fitted(_recording(truth, offset=offset), "brush-voltage-drop", "sensor-bias")) == {}
+
+
+@pytest.mark.parametrize("hiding", ["speed-sensor-lag", "speed-moving-average"])
+def test_a_speed_that_comes_late_is_no_witness(hiding: str) -> None:
+    assert contradicted(*_fitted(_recording(DRAG), "brush-voltage-drop", hiding)) == {}
 
 
 @pytest.mark.parametrize("hiding", ["magnetic-saturation", "current-sensor-lag"])
 def test_a_current_that_does_not_tell_the_torque_is_no_witness(hiding: str) -> None:
-    assert contradicted(*_fitted(_recording(BRUSHES), "quadratic-drag", hiding)) == ()
+    assert contradicted(*_fitted(_recording(BRUSHES), "quadratic-drag", hiding)) == {}
 
 
 def test_without_a_current_or_a_motion_there_is_no_witness() -> None:
     whole = _recording(BRUSHES)
     for lost in ("current", "speed"):
         seen = replace(whole, signals={s: x for s, x in whole.signals.items() if s != lost})
-        assert contradicted(*_fitted(seen, "quadratic-drag")) == ()
+        assert contradicted(*_fitted(seen, "quadratic-drag")) == {}
 
 
 @pytest.mark.parametrize(("truth", "moves"), [(BRUSHES, True), (DRAG, False)], ids=["brushes", "drag"])
@@ -84,9 +102,9 @@ def test_what_is_contradicted_keeps_what_chance_leaves_it() -> None:
     evidence = Evidence(share=0.5, unseen=0.5, part=0.5, odds=10.0, curve=1.0)
     effect = ActingEffect(name="quadratic-drag", probability=0.45, together=0.9, share=0.5, evidence=evidence)
     assert not effect.against
-    after = effect.contradicted()
-    assert after.against
+    after = effect.contradicted_by("shaft")
+    assert after.against == "shaft"
     assert not after.stated
     assert after.together / (1.0 - after.together) == pytest.approx(LEVEL * 0.9 / 0.1)
-    assert not replace(effect, together=0.99999).contradicted().stated
+    assert not replace(effect, together=0.99999).contradicted_by("shaft").stated
     assert after.probability / after.together == pytest.approx(effect.probability / effect.together)
