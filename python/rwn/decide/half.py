@@ -50,5 +50,5 @@ class Half:
 
 
 def squares(problem: Problem, this: Fit, signal: str) -> Array:
-    """Squared error of every sample of a signal; 0 where it is not compared."""
+    """Squared error (n,) of every sample of a signal, in SI; 0 where it is not compared."""
     return np.concatenate([np.square(left[signal]) for left in problem.residuals(this.vector, this.active)])
