@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from rwn.recording.inspection import inspected
+from rwn.recording.inspection.clipping import CLIPPING, _last_codes
 from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -79,6 +80,32 @@ def test_peaks_that_are_cut_off_for_a_sample_each_are_found(speed: Array) -> Non
     (found,) = inspected([_recording({"speed": cut})]).findings
     assert found.kind == "clipping"
     assert found.count == np.count_nonzero(cut != swinging)
+
+
+def _peaks(highest: float) -> Array:
+    """A current [A] in steps of 0.3125 A that decays from peaks, the highest alone beyond the others."""
+    since = np.arange(4000) % 400
+    peaks = np.where(np.arange(4000) // 400 == 3, highest, 20.0)
+    return 0.3125 * np.round(peaks * np.exp(-since / 30.0) * (1.0 - np.exp(-(since + 1.0))) / 0.3125)
+
+
+def _clipped(current: Array) -> Array:
+    return np.asarray(CLIPPING.flags(_recording({"current": current}), "current"))
+
+
+def test_the_last_codes_of_a_coarse_converter_are_clipped() -> None:
+    """8 bits for 40 A: a peak of 60 A is 39.6875 A for some samples, too few to stand out by themselves."""
+    cut = np.minimum(_peaks(60.0), 39.6875)
+    assert 0 < np.count_nonzero(_clipped(cut)) < 20
+    assert np.array_equal(_clipped(cut), cut == 39.6875)
+    assert _clipped(np.maximum(-_peaks(60.0), -40.0)).any()
+
+
+def test_a_largest_code_that_no_word_ends_at_is_a_peak_and_one_that_lasts_a_level() -> None:
+    assert not _clipped(_peaks(36.0)).any()
+    lasting = np.where(np.arange(4000) % 400 < 100, 39.6875, _peaks(20.0))
+    assert not _last_codes(lasting, 0.3125).any()
+    assert _last_codes(np.minimum(_peaks(60.0), 39.6875), 0.3125).any()
 
 
 def test_a_largest_value_that_comes_twice_is_not_clipped(speed: Array) -> None:
