@@ -98,6 +98,21 @@ def test_the_shaft_alone_tells_which_equation_lacks_something(
     assert (found.alone < 0.3) is moves
 
 
+def test_a_recording_that_begins_in_motion_and_has_a_position_is_judged_by_its_speed() -> None:
+    """By itself such an axis is judged by its driving force."""
+    whole = _recording(BRUSHES)
+    position = np.cumsum(whole.signals["speed"]) * 1e-3
+    moving = replace(
+        whole, time=whole.time[400:] - whole.time[400],
+        signals={s: x[400:] for s, x in {**whole.signals, "position": position}.items()},
+    )  # fmt: skip
+    found = shaft_alone(*_fitted(moving))
+    assert found is not None
+    assert found.signal == "speed"
+    assert found.alone < 0.3  # rad/s
+    assert found.moves_as_recorded
+
+
 def test_what_is_contradicted_keeps_what_chance_leaves_it() -> None:
     evidence = Evidence(share=0.5, unseen=0.5, part=0.5, odds=10.0, curve=1.0)
     effect = ActingEffect(name="quadratic-drag", probability=0.45, together=0.9, share=0.5, evidence=evidence)

@@ -72,7 +72,7 @@ def shaft_of(this: Fit, problem: Problem, model: Model) -> Half | None:
     offset = [name for name, effect in table.items() if effect.offset]  # as which one of the current shows
 
     def squares_of(without: str, known: Mapping[str, Mapping[str, float]]) -> Array:
-        prepared = prepare(recordings, replace(shaft, effects={**shaft.effects, **known}))
+        prepared = prepare(recordings, replace(shaft, effects={**shaft.effects, **known})).in_free_run()
         others = tuple(name for name in dict.fromkeys([*beside, *offset]) if name != without)
         starts = {name: values for name, values in this.starts(others).items() if name in this.added}
         begun = hypothesis(prepared.prior, others, prepared.scales, starts)

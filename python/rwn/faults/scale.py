@@ -13,6 +13,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.faults.back_emf import back_emf
 from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Fault, without
 from rwn.faults.similarity import FAR, Similarity
 from rwn.fit.preparation import prepare
@@ -64,11 +65,12 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
     if not any(one.far for one in seen.values()):
         return None
     best, least = None, np.inf
-    agreed = _motions_agree(recordings)
+    agreed, shown = _motions_agree(recordings), back_emf(recordings, model)
     for fault in _candidates(seen, model):
         if agreed and len(set(MOTION) & set(fault.signals)) == 1:  # speed and position say that each other is right
             continue
-        if not all(seen[s].bettered(fault.factor) for s in fault.signals if s in seen):
+        denied = "speed" in fault.signals and shown.denies(fault.factor)
+        if denied or not all(seen[s].bettered(fault.factor) for s in fault.signals if s in seen):
             continue
         undone = _misfits_without(fault, seen, recordings, model)
         judged = [s for s in seen if s in fault.signals] or list(seen)  # all signals depend on the voltage
@@ -115,7 +117,7 @@ def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
     seen = _similarity(recordings, model)
     moving = tuple(s for s in MOTION if s in seen)
     ratio = _mean([seen[s] for s in moving]).ratio if moving else 1.0
-    if abs(np.log(ratio)) > np.log(GEAR_LIKE):
+    if abs(np.log(ratio)) > np.log(GEAR_LIKE) and not back_emf(recordings, model).denies(ratio):
         yield from _gears(moving, ratio, model.drive.speed_spread(model.uncertainty))
 
 
