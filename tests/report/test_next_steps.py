@@ -9,6 +9,8 @@ import pytest
 import made_up
 from made_up_curves import law
 from rwn.decide.account import Remainder
+from rwn.fit.intervals import Estimate
+from rwn.name.found_effect import FoundEffect
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.diagnosis_data import Beneath
 from rwn.report.next_steps import next_steps
@@ -77,3 +79,15 @@ def test_what_to_do_next(case: str) -> None:
     assert len(said) == len(begins), said
     for sentence, begin in zip(said, begins, strict=True):
         assert sentence.startswith(begin)
+
+
+def test_a_late_channel_is_undone_by_the_line_that_is_said() -> None:
+    shift = Estimate(value=2e-3, unit="s")
+    late = FoundEffect(
+        name="time-shift", equation="recording", probability=0.9, parameters={"shift": shift},
+        signals=("speed", "position"),
+    )  # fmt: skip
+    turned = FoundEffect(name="wrong-sign", equation="recording", probability=0.9, signals=("current",))
+    steps = next_steps(replace(made_up.mistake(), effects=(late, turned)))
+    assert '`delays.speed = "2 ms"`, `delays.position = "2 ms"`' in steps[0]
+    assert "`columns.current = {" in steps[1]

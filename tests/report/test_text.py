@@ -88,7 +88,7 @@ def test_a_gain_that_may_be_none_is_not_stated() -> None:
         row = replace(found.heldout[0], gain=gain, gain_interval=interval)
         said = verdict_sentence(replace(found, heldout=(row,)))
         assert ("changes little for certain: the speed error" in said) != certain
-        assert (f"({words.percent(abs(gain))})" in said) == certain
+        assert (f"({words.percent(abs(gain))} less)" in said) == certain
 
 
 @pytest.mark.parametrize(

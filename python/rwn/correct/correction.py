@@ -148,7 +148,9 @@ def _without_a_name(decision: Decision, heldout: Sequence[Run], model: Model, *,
             stands_in=f"{network.place.drawn_by}, {network.place.words}",
         )  # fmt: skip
         found.append((heldout_error(rows), made))
-    leading = decision.account.leading
+    leading, against = decision.account.leading, {e.name for e in decision.account.effects if e.against}
+    if against:  # what a half of the drive contradicts would stand in the wrong one
+        leading = together(decision.ranking, leading, set(leading.added) - against)
     if leading.added:
         rows = proved(decision.ranking, leading, heldout, seed=seed)
         if helps(rows):

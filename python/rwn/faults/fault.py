@@ -92,7 +92,7 @@ class Fault:
         return FoundEffect(
             name=self.name, equation=RECORDING, parameters=parameters,
             probability=min(SURE, probability) / (1 + len(self.also)),
-            meaning=self.meaning,
+            meaning=self.meaning, signals=self.signals,
         )  # fmt: skip
 
 

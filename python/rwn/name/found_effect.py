@@ -27,6 +27,7 @@ class FoundEffect:
     parameters: Mapping[str, Estimate] = field(default_factory=dict)
     formula: str = ""  # as in the effect table: "T sign(w)"
     meaning: str = ""  # one sentence for people: "dry friction that does not depend on speed"
+    signals: tuple[str, ...] = ()  # of a fault of the recordings: those that it is in
 
 
 def found_effects(

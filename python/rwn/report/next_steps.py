@@ -84,11 +84,19 @@ def _insufficient(found: DiagnosisData) -> Iterator[str]:
 
 
 def _mistake(found: DiagnosisData) -> Iterator[str]:
-    yield (
-        "Correct the recording, or the columns and units in the model file, and diagnose again: under [recording], "
-        "`columns.speed = { unit = \"rpm\", scale = -1 }` gives a unit and turns a sign, and "
-        "`delays.speed = \"4 ms\"` undoes a delay."
-    )
+    faults = [e for e in found.effects if e.signals]
+    if not faults:
+        yield "Correct the recording, or the columns and units in the model file, and diagnose again."
+    for fault in faults:
+        shift = fault.parameters.get("shift")
+        if shift is not None:
+            lines = ", ".join(f'`delays.{name} = "{1e3 * shift.value:.6g} ms"`' for name in fault.signals)
+            yield f"Correct the recording, or write under [recording] in the model file: {lines}. Then diagnose again."
+        else:
+            yield (
+                "Correct the recording, or the columns in the model file, and diagnose again: under [recording], "
+                f"`columns.{fault.signals[0]} = {{ unit = \"...\", scale = -1 }}` gives a unit and turns a sign."
+            )
     if found.next_experiment:
         sets = (found.set, found.beneath.set if found.beneath else ())
         rivals = any(len(names) > 1 for names in sets)

@@ -235,7 +235,8 @@ def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
     if row.gain_interval is not None and row.gain_interval[0] <= 0.0 <= row.gain_interval[1]:
         return f"{how} changes little for certain: {where} goes from {before}, refitted alone, to {after}."
     does = "increases" if (corrected > row.refitted if row.gain is None else row.gain < 0.0) else "reduces"
-    share = f" ({percent(abs(row.gain))})" if row.gain is not None else ""
+    more_or_less = "more" if does == "increases" else "less"
+    share = f" ({percent(abs(row.gain))} {more_or_less})" if row.gain is not None else ""
     return f"{how} {does} {where} from {before}, refitted alone, to {after}{share}."
 
 
