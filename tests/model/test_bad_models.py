@@ -136,4 +136,6 @@ def test_a_recording_of_megabytes_given_as_model(refuse: Refuse) -> None:
 
 
 def test_recording_given_as_model(refuse: Refuse) -> None:
-    assert "not valid TOML" in refuse(csv_text(), csv_text())
+    said = refuse(csv_text(), csv_text())
+    assert "not valid TOML" in said
+    assert "fix: was a recording given as --model?" in said

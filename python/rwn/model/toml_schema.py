@@ -67,7 +67,9 @@ def decode(text: str, where: str) -> File:
             f"not valid TOML: {error}",
             where=where,
             expected="lines such as inertia = 1.8e-4",
-            fix="correct that line; text needs quotes, numbers a decimal point",
+            fix="correct that line; text needs quotes, numbers a decimal point"
+            if "=" in text
+            else "was a recording given as --model?",
         ) from error
     except (RecursionError, ValueError) as error:  # tables within tables, numbers of thousands of digits
         raise InputError(
