@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from rwn.correct import correction
-from rwn.correct.correction import _proved_part
+from rwn.correct.correction import _proved_part, _without_a_name
 from rwn.decide.account import Account, ActingEffect
 from rwn.decide.decision import Decision
 from rwn.decide.evidence import Evidence
@@ -123,3 +123,29 @@ def test_a_rival_that_predicts_better_takes_the_place_of_what_predicts_worse_tha
     errors = {"": 4.0, "a": 5.0, "b": 6.0, "c": 1.0}
     assert kept("a", errors, monkeypatch, rivals="b", heldout=()) == ""
     assert kept("a", errors, monkeypatch, rivals="c", heldout=()) == "c"
+
+
+@pytest.mark.parametrize(("against", "stands_in"), [("", "a + b"), ("shaft", "b")])
+def test_what_a_half_of_the_drive_contradicts_does_not_stand_in(
+    against: str, stands_in: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def together(_: Any, _leading: Any, names: Collection[str]) -> Any:
+        return SimpleNamespace(added=tuple(sorted(names)), final=None)
+
+    monkeypatch.setattr(correction, "proved_network", lambda *_, **__: None)
+    monkeypatch.setattr(correction, "proved", lambda *_, **__: (_row(2.0, 1.0),))
+    monkeypatch.setattr(correction, "helps", lambda _: True)
+    monkeypatch.setattr(correction, "fitted_model", lambda *_: "the model")
+    monkeypatch.setattr(correction, "together", together)
+    effects = tuple(
+        ActingEffect(name=name, probability=0.1, together=0.1, share=0.5, evidence=CERTAIN, against=by)
+        for name, by in (("a", against), ("b", ""))
+    )
+    leading: Any = SimpleNamespace(added=("a", "b"), final=None)
+    decision = Decision(
+        ranking=None, account=Account(effects=effects, leading=leading), chosen=None, remainder=None,  # type: ignore[arg-type]
+        verdict="unexplained", rows=(),
+    )  # fmt: skip
+    found = _without_a_name(decision, KEPT_BACK, None, seed=0)  # type: ignore[arg-type]
+    assert found is not None
+    assert found.stands_in.startswith(f"{stands_in}, which helps")
