@@ -19,6 +19,11 @@ def test_a_tenth_of_what_is_known_has_to_be_the_recordings(half: float, untold: 
     assert not FittedParameter(nominal=2.0, uncertainty=0.0, refitted=fitted).only_declared(fitted)
 
 
+def test_what_was_moved_beyond_belief_is_told_however_wide_its_interval_is() -> None:
+    moved = Estimate(value=8.0, unit="mH", interval=(1.5, 8.2))
+    assert not FittedParameter(nominal=2.0, uncertainty=0.1, refitted=moved, corrected=moved).only_declared(moved)
+
+
 def test_the_report_says_it_beside_the_parameter() -> None:
     one = made_up.found()
     inertia = one.nominal_fit.parameters["inertia"]

@@ -34,8 +34,11 @@ class FittedParameter:
         return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
 
     def only_declared(self, fitted: Estimate) -> bool:
-        """Whether the recordings tell less than a tenth of what is known of it; the rest was declared."""
-        if not self.uncertainty or fitted.interval is None or fitted.value <= 0.0:
+        """Whether the recordings tell less than a tenth of what is known of it; the rest was declared.
+
+        What they moved beyond belief they tell, however wide its interval is.
+        """
+        if not self.uncertainty or fitted.interval is None or fitted.value <= 0.0 or self._beyond_belief(fitted.value):
             return False
         low, high = fitted.interval
         return bool((high - low) / (2.0 * HALF_WIDTH * fitted.value) > UNTOLD * self.uncertainty)
@@ -43,9 +46,12 @@ class FittedParameter:
     @property
     def contradicted(self) -> bool:
         """Whether it left what was declared beyond belief together with the found effects."""
-        if not self.uncertainty or self.nominal <= 0.0 or self.corrected is None:
+        return self.corrected is not None and self._beyond_belief(self.corrected.value)
+
+    def _beyond_belief(self, value: float) -> bool:
+        if not self.uncertainty or self.nominal <= 0.0:
             return False
-        ratio = self.corrected.value / self.nominal
+        ratio = value / self.nominal
         return ratio <= 0.0 or abs(math.log(ratio)) > BELIEVABLE * self.uncertainty
 
 
