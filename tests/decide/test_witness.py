@@ -12,13 +12,13 @@ import rwn
 from made_up_motor import MOTOR
 from rwn.decide.account import ActingEffect
 from rwn.decide.evidence import Evidence
-from rwn.decide.half import LEVEL
 from rwn.decide.shaft_alone import shaft_alone
 from rwn.decide.witness import contradicted
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.fit.residuals import LEVEL
 
 MODEL = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.05})
 DRAG = {"quadratic-drag": {"drag_coefficient": 1e-5}}

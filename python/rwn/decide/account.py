@@ -13,10 +13,9 @@ import numpy as np
 from rwn.decide.calibration import ACTS, calibration
 from rwn.decide.elaboration import elaborated
 from rwn.decide.evidence import CrossValidation, Evidence
-from rwn.decide.half import LEVEL
 from rwn.decide.witness import contradicted
 from rwn.fit.fit import Fit
-from rwn.fit.residuals import join, structured, variance
+from rwn.fit.residuals import LEVEL, join, structured, variance
 from rwn.model.model import Model
 from rwn.name.backward import family
 from rwn.name.ranking import Ranking

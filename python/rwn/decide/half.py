@@ -11,12 +11,10 @@ from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import loss_gained
+from rwn.fit.residuals import CERTAINLY, loss_gained
 
 Array = NDArray[np.float64]
 
-LEVEL = 0.01  # chance that an effect which acts is contradicted
-CERTAIN = 2.33  # deviations that a normal variable exceeds with that chance
 PARTS = 16  # of the work of a stage, for each fit
 NONE: Mapping[str, Mapping[str, float]] = MappingProxyType({})
 
@@ -46,7 +44,7 @@ class Half:
         without = self.squares(without=name)
         if not float(np.mean(without)) <= float(np.mean(self.explained)):
             return False
-        return loss_gained(without, self.squares(without=name, known={name: values})) > CERTAIN
+        return loss_gained(without, self.squares(without=name, known={name: values})) > CERTAINLY
 
 
 def squares(problem: Problem, this: Fit, signal: str) -> Array:

@@ -18,7 +18,6 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
-from rwn.model.vocabulary import Effect
 from rwn.recording.columns import Layout
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -26,7 +25,7 @@ from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
-SITES = frozenset({"torque", "load"})
+EQUATION = "mechanical"
 MOST = 0.5  # share of the squared error, below which the shaft alone has little of it
 
 
@@ -66,9 +65,10 @@ def shaft_of(this: Fit, problem: Problem, model: Model) -> Half | None:
         return None
     motor = {**problem.prior.motor, **this.motor}
     torques = [np.asarray(drive.driving_torque(motor, _bridged(run), run.input)) for run in whole.runs]
-    recordings = [_driven(run, torque) for run, torque in zip(whole.runs, torques, strict=True)]
+    given = drive.mechanics.input
+    recordings = [_driven(run, given, torque) for run, torque in zip(whole.runs, torques, strict=True)]
     shaft, signal = _shaft(model, this), _motion_of(whole.runs)
-    beside = [name for name in this.added if table[name].site in SITES or _delays_the_speed(table[name])]
+    beside = [name for name in this.added if table[name].mismatch == EQUATION or table[name].takes_time]
     offset = [name for name, effect in table.items() if effect.offset]  # as which one of the current shows
 
     def squares_of(without: str, known: Mapping[str, Mapping[str, float]]) -> Array:
@@ -79,7 +79,7 @@ def shaft_of(this: Fit, problem: Problem, model: Model) -> Half | None:
         return squares(prepared, fit(prepared, begun, share=one_stage(prepared.work) / PARTS), signal)
 
     return Half(
-        name="shaft", judged=tuple(name for name in this.added if table[name].site in SITES),
+        name="shaft", judged=tuple(name for name in this.added if table[name].mismatch == EQUATION),
         explained=squares(whole, this, signal), squares_of=squares_of,
     )  # fmt: skip
 
@@ -98,16 +98,16 @@ def _shaft(model: Model, this: Fit) -> Model:
     table = this.hypothesis.table
     return Model(
         kind=drive.kind, parameters=parameters, uncertainty={n: s for n, s in spread.items() if s > 0.0},
-        effects={name: values for name, values in model.effects.items() if table[name].site in SITES},
+        effects={name: values for name, values in model.effects.items() if table[name].mismatch == EQUATION},
         load=model.load, recording=Layout(intersample="line", initial=model.recording.initial),
     )  # fmt: skip
 
 
-def _driven(run: Run, torque: Array) -> Recording:
-    """The recording of a run (n,), with the torque (n,) [N m] as its input."""
+def _driven(run: Run, given: str, torque: Array) -> Recording:
+    """The recording of a run (n,), with the torque (n,) [N m] as its input, which is called `given`."""
     shown = {name: run.signal(name) for name in MEASURED if name != "current" and run.signal(name).size}
     missing = {name: lost for name, lost in run.missing.items() if name in shown}
-    return Recording(name=run.name, time=run.time, signals={"torque": torque, **shown}, missing=missing)
+    return Recording(name=run.name, time=run.time, signals={given: torque, **shown}, missing=missing)
 
 
 def _bridged(run: Run) -> Array:
@@ -117,6 +117,3 @@ def _bridged(run: Run) -> Array:
         return run.current
     return np.interp(run.time, run.time[~lost], run.current[~lost])
 
-
-def _delays_the_speed(effect: Effect) -> bool:
-    return effect.site == "sensor" and any(p.unit == "s" for p in effect.parameters)

@@ -18,13 +18,12 @@ from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
-from rwn.model.vocabulary import Effect
 from rwn.simulate.run import Run
 from rwn.simulate.windows import windowed
 
 Array = NDArray[np.float64]
 
-SITES = frozenset({"voltage", "flux", "actuator"})
+EQUATIONS = ("electrical", "actuator")
 
 
 def winding_of(this: Fit, problem: Problem, model: Model) -> Half | None:  # noqa: ARG001
@@ -32,9 +31,9 @@ def winding_of(this: Fit, problem: Problem, model: Model) -> Half | None:  # noq
     table, drive, whole = this.hypothesis.table, problem.drive, problem.in_free_run()
     if drive.mechanics is None or "speed" in problem.filters or not all(_tells(run) for run in whole.runs):
         return None
-    if any(_hides(table[name]) for name in this.hypothesis.effects):
+    if any(table[name].takes_time or table[name].rectifies for name in this.hypothesis.effects):
         return None
-    judged = tuple(name for name in this.added if table[name].site in SITES)
+    judged = tuple(name for name in this.added if table[name].mismatch in EQUATIONS)
     beside = [name for name in this.added if name in judged or table[name].site == "sensor"]
     of_the_shaft = {p.name for p in drive.mechanics.parameters}
     uncertain = {name: std for name, std in problem.prior.uncertainty.items() if name not in of_the_shaft}
@@ -50,11 +49,6 @@ def winding_of(this: Fit, problem: Problem, model: Model) -> Half | None:  # noq
         return squares(on, fit(on, begun, share=one_stage(on.work) / PARTS), "current")
 
     return Half(name="winding", judged=judged, explained=squares(whole, this, "current"), squares_of=squares_of)
-
-
-def _hides(effect: Effect) -> bool:
-    """Whether it is of a sensor that does not show what there is at once."""
-    return effect.site == "sensor" and (effect.rectifies or any(p.unit == "s" for p in effect.parameters))
 
 
 def _tells(run: Run) -> bool:

@@ -27,7 +27,6 @@ from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, noise_before_filters
 from rwn.model.model import Model
 from rwn.model.recordings import LONGEST_SHIFT
-from rwn.model.vocabulary import Effect
 from rwn.name.ranking import Ranking
 from rwn.name.screening import FURTHER
 from rwn.parallel import side_by_side
@@ -153,7 +152,8 @@ def shift_instead(
     way makes it a delay of the input. `filters`: of the sensors, under which the ranking was found.
     """
     best, lagging = ranking.fits[0].fit, filtered(prepare(recordings, model), filters)
-    late = [name for name in best.added if _comes_late(lagging.prior.table[name])]
+    table = lagging.prior.table
+    late = [name for name in best.added if table[name].delays or table[name].takes_time]
     if not late or not lagging.drive.winding or any("current" not in r.signals for r in recordings):
         return None
     (this,) = refitted_beside([best], lagging)
@@ -173,11 +173,6 @@ def shift_instead(
     nothing = variance(lagging, fit_nominal(lagging))
     shares = (1.0 - (found[fault] - 1.0) / max(total - 1.0, found[fault] - 1.0, 1e-300) for total in (nothing, left))
     return replace(fault, removes=ErrorReduction(*shares))
-
-
-def _comes_late(effect: Effect) -> bool:
-    """Whether signals come late by it: through a sensor that takes time, or since the input acts later."""
-    return effect.delays or (effect.site == "sensor" and any(p.unit == "s" for p in effect.parameters))
 
 
 def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:

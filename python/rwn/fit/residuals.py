@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,8 @@ Array = NDArray[np.float64]
 
 MOST_COLOURED = 1.4  # coloured energy of a residual that may still be measurement noise
 RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2
-LEVEL = 0.01  # of the test whether what is left has structure
+LEVEL = 0.01  # of the test whether what is left has structure, and whether one simulation is worse than another
+CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations (`loss_gained`) by which it then is
 LOUD = 1.3  # variance of a residual, in units of the noise, below which its loudest band says nothing
 MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it counts for
 MOST_SAMPLES = 1000.0  # most independent samples that noise counts for: a simulation is exact to 0.1 % of its square

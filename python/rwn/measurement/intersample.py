@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +13,7 @@ from rwn.fit.fit import NEAR_ITS_END, Fit, refit
 from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
-from rwn.fit.residuals import LEVEL, loss_gained, statistics
+from rwn.fit.residuals import CERTAINLY, loss_gained, statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, log_density
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
@@ -29,7 +28,6 @@ from rwn.recording.recording import Recording, beginnings
 
 Array = NDArray[np.float64]
 
-CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # standard deviations by which a law has to simulate worse to be refused
 MOST_OFF = 0.5  # share of the rows of a signal that may be unknown: with more, little of it is left to be compared
 
 

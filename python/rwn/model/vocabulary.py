@@ -92,6 +92,11 @@ class Effect:
         return self.guess == "values"
 
     @property
+    def takes_time(self) -> bool:
+        """Whether it is of a sensor that shows what was before: an offset or a rounding does not."""
+        return self.site == "sensor" and any(p.unit == "s" for p in self.parameters)
+
+    @property
     def at_an_end(self) -> bool:
         """Whether it belongs to what drives or what is read, not to the motor."""
         return self.site in ("actuator", "sensor")

@@ -17,6 +17,7 @@ from importlib.resources import files
 import msgspec
 
 from rwn.errors import InputError, unknown
+from rwn.recording.signals import TIME
 
 PROFILES = ("odrive", "moteus", "dynamixel", "twincat", "sinamics", "sysid")
 
@@ -101,10 +102,9 @@ def sources(known: Profile, names: Collection[str], *, where: object) -> Mapping
 
 
 def exporters(names: Collection[str]) -> list[str]:
-    """The profiles that know an input and what it moved by such names, those of most signals first."""
-    found = {name: _signals_of(profile(name), names) for name in PROFILES}
-    driven = [n for n, of in found.items() if of & {"voltage", "current", "torque"} and of & {"speed", "position"}]
-    return sorted(driven, key=lambda name: -len(found[name]))
+    """The profiles that know two signals or more by such names, those of most signals first."""
+    found = {name: _signals_of(profile(name), names) - {TIME.name} for name in PROFILES}
+    return sorted((name for name, of in found.items() if len(of) > 1), key=lambda name: -len(found[name]))
 
 
 def _signals_of(known: Profile, names: Collection[str]) -> set[str]:
