@@ -12,7 +12,7 @@ import rwn
 from made_up_motor import MOTOR
 from rwn.decide.account import ActingEffect
 from rwn.decide.evidence import Evidence
-from rwn.decide.shaft_alone import shaft_alone
+from rwn.decide.shaft_alone import ShaftAlone, shaft_alone
 from rwn.decide.witness import contradicted
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
@@ -96,6 +96,13 @@ def test_the_shaft_alone_tells_which_equation_lacks_something(
     assert found.moves_as_recorded is moves
     assert found.drive > 1.0  # rad/s; its noise is 0.1
     assert (found.alone < 0.3) is moves
+
+
+@pytest.mark.parametrize(("alone", "moves"), [(0.9, True), (1.1, False), (0.75, True)])
+def test_a_shaft_that_does_not_follow_the_motion_either_clears_nothing(alone: float, moves: bool) -> None:
+    """As with a data sheet that is wrong by far: it errs by less than the drive, and by much more than the noise."""
+    assert ShaftAlone(alone=alone, drive=10.0, noise=0.1, signal="speed").moves_as_recorded is moves
+    assert not ShaftAlone(alone=alone, drive=1.0, noise=0.1, signal="speed").moves_as_recorded
 
 
 def test_a_recording_that_begins_in_motion_and_has_a_position_is_judged_by_its_speed() -> None:

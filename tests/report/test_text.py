@@ -184,9 +184,9 @@ def test_a_place_is_said_in_words() -> None:
     assert words.located([replace(fast, share=0.2)], [], linear=False) == ""
     assert words.located([fast], [], linear=True).startswith("the force that the refitted equation of motion leaves")
     assert "output is strongest" in words.located([fast], [], linear=False, motion=False)  # of a transfer function
-    shaft = ShaftAlone(alone=0.25, drive=2.0, signal="speed")
+    shaft = ShaftAlone(alone=0.25, drive=2.0, noise=0.1, signal="speed")
     assert words.located([fast], [], linear=False, shaft=shaft).startswith(
-        "it lies between the voltage and the current, since driven by the recorded current, the shaft alone errs by "
+        "it lies between the voltage and the current: driven by the recorded current, the shaft alone errs by "
         "0.250 rad/s in speed, the whole drive by 2.00 rad/s; the voltage that the refitted equation of the winding"
     )
     assert words.located([fast], [], linear=False, shaft=replace(shaft, alone=1.9)).startswith("the torque that")

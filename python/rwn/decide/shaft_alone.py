@@ -18,6 +18,7 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
+from rwn.name.multiple_shooting import FAR_OFF
 from rwn.recording.columns import Layout
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -35,12 +36,13 @@ class ShaftAlone:
 
     alone: float
     drive: float
+    noise: float  # of what was recorded
     signal: str
 
     @property
     def moves_as_recorded(self) -> bool:
-        """Whether most of the squared error goes without the winding, which then is what lacks something."""
-        return self.alone**2 < MOST * self.drive**2
+        """Whether the shaft alone follows the motion, and most of the error goes: then the winding lacks something."""
+        return self.alone**2 < min(MOST * self.drive**2, FAR_OFF * self.noise**2)
 
 
 def shaft_alone(this: Fit, problem: Problem, model: Model) -> ShaftAlone | None:
@@ -49,7 +51,8 @@ def shaft_alone(this: Fit, problem: Problem, model: Model) -> ShaftAlone | None:
     if half is None:
         return None
     alone, drive = (float(np.sqrt(np.mean(of))) for of in (half.squares(), half.explained))
-    return ShaftAlone(alone=alone, drive=drive, signal=_motion_of(problem.whole))
+    signal = _motion_of(problem.whole)
+    return ShaftAlone(alone=alone, drive=drive, noise=problem.noise[signal].deviation, signal=signal)
 
 
 def shaft_of(this: Fit, problem: Problem, model: Model) -> Half | None:

@@ -202,7 +202,7 @@ def located(
     winding = shaft is not None and shaft.moves_as_recorded
     parts = [law_in_words(laws[0], linear=linear)] if laws and laws[0].share > CLEAR else []
     if shaft is not None and winding:
-        parts.append(f"it lies between the voltage and the current, since {shaft_in_words(shaft)}")
+        parts.append(f"it lies between the voltage and the current: {shaft_in_words(shaft)}")
     standing_out = [r for r in where if r.share - r.samples_share > EXCESS]
     if standing_out:
         r = standing_out[0]
