@@ -135,6 +135,20 @@ def test_a_profile_names_the_columns_that_the_map_does_not() -> None:
     assert found["position"] == Column(source="pos_estimate"), "the unit of the file goes before"
 
 
+def test_a_sign_in_the_map_goes_on_top_of_what_the_profile_knows() -> None:
+    table = Table(where="run.csv", columns={}, units={"vel_estimate": None})
+    turned = column_map(table, Layout(profile="odrive", columns={"speed": Column(source="speed", scale=-0.5)}))
+    assert turned["speed"] == Column(source="vel_estimate", unit="turn/s", scale=-0.5)
+    other = Layout(profile="odrive", columns={"speed": Column(source="speed", unit="rpm", scale=2.0)})
+    assert column_map(table, other)["speed"] == Column(source="vel_estimate", unit="rpm", scale=2.0)
+
+
+def test_a_mapped_column_that_is_not_needed_may_be_missing() -> None:
+    table, layout = _table(time="s", voltage="V"), _map(speed=Column(source="w", unit="rpm"))
+    assert set(column_map(table, layout, needed=("time", "voltage"))) == {"time", "voltage"}
+    assert "speed" in column_map(table, layout)
+
+
 def test_what_is_no_export_of_the_tool_says_what_one_has() -> None:
     said = _refused(_table(a=None, b=None), Layout(profile="sysid"))
     assert said.what == "no column is called as in an export of sysid; there are a, b"

@@ -10,11 +10,13 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.faults.fault import SHIFT, Fault
+from rwn.faults.fault import SHIFT, UNIT, Fault
 from rwn.model.files import write_model
 from rwn.model.model import Model
-from rwn.recording.columns import Layout
+from rwn.model.recordings import read_recordings
+from rwn.recording.columns import Column, Layout
 from rwn.recording.delays import delayed, in_time
+from rwn.recording.recording import write_csv
 
 TIME = 1e-3 * np.arange(500)
 RUN = rwn.Recording(name="run", time=TIME, signals={"voltage": np.sin(30.0 * TIME), "speed": np.cos(30.0 * TIME)})
@@ -40,6 +42,22 @@ def test_a_delay_that_was_found_is_in_the_simulation_against_the_file(tmp_path: 
     bare = replace(RUN, signals={"voltage": RUN.signals["voltage"]})
     plain, late = (rwn.simulate(m, bare).signals["speed"] for m in (model, read))
     assert late[4:] == pytest.approx(plain[:-4], abs=1e-9)
+
+
+def test_a_scale_that_was_found_is_in_the_simulation_against_the_file(tmp_path: Path) -> None:
+    fault = Fault(name=UNIT, signals=("speed",), meaning="", factor=9.55)
+    model = Model(kind="dc", parameters=MOTOR)
+    mapped = Layout(columns={"speed": Column(source="w", unit="rad/s", scale=2.0)})
+    assert fault.in_layout(mapped).columns["speed"].scale == pytest.approx(2.0 / 9.55)
+    write_model(replace(model, recording=fault.in_layout(Layout())), tmp_path / "corrected.toml")
+    write_csv(tmp_path / "run.csv", TIME, {**RUN.signals, "speed": 9.55 * RUN.signals["speed"]})
+    (seen,) = read_recordings(tmp_path / "run.csv", tmp_path / "corrected.toml")
+    assert seen.signals["speed"] == pytest.approx(RUN.signals["speed"], rel=1e-6)
+    write_csv(tmp_path / "input.csv", TIME, {"voltage": RUN.signals["voltage"]})
+    (bare,) = read_recordings(tmp_path / "input.csv", tmp_path / "corrected.toml", compared=False)
+    assert set(bare.signals) == {"voltage"}
+    with pytest.raises(rwn.InputError, match="no column 'speed'"):
+        read_recordings(tmp_path / "input.csv", tmp_path / "corrected.toml")
 
 
 def test_what_is_not_measured_has_no_delay(tmp_path: Path) -> None:

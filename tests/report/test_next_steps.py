@@ -88,6 +88,8 @@ def test_a_late_channel_is_undone_by_the_line_that_is_said() -> None:
         signals=("speed", "position"),
     )  # fmt: skip
     turned = FoundEffect(name="wrong-sign", equation="recording", probability=0.9, signals=("current",))
-    steps = next_steps(replace(made_up.mistake(), effects=(late, turned)))
+    rpm = replace(turned, name="wrong-unit", parameters={"factor": Estimate(value=8.0, unit="1")}, signals=("speed",))
+    steps = next_steps(replace(made_up.mistake(), effects=(late, turned, rpm)))
     assert '`delays.speed = "2 ms"`, `delays.position = "2 ms"`' in steps[0]
-    assert "`columns.current = {" in steps[1]
+    assert "`columns.current = { scale = -1 }`" in steps[1]
+    assert "`columns.speed = { scale = 0.125 }`" in steps[2]

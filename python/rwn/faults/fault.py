@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.intervals import Estimate
 from rwn.name.found_effect import FoundEffect
-from rwn.recording.columns import Layout
+from rwn.recording.columns import Column, Layout
 from rwn.recording.noise import Noise
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -71,10 +71,13 @@ class Fault:
         return replace(recording, time=recording.time[:n], signals=signals, missing=missing, applied_input=applied)
 
     def in_layout(self, layout: Layout) -> Layout:
-        """The layout of recordings that have it, where it is a delay."""
+        """The layout of recordings that have it: their delays, and what each signal is multiplied by."""
         late = [s for s in self.signals if self.delay and s in MEASURED]
         delays = {s: layout.delays.get(s, 0.0) + self.delay * self.step for s in late}
-        return replace(layout, delays={**layout.delays, **delays})
+        scaled = self.signals if self.factor != 1.0 else ()
+        known = {s: layout.columns.get(s, Column(source=s)) for s in scaled}
+        columns = {s: replace(column, scale=column.scale / self.factor) for s, column in known.items()}
+        return replace(layout, delays={**layout.delays, **delays}, columns={**layout.columns, **columns})
 
     def noise_without(self, noise: Mapping[str, Noise]) -> dict[str, Noise]:
         """The noise of the signals once it is undone."""

@@ -17,7 +17,7 @@ from rwn.model.model import Model
 from rwn.recording.check import MIN_SAMPLES, SMALLEST, check_samples
 from rwn.recording.copies import is_piece
 from rwn.recording.recording import Recording, read_recording
-from rwn.recording.signals import SIGNALS
+from rwn.recording.signals import COLUMNS, SIGNALS, TIME
 
 LONGEST_SHIFT = 40  # samples up to which a delay of a channel is looked for
 
@@ -119,12 +119,12 @@ def read_recordings(sources: Any, model: Model | str | Path, *, compared: bool =
     file. `compared`: see `check_recording`. Raises InputError, also for a recording that is given twice.
     """
     model = model_of(model)
-    recordings = [
-        check_recording(
-            one if isinstance(one, Recording) else read_recording(one, layout=model.recording), model, compared=compared
-        )
+    needed = COLUMNS if compared else (TIME.name, model.drive.input)
+    read = (
+        one if isinstance(one, Recording) else read_recording(one, layout=model.recording, needed=needed)
         for one in _listed(sources)
-    ]
+    )
+    recordings = [check_recording(recording, model, compared=compared) for recording in read]
     refuse_doubles(recordings)
     return recordings
 

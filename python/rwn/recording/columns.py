@@ -75,11 +75,12 @@ class Layout:
         return Wanted.of(names, names_of(profile(self.profile))) if self.profile is not None else names
 
 
-def column_map(table: Table, layout: Layout) -> dict[str, Column]:
+def column_map(table: Table, layout: Layout, *, needed: Collection[str] = COLUMNS) -> dict[str, Column]:
     """Every signal's column: those of the layout, and those that the file calls by the signal's name.
 
-    A file without any unit is read by the map alone, where there is one. Raises InputError where a column is nearly
-    called like a signal (that is a slip, not an extra column), or none is called like one.
+    A file without any unit is read by the map alone, where there is one. Signals that are not `needed` may be mapped to
+    columns that the file lacks, and are then left out. Raises InputError where a column is nearly called like a signal
+    (that is a slip, not an extra column), or none is called like one.
     """
     by_name = set(COLUMNS) - set(layout.columns)
     if (layout.columns or layout.profile) and not any(table.units.values()):
@@ -87,6 +88,7 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
     mapping = {name: Column(source=name) for name in by_name if name in table.units}
     known = _by_profile(table, layout)
     mapping |= known | {name: _placed(table, name, column, known) for name, column in layout.columns.items()}
+    mapping = {name: column for name, column in mapping.items() if name in needed or column.source in table.units}
     used = {column.source for column in mapping.values()}
     others = [name for name in table.units if by_name and layout.profile is None and name not in used]
     slips = {name: signal for name in others if (signal := meant(name)) is not None and signal not in mapping}
@@ -115,9 +117,16 @@ def column_map(table: Table, layout: Layout) -> dict[str, Column]:
 
 
 def _placed(table: Table, name: str, column: Column, known: Mapping[str, Column]) -> Column:
-    """A column of the map that bears its signal's name alone: where the file has none of it, that of the profile."""
-    unsaid = column.source == name and name not in table.units
-    return replace(column, source=known[name].source) if unsaid and name in known else column
+    """A column of the map that bears its signal's name alone: where the file has none of it, that of the profile.
+
+    Its unit and scale go with it where the map has no unit: the map's scale is then a sign or a gear on top.
+    """
+    if column.source != name or name in table.units or name not in known:
+        return column
+    of = known[name]
+    if column.unit is not None or column.scale_unit:
+        return replace(column, source=of.source)
+    return replace(of, scale=of.scale * column.scale)
 
 
 def _no_known_signals(table: Table, slips: Mapping[str, str]) -> InputError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -177,17 +177,17 @@ def _flags(name: str, signal: str, values: Any, samples: int) -> Flags:
     return flags
 
 
-def read_recording(source: Any, *, layout: Layout | None = None) -> Recording:
+def read_recording(source: Any, *, layout: Layout | None = None, needed: Collection[str] = COLUMNS) -> Recording:
     """Read a file or a table in Python whose columns are called `name [unit]`, or by the column map of `layout`.
 
     `source`: a path, a frame of pandas, polars or pyarrow, an xarray.Dataset or a dictionary of arrays. See
-    docs/recordings.md. Raises InputError (where, what, what was expected, how to fix it) for anything that is not a
-    clean recording.
+    docs/recordings.md. `needed`: signals whose mapped columns the source has to have. Raises InputError (where, what,
+    what was expected, how to fix it) for anything that is not a clean recording.
     """
     layout = layout or Layout()
     is_path = isinstance(source, str | Path)
     table = read_table(Path(source), layout.wanted) if is_path else table_of_object(source, layout.wanted)
-    mapping = column_map(table, layout)
+    mapping = column_map(table, layout, needed=needed)
     refuse_without_units(table, mapping)
     linear = is_linear(table, mapping)
     values = {name: in_si(table, name, column, linear=linear) for name, column in mapping.items()}

@@ -93,10 +93,9 @@ def _mistake(found: DiagnosisData) -> Iterator[str]:
             lines = ", ".join(f'`delays.{name} = "{1e3 * shift.value:.6g} ms"`' for name in fault.signals)
             yield f"Correct the recording, or write under [recording] in the model file: {lines}. Then diagnose again."
         else:
-            yield (
-                "Correct the recording, or the columns in the model file, and diagnose again: under [recording], "
-                f"`columns.{fault.signals[0]} = {{ unit = \"...\", scale = -1 }}` gives a unit and turns a sign."
-            )
+            factor = fault.parameters["factor"].value if "factor" in fault.parameters else -1.0
+            lines = ", ".join(f"`columns.{name} = {{ scale = {1.0 / factor:.6g} }}`" for name in fault.signals)
+            yield f"Correct the recording, or write under [recording] in the model file: {lines}. Then diagnose again."
     if found.next_experiment:
         sets = (found.set, found.beneath.set if found.beneath else ())
         rivals = any(len(names) > 1 for names in sets)
