@@ -84,7 +84,7 @@ test-python: install-test
 	$(PY) -m pytest -n $(JOBS) --dist worksteal -m "not slow"
 
 test-slow: install-test
-	$(PY) -m pytest -n $(JOBS) --dist worksteal -m slow
+	$(PY) -m pytest -n $(JOBS) --dist worksteal -m slow --ignore=tests/report/test_browser.py
 
 # The report in headless Chromium: three widths, dark, on paper, links between its plots, axe-core. Not part of `make test`: a machine
 # without Chromium would download it each time.
