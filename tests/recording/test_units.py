@@ -161,9 +161,11 @@ def test_a_text_without_a_number_is_refused_with_an_example(text: str) -> None:
         units.quantity(text, "H", where="x")
 
 
-def test_a_quantity_is_in_si_with_its_unit_or_without() -> None:
+def test_a_quantity_is_text_with_its_unit() -> None:
     assert units.quantity("0.5 mH", "H", where="x") == pytest.approx(5e-4)
-    assert units.quantity("0.5", "H", where="x") == 0.5
+    assert units.quantity("0.5", "1", where="x") == 0.5
+    with pytest.raises(InputError, match=r"'0\.5' is text without a unit.*write 0\.5, without quotes, or \"0\.5 H\""):
+        units.quantity("0.5", "H", where="x")
 
 
 def test_a_scale_multiplies_the_unit_too() -> None:

@@ -141,8 +141,15 @@ def split(text: str, *, where: object, example: str = "0.4 N/V") -> tuple[float,
 
 
 def quantity(text: str, si_unit: str, *, where: object) -> float:
-    """A number with a unit, such as "0.4 mH", in SI."""
+    """A number with a unit, such as "0.4 mH", in SI. Raises InputError, also where the unit is missing."""
     number, unit = split(text, where=where, example=f"0.4 {si_unit}")
+    if not unit and si_unit not in ("", "1", "dimensionless"):
+        raise InputError(
+            f"'{plain(text, longest=40)}' is text without a unit",
+            where=where,
+            expected=f"a number in {si_unit}, or text with a unit",
+            fix=f'write {number:g}, without quotes, or "{number:g} {si_unit}"',
+        )
     return number * factor(unit, si_unit, where=where, strict_angle=False) if unit else number
 
 
