@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -36,9 +38,8 @@ def test_a_voltage_is_found_where_that_of_the_winding_is_asked_for() -> None:
         time=TIME, speed=SPEED, acceleration=np.gradient(SPEED, TIME), current=still, angle=still,
         torque=1.0 - high, voltage=high,
     )  # fmt: skip
-    by_torque, by_voltage = (
-        next(r for r in regions([unknown], winding=winding) if r.coordinate == "speed") for winding in (False, True)
-    )
+    both = (unknown, replace(unknown, lacking="voltage"))
+    by_torque, by_voltage = (next(r for r in regions([u]) if r.coordinate == "speed") for u in both)
     assert by_torque.low < 1.0
     assert by_voltage.low == pytest.approx(80.0, rel=0.1)
 

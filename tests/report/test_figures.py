@@ -7,11 +7,31 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
+from rwn.report.figures import unknown_over_speed
 from rwn.report.law_figures import _over_time
 from rwn.report.plot import Plot, Trace
 from rwn.report.plot_text import in_words
 from rwn.report.plots import figure
 from rwn.report.thinning import MOST_POINTS, thin_cloud, thin_line, worth_seeing
+from rwn.simulate.unknown_inputs import UnknownInputs
+
+
+@pytest.mark.parametrize(
+    ("lacking", "linear", "label", "unit"),
+    [("torque", False, "unknown torque", "N m"), ("torque", True, "unknown force", "N"),
+     ("voltage", False, "unknown voltage", "V")],
+)  # fmt: skip
+def test_what_a_half_of_the_drive_lacks_is_drawn_over_speed(lacking: str, linear: bool, label: str, unit: str) -> None:
+    time = np.linspace(0.0, 1.0, 400)
+    speed, still = np.sin(9.0 * time), np.zeros(400)
+    unknown = UnknownInputs(
+        time=time, speed=speed, acceleration=np.gradient(speed, time), current=still, angle=still,
+        torque=2.0 * speed, voltage=3.0 * speed, lacking=lacking,
+    )  # fmt: skip
+    drawn = unknown_over_speed(["run"], [unknown], linear=linear)
+    assert (drawn.y_label, drawn.y_unit) == (label, unit)
+    cloud = drawn.traces[0]
+    assert cloud.y == pytest.approx((3.0 if lacking == "voltage" else 2.0) * cloud.x)
 
 
 @pytest.mark.parametrize("length", [100, 20_001, 150_000])

@@ -29,18 +29,13 @@ class Region:
     name: str = ""  # "low speed", "reversals"
 
 
-def regions(
-    unknown: Sequence[UnknownInputs], *, linear: bool = False, winding: bool = False
-) -> tuple[Region, ...]:
-    """For each coordinate the stretch that holds most of the mismatch's energy for its share of samples, best first.
-
-    It is that of the unknown torque, or of the unknown voltage of the `winding`.
-    """
+def regions(unknown: Sequence[UnknownInputs], *, linear: bool = False) -> tuple[Region, ...]:
+    """For each coordinate the stretch that holds most of the mismatch's energy for its share of samples, best first."""
     joined = {
         name: np.concatenate([getattr(u, name) for u in unknown])
         for name in ("speed", "acceleration", "current", "angle", "time")
     }
-    energy = np.concatenate([u.voltage if winding else u.torque for u in unknown]) ** 2
+    energy = np.concatenate([u.mismatch for u in unknown]) ** 2
     energy = np.minimum(energy, np.percentile(energy, 99.9))
     speed = joined["speed"]
     length = "m" if linear else "rad"

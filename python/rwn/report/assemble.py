@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -49,7 +50,6 @@ def assemble(
     ranking, chosen, rows, said = decision.ranking, decision.chosen, decision.rows, statement(decision, faults)
     model = correction.network.model if correction.network else model
     problem, nominal = ranking.problem.in_free_run(), ranking.nominal
-    unknown = _unknown_to(nominal, problem)
     named = decision.verdict == "missing-physics"
     stated, widening = decision.account.stated, _widening(decision)
     sure = {e.name: e.probability for e in stated}
@@ -58,7 +58,8 @@ def assemble(
     alternatives = _alternatives(ranking, chosen)
     equation = effects[0].equation if effects else ""
     winding = decision.shaft is not None and decision.shaft.moves_as_recorded
-    where = regions(unknown, linear=model.linear, winding=winding)
+    unknown = [replace(u, lacking="voltage" if winding else "torque") for u in _unknown_to(nominal, problem)]
+    where = regions(unknown, linear=model.linear)
     # a transfer function has none, and what the winding lacks is no torque
     torque_unknown = said.verdict != "adequate" and not model.drive.coefficients and not winding
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()

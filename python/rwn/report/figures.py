@@ -32,33 +32,34 @@ def plots(
     made = over_time(ranking, chosen, heldout, linear=linear)
     if ranking.problem.drive.coefficients:
         return made
-    speed_unit, torque_unit = ("m/s", "N") if linear else ("rad/s", "N m")
     names = [run.name for run in ranking.problem.whole]
     named = bool(chosen.added) and network is None
     drawn = laws_of_effects(ranking, chosen, linear=linear) if named else ()
     if not drawn:
-        drawn = tuple(over_its_state(law, torque_unit) for law in laws[:1] if law.share > CLEAR)
+        drawn = tuple(over_its_state(law, "N" if linear else "N m") for law in laws[:1] if law.share > CLEAR)
     if network is not None:
         drawn = (*drawn, network_over_its_state(network))
     spectrum = _spectrum(ranking, linear)
-    where = _residual_speed(names, unknown, speed_unit, torque_unit)
+    where = unknown_over_speed(names, unknown, linear=linear)
     return (*made, where, *([spectrum] if spectrum else []), *drawn)
 
 
-def _residual_speed(names: Sequence[str], unknown: Sequence[UnknownInputs], speed_unit: str, torque_unit: str) -> Plot:
-    what = "force" if torque_unit == "N" else "torque"
-    speed = np.concatenate([u.speed for u in unknown])
-    torque = np.concatenate([u.torque for u in unknown])
-    mean = _mean_curve(speed, torque)
+def unknown_over_speed(names: Sequence[str], unknown: Sequence[UnknownInputs], *, linear: bool) -> Plot:
+    """What the equations of the refitted nominal model leave over, of recordings called `names`, over their speed."""
+    what, unit = ("force", "N") if linear else ("torque", "N m")
+    if unknown[0].lacking == "voltage":
+        what, unit = "voltage", "V"
+    mismatch = np.concatenate([u.mismatch for u in unknown])
+    mean = _mean_curve(np.concatenate([u.speed for u in unknown]), mismatch)
     clouds = []
     for name, u in zip(names, unknown, strict=True):
-        kept = thin_cloud(u.torque, most=MOST_POINTS // len(unknown))
+        kept = thin_cloud(u.mismatch, most=MOST_POINTS // len(unknown))
         clouds.append(
             Trace(
                 name=name,
                 role="before",
                 x=u.speed[kept],
-                y=u.torque[kept],
+                y=u.mismatch[kept],
                 at=u.time[kept],
                 recording=name,
                 points=True,
@@ -66,8 +67,8 @@ def _residual_speed(names: Sequence[str], unknown: Sequence[UnknownInputs], spee
         )
     return Plot(
         slot="residual-speed", title=f"Unknown {what} of the refitted nominal model over speed", x_label="speed",
-        x_unit=speed_unit, y_label=f"unknown {what}", y_unit=torque_unit, traces=(*clouds, mean),
-        marks=tuple(_speed_regions(unknown)), shown=worth_seeing(torque, mean.y),
+        x_unit="m/s" if linear else "rad/s", y_label=f"unknown {what}", y_unit=unit, traces=(*clouds, mean),
+        marks=tuple(_speed_regions(unknown)), shown=worth_seeing(mismatch, mean.y),
         note="What the refitted nominal equations leave over along the recorded motion, smoothed.",
     )  # fmt: skip
 

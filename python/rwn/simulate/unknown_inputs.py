@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,12 @@ class UnknownInputs:
     angle: Array  # [rad]; 2 pi per metre of a linear axis
     torque: Array  # drives positive rotation [N m]
     voltage: Array  # drop in the winding [V]; empty where current was not recorded
+    lacking: Literal["torque", "voltage"] = "torque"  # which of the two the mismatch is located in
+
+    @property
+    def mismatch(self) -> Array:
+        """The input (n,) that is lacking."""
+        return self.voltage if self.lacking == "voltage" else self.torque
 
 
 def unknown_inputs(
