@@ -32,6 +32,14 @@ def test_steps_on_the_edge_of_two_last_digits_are_steps() -> None:
     assert quantum(written) == pytest.approx(78.125, rel=1e-5)
 
 
+@pytest.mark.parametrize("step", [10.41666, 1.63])
+def test_steps_written_with_one_decimal_are_steps(step: float) -> None:
+    """31.25 rpm, three counts in 4 ms, stands there as 31.2 and as 31.3."""
+    counts = np.round(np.gradient(ANGLE, 1e-3) * 9.55 / step)
+    written = np.round(step * counts + 1e-9 * (-1.0) ** np.arange(4000), 1)
+    assert quantum(written / 9.55) == pytest.approx(step / 9.55, rel=1e-3)
+
+
 def test_the_decimals_of_a_file_are_no_steps() -> None:
     rng = np.random.default_rng(0)
     assert quantum(np.round(100.0 * rng.standard_normal(4000), 3)) == 0.0

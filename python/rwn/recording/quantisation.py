@@ -10,6 +10,7 @@ from rwn.recording.noise import noise_from_differences
 Array = NDArray[np.float64]
 
 HARMONICS = 40  # of the mean rounding error
+NEAR = 0.1  # of a step, by which a value written with few digits may be off
 
 
 def quantum(signal: Array) -> float:
@@ -24,7 +25,7 @@ def quantum(signal: Array) -> float:
     if gaps.size < 2:
         return 0.0
     computed = 1e-9 * max(float(np.ptp(values)), 1e-300)  # values nearer to each other differ by how they were computed
-    written = 1e-3 * float(np.percentile(gaps, 75))  # or by how they were written: one on the edge of two last digits
+    written = NEAR * float(np.percentile(gaps, 75))  # or by how they were written: one on the edge of two last digits
     return max(_step(values[np.append(gaps > least, True)], signal.size) for least in (computed, written))
 
 
@@ -47,7 +48,7 @@ def _step(values: Array, samples: int) -> float:
         return 0.0
     off = np.abs(values / step - np.round(values / step))
     repeats = values.size < samples / 3
-    return step if np.percentile(off, 95) < 0.1 and (repeats or not _decimal(step)) else 0.0
+    return step if np.percentile(off, 95) < NEAR and (repeats or not _decimal(step)) else 0.0
 
 
 def _decimal(step: float) -> bool:
