@@ -47,6 +47,19 @@ def test_differences_of_counts_are_told_from_a_coarse_converter(counts: int) -> 
     assert speed_measurement(TIME, coarse, NONE) is INSTANTANEOUS
 
 
+@pytest.mark.parametrize("way", [BACKWARD, FORWARD])
+def test_counts_over_the_time_that_passed_tell_which_time_it_was(way: SpeedMeasurement) -> None:
+    """A small computer reads the counts and the clock when it comes to it, and divides."""
+    noted = np.round(TIME + 1e-4 * np.random.default_rng(3).standard_normal(TIME.size), 6)
+    angle = counted(np.interp(noted, TIME, 0.3 * ANGLE), 2000)
+    read = np.round(difference(way, noted, angle) * 9.5493, 1) / 9.5493
+    assert speed_measurement(noted, read, NONE) == way
+    coarse = 3.14 * np.round(0.3 * SPEED / 3.14)
+    assert speed_measurement(noted, coarse, NONE) is INSTANTANEOUS
+    lost = np.delete(np.arange(TIME.size), slice(7, None, 50))  # the drive divides by its own period all the same
+    assert speed_measurement(TIME[lost], coarse[lost], NONE) is INSTANTANEOUS
+
+
 @pytest.mark.parametrize("window", [3, 4, 5, 8])
 def test_a_moving_average_of_differences_is_a_difference_over_more_samples(window: int) -> None:
     over = SpeedMeasurement(window, 0)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.clock import clock_beside, clock_of
-from rwn.recording.quantisation import quantum
+from rwn.recording.quantisation import NEAR, quantum
 from rwn.recording.speed_window import window_of
 
 Array = NDArray[np.float64]
@@ -24,6 +24,9 @@ LONGEST = 8  # samples of a difference: a moving average of so many differences 
 FASTEST = 0.2  # highest frequency of a motion, of the sampling rate: what moves a drive is slower
 STRETCH = 64  # samples of which the power near half the rate is told from that near a quarter
 QUIET = 30.0  # per cent of the stretches: those in which the motion is slowest are looked at
+SLOW, LOOKED_AT = 20.0, 200  # angles up to so many times the smallest, and how many of them
+MIN_COUNTS, MOST_COUNTS = 4, 40_000  # of an encoder, in a turn: one line in quadrature to 10 000
+MOSTLY = 0.9  # share of the angles that are whole counts: a row that was lost before one leaves it another interval
 RISING = 1.4  # above this ratio a speed is a difference over one sample
 
 
@@ -87,6 +90,8 @@ def _of_rows(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
         best = min(errors, key=lambda way: errors[way])
         if errors[best] < REPEATED:
             return best
+    elif (way := _of_intervals(time, speed)).is_difference:
+        return way
     step = quantum(speed)
     if _is_rounded(_power, speed, step):
         averages = () if position.size else AVERAGED
@@ -149,6 +154,37 @@ def _of_counts(power: _Power, time: Array, speed: Array, step: float) -> SpeedMe
     if _whole(counts) and high > RISING * quarter and near_half > 0.5 * high:
         return BACKWARD
     return INSTANTANEOUS
+
+
+def _of_intervals(time: Array, speed: Array) -> SpeedMeasurement:
+    """By angles of whole counts, where each was divided by the time that passed between its two rows, as it was noted.
+
+    Not where angles over equal intervals are whole counts as well: rows that are evenly spaced tell nothing of this.
+    """
+    intervals = np.diff(time)
+    if np.ptp(intervals) < 1e-6 * intervals[0] or _are_counts(np.abs(speed * np.median(intervals))):
+        return INSTANTANEOUS
+    turned = {BACKWARD: np.abs(speed[1:] * intervals), FORWARD: np.abs(speed[:-1] * intervals)}
+    return next((way for way, angles in turned.items() if _are_counts(angles)), INSTANTANEOUS)
+
+
+def _are_counts(angles: Array) -> bool:
+    """Whether the smallest of `angles` (n,) are multiples of a whole part of a turn.
+
+    An error of an interval is multiplied by its counts, so that slow rows tell most.
+    """
+    moving = np.sort(angles[angles > 0.0])
+    if moving.size < SHORTEST:
+        return False
+    slow = moving[moving < SLOW * moving[0]]
+    slow = slow[:: -(-slow.size // LOOKED_AT)]
+    fewest = max(round(np.pi / slow[0]), MIN_COUNTS)  # counts in a turn: the smallest angle is half a count
+    counts = np.arange(fewest, min(4 * fewest, MOST_COUNTS) + 1)
+    for some in (slow[:: -(-slow.size // SHORTEST)], slow):  # few rule out most
+        in_steps = np.multiply.outer(counts, some / (2.0 * np.pi))
+        near = np.round(in_steps)
+        counts = counts[(np.mean(np.abs(in_steps - near) < NEAR, axis=1) > MOSTLY) & (near[:, -1] > near[:, 0])]
+    return counts.size > 0
 
 
 def _vanishes(speed: Array, samples: int) -> bool:
