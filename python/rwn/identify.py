@@ -17,7 +17,7 @@ from rwn.fit.intervals import Estimate, deviations, estimates
 from rwn.fit.noise import noise_of, without_drift
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import BELIEVABLE
-from rwn.fit.residuals import Statistics, join, statistics, structured
+from rwn.fit.residuals import Statistics, statistics, structured
 from rwn.measurement.intersample import with_intersample
 from rwn.model.files import model_of
 from rwn.model.model import Model
@@ -119,8 +119,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     parameters, explained = estimates(this, left), explained_signals(fitted, given)
     name = status.name.lower().replace("_", "-")
     reasons = [f"the fit did not converge ({name}): {status.value.rstrip('.')}"] if name != "converged" else []
-    coloured = structured(join(problem, problem.residuals(this.vector, this.active)))
-    reasons += [*_describes_nothing(explained, coloured), *_ended_at_limits(parameters)]
+    reasons += [*_describes_nothing(explained, structured(problem, this)), *_ended_at_limits(parameters)]
     return Identification(
         model=fitted,
         parameters=parameters,

@@ -7,7 +7,7 @@ import pytest
 
 from rwn.fit.noise import CLOCK, noise_of
 from rwn.recording.noise import Noise, noise_from_differences
-from rwn.recording.speed_measurement import CENTRAL
+from rwn.recording.speed_measurement import BACKWARD, CENTRAL, SpeedMeasurement, difference
 from rwn.simulate.run import Run
 
 
@@ -18,17 +18,28 @@ def test_no_position_is_better_known_than_the_clock() -> None:
     assert noise_of([far], [error])["position"].level == pytest.approx(CLOCK * 1000.0 * np.sin(1.5))
 
 
-def test_only_the_speed_is_as_exact_as_encoder_counts() -> None:
-    rng, time = np.random.default_rng(1), np.linspace(0.0, 1.0, 2000)
-    counts = np.round(300.0 * np.sin(2.0 * time)) * 1e-3
-    current = np.round(rng.standard_normal(time.size) / 0.5) * 0.01  # a converter whose step is half of the noise
-    run = Run(
-        name="coarse", time=time, input=0.0 * time, current=current, speed=counts, position=counts,
-        speed_measured=CENTRAL,
-    )  # fmt: skip
-    levels = noise_of([run], [{"current": current, "speed": current, "position": current}])
-    assert levels["current"].level == pytest.approx(0.02, rel=0.3)
-    assert levels["speed"].level < 1e-3
+@pytest.mark.parametrize(
+    ("way", "irregular"), [(BACKWARD, 0.0), (BACKWARD, 0.5), (CENTRAL, 0.0), (SpeedMeasurement(4, 0), 0.0)]
+)
+def test_counts_are_as_exact_as_their_steps_and_the_places_of_their_lines(
+    way: SpeedMeasurement, irregular: float
+) -> None:
+    rng, time = np.random.default_rng(1), np.arange(4000) * 1e-3
+    angle = 1e-3 * (300.0 * np.sin(2.0 * time) + 4000.0 * time)
+    counts = 1e-3 * np.floor(angle / 1e-3 + irregular * rng.standard_normal(time.size))
+    speed, true = (difference(way, time, x) for x in (counts, angle))
+    run = Run(name="counted", time=time, input=0.0 * time, speed=speed, position=counts, speed_measured=way)
+    errors = {"speed": speed - true, "position": counts - angle + 0.5e-3}
+    levels = noise_of([run], [errors])
+    for signal, error in errors.items():
+        assert levels[signal].level == pytest.approx(np.std(error[5:-5]), rel=0.12), signal
+
+
+def test_a_converter_whose_step_is_half_of_the_noise() -> None:
+    time = np.linspace(0.0, 1.0, 2000)
+    current = np.round(np.random.default_rng(1).standard_normal(time.size) / 0.5) * 0.01
+    run = Run(name="coarse", time=time, input=0.0 * time, current=current)
+    assert noise_of([run], [{"current": current}])["current"].level == pytest.approx(0.02, rel=0.3)
 
 
 def test_noise_from_differences_passes_over_a_motion_sharp_instants_and_what_is_missing() -> None:

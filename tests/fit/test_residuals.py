@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 import rwn
 from rwn.fit.preparation import prepare
-from rwn.fit.residuals import MOST_COLOURED, RINGING, statistics_of, structured
+from rwn.fit.residuals import MOST_COLOURED, RINGING, statistics_of, structured_of
 from rwn.model.model import Model
 from rwn.name.forward import rank
 
@@ -48,12 +48,20 @@ def test_what_ran_away_is_one_observation_of_something_that_is_no_noise(away: fl
     assert left.effective == pytest.approx(1.0, rel=1e-3)
     assert left.variance == np.inf
     assert not left.at_the_floor
-    assert structured(joined) == ("speed",)
+    assert structured_of(joined) == ("speed",)
 
 
 def test_differences_of_counts_are_noise() -> None:
     for error in (np.diff(_rounding()), _rounding()[2:] - _rounding()[:-2]):
         assert statistics_of({"speed": 5.0 * error}).at_the_floor
+
+
+def test_of_differences_of_counts_only_slow_errors_are_structure() -> None:
+    irregular = {"speed": np.diff(_rounding() + 0.3 * _noise())}  # the lines of an encoder are off their places
+    assert structured_of(irregular) == ("speed",)
+    assert structured_of(irregular, differences=("speed",)) == ()
+    slow = {"speed": irregular["speed"] + 0.3 * np.sin(np.arange(SAMPLES - 1) / 40.0)}
+    assert structured_of(slow, differences=("speed",)) == ("speed",)
 
 
 @pytest.mark.parametrize("periods", [4.0, 5.3, 7.3])

@@ -8,6 +8,8 @@ import pytest
 import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.model.model import Model
+from rwn.recording.speed_measurement import BACKWARD, CENTRAL, FORWARD, INSTANTANEOUS, SpeedMeasurement
+from rwn.simulate.run import Run
 
 STEP, ROWS, PARTS = 1e-3, 400, 3
 LAWS = {
@@ -40,3 +42,14 @@ def test_parts_of_an_interval_lead_where_the_whole_does(law: str) -> None:
     for name in ("current", "speed", "position"):
         of, by = whole[name], pieces[name][::PARTS]
         assert np.max(np.abs(of - by)) < EXACT[law] * np.max(np.abs(by)), name
+
+
+@pytest.mark.parametrize(
+    ("way", "left_out"), [(BACKWARD, [0, 30]), (FORWARD, [29, 58]), (CENTRAL, [0, 29, 30, 58]), (INSTANTANEOUS, [])]
+)
+def test_a_difference_over_a_lost_row_is_not_compared(way: SpeedMeasurement, left_out: list[int]) -> None:
+    """The drive divided by its own period; the logger lost the 31st row of 60."""
+    time = STEP * np.delete(np.arange(60), 30)
+    run = Run(name="lost", time=time, input=0.0 * time, speed=time, speed_measured=way)
+    assert np.flatnonzero(run.not_compared("speed")).tolist() == left_out
+    assert not run.not_compared("current").any()

@@ -15,7 +15,7 @@ from rwn.decide.elaboration import elaborated
 from rwn.decide.evidence import CrossValidation, Evidence
 from rwn.decide.witness import contradicted
 from rwn.fit.fit import Fit
-from rwn.fit.residuals import LEVEL, join, structured, variance
+from rwn.fit.residuals import LEVEL, structured, variance
 from rwn.model.model import Model
 from rwn.name.backward import family
 from rwn.name.ranking import Ranking
@@ -129,5 +129,4 @@ def remainder(ranking: Ranking, this: Fit) -> Remainder:
     problem = ranking.weighted
     left, nothing = variance(problem, this), variance(problem, ranking.nothing_missing.final)
     share = (left - 1.0) / (nothing - 1.0) if left > 1.0 and nothing > left else float(left > 1.0)
-    errors = join(problem, problem.residuals(this.vector, this.active))
-    return Remainder(share=share, error=left, signals=structured(errors))
+    return Remainder(share=share, error=left, signals=structured(problem, this))

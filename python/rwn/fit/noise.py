@@ -23,21 +23,24 @@ DRIFT = 1.0  # most that the error of a drifting position may weigh against that
 def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> dict[str, Noise]:
     """The measurement noise of each signal in SI; `residuals`: (n,) of each run, by signal.
 
-    Encoder counts, and a speed that is their difference: of their quantisation. Else what is left of second
-    differences, robustly: a model error is smooth against the sample time, so it falls out, and a few sharp instants
-    do not count (median). No position is better known than the clock that its travel was timed with.
+    It is what is left of second differences, robustly: a model error is smooth against the sample time, so it falls
+    out, and a few sharp instants do not count (median). It is no less than the quantisation, and no position is better
+    known than the clock that its travel was timed with.
     """
     levels = {}
     for signal in dict.fromkeys(s for left in residuals for s in left):
         steps = float(np.median([r.quantisation(signal) for r in runs if r.signal(signal).size]))
         pairs = [(r, left[signal]) for r, left in zip(runs, residuals, strict=True) if signal in left]
-        found = [_noise(r.masked(signal, values)) / r.noise_left(signal) for r, values in pairs if values.size > 8]
+        found = [
+            _noise(r.masked(signal, values), r.noise_in_differences(signal)) / r.noise_left(signal)
+            for r, values in pairs
+            if values.size > 8
+        ]
         differenced = max(float(np.median(found)) if found else 1.0, 1e-12)
         # a simulation that runs away leaves more than was recorded at all: that is no noise
         moved = max((_rms(r.signal(signal)) for r in runs if r.signal(signal).size), default=0.0)
         differenced = min(differenced, moved or differenced)
-        encoder = signal == "position" or (signal == "speed" and any(r.speed_measured.shows_counts for r in runs))
-        levels[signal] = steps if steps and encoder else max(steps, differenced)
+        levels[signal] = max(steps, differenced)
     if "position" in levels:
         travel = max(float(np.ptp(r.position)) for r in runs if r.position.size)
         levels["position"] = max(levels["position"], CLOCK * travel)
@@ -106,8 +109,9 @@ def _coloured(
     return noise
 
 
-def _noise(residual: Array) -> float:
-    spread = noise_from_differences(residual)
+def _noise(residual: Array, share: float = 1.0) -> float:
+    """`share`: of what the second differences of white noise would show (`Run.noise_in_differences`)."""
+    spread = share * noise_from_differences(residual)
     rms = _rms(residual)
     return min(spread, rms) if spread > 0.0 else rms
 

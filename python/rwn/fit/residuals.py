@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
 
@@ -92,17 +92,28 @@ def ringing_share(x: Array, length: int = 32) -> float:
     return float(np.max(density) / np.mean(density))
 
 
-def structured(joined: Mapping[str, Array]) -> tuple[str, ...]:
+def structured(problem: Problem, this: Fit) -> tuple[str, ...]:
+    """The signals in which a fit leaves more than noise."""
+    counted = any(run.speed_measured.shows_counts for run in problem.runs)
+    joined = join(problem, problem.residuals(this.vector, this.active))
+    return structured_of(joined, differences=("speed",) if counted else ())
+
+
+def structured_of(joined: Mapping[str, Array], *, differences: Collection[str] = ()) -> tuple[str, ...]:
     """The signals whose errors are not white: Bartlett's test of the cumulative periodogram at LEVEL, over all of them.
 
-    White noise is found to have structure in one case of 1 / LEVEL, whatever the number of samples (n,).
+    White noise is found to have structure in one case of 1 / LEVEL, whatever the number of samples (n,). The noise of
+    `differences` of counts is fast: of these only slow errors are structure.
     """
     limit = np.sqrt(-0.5 * np.log(0.5 * LEVEL / max(len(joined), 1)))  # Kolmogorov, Smirnov
-    return tuple(s for s, errors in joined.items() if _distance_from_white(errors) > limit)
+    return tuple(s for s, x in joined.items() if _distance_from_white(x, fast=s not in differences) > limit)
 
 
-def _distance_from_white(x: Array) -> float:
-    """sqrt(m) times the largest distance of the cumulative periodogram of m frequencies from a straight line."""
+def _distance_from_white(x: Array, *, fast: bool = True) -> float:
+    """sqrt(m) times the largest distance of the cumulative periodogram of m frequencies from a straight line.
+
+    `fast`: also where it is below, as of errors that are mostly fast.
+    """
     if np.nanmax(np.abs(x), initial=0.0) ** 2 > RAN_AWAY:
         return np.inf
     x = np.where(np.isfinite(x), x, 0.0)
@@ -110,7 +121,8 @@ def _distance_from_white(x: Array) -> float:
     if power.size < 8 or not power.any():
         return 0.0
     shares = np.cumsum(power) / power.sum()
-    return float(np.sqrt(power.size) * np.max(np.abs(shares - np.arange(1, power.size + 1) / power.size)))
+    above = shares - np.arange(1, power.size + 1) / power.size
+    return float(np.sqrt(power.size) * np.max(np.abs(above) if fast else above))
 
 
 def _power(spectrum: NDArray[np.complex128]) -> Array:

@@ -26,6 +26,7 @@ from rwn.simulate.own_unknowns import LevelShare, StartUnknown
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 _NONE: Array = np.empty(0)
+LOST_ROW = 1.5  # median intervals between two rows, from which on one is missing between them
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,20 +87,45 @@ class Run:
         return np.where(self.not_compared(name), np.nan, values)
 
     def not_compared(self, name: str) -> Flags:
-        """Samples (n,) that were not measured, or where a difference would reach outside the recording.
+        """Samples (n,) that were not measured, or where a difference would reach outside the recording or a lost row.
 
-        For the ends of a difference there are as many formulas as makers.
+        For the ends of a difference there are as many formulas as makers, and a drive's clock goes on where its logger
+        loses a row.
         """
         n = self.time.size
         without = np.array(self.missing.get(name, np.zeros(n, dtype=bool)))
         if name == "speed":
             without[: self.speed_measured.before] = True
             without[n - self.speed_measured.after :] = True
+            without |= self._across_lost_rows
         return without
+
+    @cached_property
+    def _across_lost_rows(self) -> Flags:
+        """Samples (n,) whose speed was taken between positions on both sides of a lost row."""
+        across = np.zeros(self.time.size, dtype=bool)
+        if self.speed_measured.shows_counts:
+            before, after = self.speed_measured.before, self.speed_measured.after
+            for k in np.flatnonzero(np.diff(self.time) > LOST_ROW * self.sample_time):
+                across[max(k + 1 - after, 0) : k + 1 + before] = True
+        return across
 
     def noise_left(self, signal: str) -> float:
         """The share of the noise of a signal that is left in its errors."""
         return self.applied_input.noise_left.get(signal, 1.0) if self.applied_input else 1.0
+
+    def noise_in_differences(self, signal: str) -> float:
+        """The noise of a signal over that which its second differences show if it is taken to be white.
+
+        A speed that is a difference of counts shares the noise of a count with the sample before or behind it.
+        """
+        if signal != "speed" or not self.speed_measured.shows_counts:
+            return 1.0
+        taken = np.zeros(self.speed_measured.before + self.speed_measured.after + 1)
+        taken[[0, -1]] = -1.0, 1.0
+        second = np.array([1.0, -2.0, 1.0])
+        of_counts = np.convolve(second, taken)
+        return float(np.sqrt((taken @ taken) * (second @ second) / (of_counts @ of_counts)))
 
     @property
     def angle_unknown(self) -> bool:
