@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,3 +87,23 @@ BRAKED_NOMINAL = Model(
     uncertainty={"resistance": 0.05, "inertia": 0.1, "viscous_friction": 0.3, "torque_constant": 0.03},
     own_effects=(BRAKE,),
 )
+
+
+AXIS = Model(
+    kind="axis", parameters={"inertia": 1.4e-3, "viscous_friction": 1.7e-3, "coulomb_friction": 0.1},
+    uncertainty={"inertia": 0.05, "viscous_friction": 0.2, "coulomb_friction": 0.1},
+)  # fmt: skip
+
+
+def slow_axis(*, cogging: float, periods: float) -> rwn.Recording:
+    """6 s of an axis that 0.16 N m do not move out of its detent and -0.08 N m do, which then turns to and fro."""
+    time, rng = 1e-3 * np.arange(6000), np.random.default_rng(4)
+    torque = 0.2 * np.sin(2.0 * np.pi * 0.25 * time) + 0.03 * np.sin(2.0 * np.pi * 1.3 * time)
+    torque[:400], torque[400:800] = 0.16, -0.08
+    effects = {"cogging-torque": {"amplitude": cogging, "periods_per_rev": periods, "phase": 0.9}}
+    run = rwn.Recording(name="axis", time=time, signals={"torque": torque})
+    seen = rwn.simulate(replace(AXIS, effects=effects), run).signals
+    noise = {"speed": 0.1, "position": 1e-4}
+    return replace(
+        run, signals={"torque": torque} | {s: seen[s] + rng.normal(0.0, n, time.size) for s, n in noise.items()}
+    )

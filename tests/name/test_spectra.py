@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
-from made_up_motor import MOTOR
+from made_up_motor import AXIS, MOTOR, slow_axis
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
@@ -46,3 +46,14 @@ def test_what_the_motor_constants_could_take_is_no_ripple(rippled: Problem) -> N
     other[:4] = [0.5, 2e-3, 0.1, 0.12]
     one, two = (spectra.flux_spectrum(rippled, vector, grid)[0] for vector in (start, other))
     assert one == pytest.approx(two, rel=1e-6)
+
+
+def test_cogging_shows_in_the_torque_where_the_free_run_is_lost() -> None:
+    """A slow axis stops and breaks away elsewhere than its model without the detents, and is then off for good."""
+    problem = prepare([slow_axis(cogging=0.09, periods=24.0)], AXIS)
+    found = spectra.read(problem, problem.as_given(), problem.prior.table["cogging-torque"], 1)
+    assert found is not None
+    assert found[0] == {"periods_per_rev": 24.0}
+    grid, given = spectra.order_grid(problem), problem.as_given().vector
+    by_free_run = spectra.angle_spectrum(problem, given, problem.residuals(given, []), grid)
+    assert spectra.orders_of(by_free_run, grid, 1) != [24.0]

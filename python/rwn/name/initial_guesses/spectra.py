@@ -33,11 +33,13 @@ def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess]
     problem = along_the_shaft(problem, base.vector, base.active)
     grid = order_grid(problem)
     grid = grid[grid >= order.lower]  # once per revolution is an unbalance
-    if not any(r.speed.size for r in problem.runs):
-        spectrum = torque_spectrum(problem, base.vector, base.active, grid)
-        return [{order.name: n} for n in orders_of(spectrum, grid, count)]
-    residuals = problem.residuals(base.vector, base.active)
     found: list[float] = []
+    by_speed = any(r.speed.size for r in problem.runs)
+    if effect.site != "flux" or not by_speed:
+        found = orders_of(torque_spectrum(problem, base.vector, base.active, grid), grid, count)
+    if not by_speed:
+        return [{order.name: n} for n in found]
+    residuals = problem.residuals(base.vector, base.active)
     wanted: tuple[tuple[bool, int], ...] = ((False, count),)  # with the current or without, and how many orders
     if effect.site == "flux" and all(r.current.size for r in problem.runs):
         found = orders_of(flux_spectrum(problem, base.vector, grid), grid, count)
@@ -163,7 +165,10 @@ def _beside(basis: Array, x: Array) -> Array:
 
 
 def torque_spectrum(problem: Problem, vector: Array, active: Sequence[int], orders: Array) -> Array:
-    """As `angle_spectrum` (k,), of the torque lacking along the recorded motion: where speed is not recorded."""
+    """As `angle_spectrum` (k,), of the torque lacking along the recorded motion, whatever the free run has lost.
+
+    It is a derivative, whose noise may hide a small torque that the speed shows.
+    """
     grams, loads, energy = np.zeros((orders.size, 2, 2)), np.zeros((orders.size, 2)), 1e-300
     for run in problem.runs:
         lacking = _lacking_torque(problem, vector, active, run)
