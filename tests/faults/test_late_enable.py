@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_motor import AXIS, slow_axis
 from made_up_motor import SMALL as MOTOR
 from rwn.faults.fault import Fault, without
-from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered, retimed
+from rwn.faults.late_enable import LateEnable, _best_held, late_beside, late_enables, powered, retimed
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
@@ -171,6 +172,13 @@ def test_a_drive_that_is_on_from_the_beginning_has_none() -> None:
 def test_friction_that_holds_until_the_voltage_has_risen_is_no_late_enable() -> None:
     ramp = np.linspace(0.0, 3.0, 3000)
     assert late_enables([_run(ramp, 0, friction=0.02)], MODEL) == ()
+
+
+def test_detents_may_hold_a_drive_as_friction_does() -> None:
+    recording = slow_axis(cogging=0.09, periods=24.0)
+    held = _best_held(prepare([recording], AXIS).in_windows(), [0.4])
+    assert "cogging-torque" in held.added
+    assert late_enables([recording], AXIS) == ()
 
 
 def test_a_drive_that_later_moves_under_less_was_held_by_no_friction() -> None:

@@ -187,22 +187,23 @@ def _worthwhile(
 
 
 def _best_held(problem: Problem, waits: Sequence[float]) -> Fit:
-    """The best of the nominal model, what holds a drive, and a delay of the input beside either.
+    """The best of the nominal model, what holds a drive by its size or at its angle, and a delay beside these.
 
-    `waits`: delays [s] to begin from.
+    `waits`: delays [s] of the input to begin from.
     """
     nominal, shown = fit_nominal(problem), [e for n, e in problem.prior.table.items() if observable(n, problem)]
-    held = min([nominal, *screen(problem, nominal, [e.name for e in shown if e.holds])], key=attrgetter("cost"))
-    if any(problem.prior.table[name].delays for name in held.hypothesis.effects):
-        return held
+    by_size, by_angle = [e.name for e in shown if e.holds], [e.name for e in shown if e.turns]
+    held = [nominal, *(screened[0] for names in (by_size, by_angle) if (screened := screen(problem, nominal, names)))]
 
-    def delayed(effect: Effect, wait: float) -> Fit:
+    def delayed(held: Fit, effect: Effect, wait: float) -> Fit:
         (delay,) = effect.parameters
         starts = {**held.starts(held.added), effect.name: {delay.name: wait}}
         names = (*held.added, effect.name)
         return fit(problem, hypothesis(problem.prior, names, problem.scales, starts, held.motor))
 
-    return min([held, *(delayed(e, wait) for e in shown if e.delays for wait in waits)], key=attrgetter("cost"))
+    delays = [e for e in shown if e.delays and e.name not in nominal.hypothesis.effects]
+    late = (delayed(this, delay, wait) for this in held for delay in delays for wait in waits)
+    return min([*held, *late], key=attrgetter("cost"))
 
 
 def _waiting_time(recording: Recording, late: LateEnable, model: Model) -> float:
