@@ -31,7 +31,8 @@ from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
 from rwn.search.search import SearchResult, search
 from rwn.simulate.declared import check_declared
-from rwn.simulate.run import Run, judging_run, measured_alike
+from rwn.simulate.recorded_run import judging_run, measured_alike
+from rwn.simulate.run import Run
 
 LEAST_EFFORT, MOST_EFFORT = 0.1, 1000.0
 AFTER_SEARCH = 0.85  # progress when the search is done

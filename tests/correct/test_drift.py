@@ -14,7 +14,8 @@ from rwn.fit.fit import Fit
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import rank
-from rwn.simulate.run import Run, judging_run
+from rwn.simulate.recorded_run import judging_run
+from rwn.simulate.run import Run
 
 AXIS = {"inertia": 9e-4, "viscous_friction": 1.2e-3, "coulomb_friction": 0.05}
 DRAG = {"drag_coefficient": 3e-5}

@@ -15,7 +15,7 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.prove.proof import FITTED_PART, _folds
 from rwn.recording.intersample import PiecewiseInput
-from rwn.simulate.run import run_of
+from rwn.simulate.recorded_run import run_of
 
 SHEET = rwn.Model(
     kind="axis", parameters={"inertia": 0.0033, "viscous_friction": 0.06},

@@ -20,7 +20,7 @@ from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
 from rwn.name.forward import rank
 from rwn.report.sentences import verdict_sentence
-from rwn.simulate.run import judging_run
+from rwn.simulate.recorded_run import judging_run
 from rwn.unnamed_law.places import places
 
 pytestmark = pytest.mark.slow

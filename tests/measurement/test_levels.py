@@ -17,7 +17,7 @@ from rwn.fit.preparation import prepare
 from rwn.measurement.levels import SPREAD, can_differ, friction, level_beside, uneven, with_levels
 from rwn.model.model import Model
 from rwn.name.uneven import uneven_beside
-from rwn.simulate.run import judging_run
+from rwn.simulate.recorded_run import judging_run
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,

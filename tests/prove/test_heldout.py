@@ -12,7 +12,7 @@ from made_up_motor import MOTOR, recorded
 from rwn.fit.preparation import prepare
 from rwn.prove.heldout import HeldoutRow, _gain, gain_interval, heldout_error, heldout_rows, helps, hurts
 from rwn.recording.signals import DRIVING_FORCE
-from rwn.simulate.run import judging_run
+from rwn.simulate.recorded_run import judging_run
 
 MODEL = rwn.Model(kind="dc", parameters=MOTOR)
 

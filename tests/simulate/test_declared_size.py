@@ -14,7 +14,7 @@ from made_up_motor import MOTOR as MADE_UP
 from rwn.errors import InputError
 from rwn.model.vocabulary import Effect, Parameter, table
 from rwn.simulate.declared import check_declared, surely_passes
-from rwn.simulate.run import run_of
+from rwn.simulate.recorded_run import run_of
 from rwn.simulate.scales import scales_of_input, usual_scales
 from rwn.simulate.simulator import Simulator
 

@@ -9,7 +9,8 @@ from made_up_motor import MOTOR
 from rwn.model.model import Model
 from rwn.recording.filters import as_filtered
 from rwn.recording.recording import Recording
-from rwn.simulate.run import Run, run_of
+from rwn.simulate.recorded_run import run_of
+from rwn.simulate.run import Run
 
 MODEL = Model(kind="dc", parameters=MOTOR)
 TIME = 1e-3 * np.arange(400)

@@ -12,7 +12,7 @@ from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
 from rwn.recording.smoothing import smooth
-from rwn.simulate.run import run_of
+from rwn.simulate.recorded_run import run_of
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -29,7 +29,8 @@ from rwn.name.observable import observable
 from rwn.name.screening import screen
 from rwn.recording.inspection import Finding
 from rwn.recording.recording import Recording, beginnings
-from rwn.simulate.run import Run, run_of
+from rwn.simulate.recorded_run import run_of
+from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 

@@ -22,7 +22,8 @@ from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.recording.recording import Recording
 from rwn.simulate.own_unknowns import StartUnknown
-from rwn.simulate.run import Run, run_of
+from rwn.simulate.recorded_run import run_of
+from rwn.simulate.run import Run
 from rwn.simulate.scales import scales
 from rwn.simulate.simulator import Simulator
 

@@ -9,7 +9,8 @@ from rwn.model.model import Model
 from rwn.recording.clock import clock_of
 from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
-from rwn.simulate.run import Run, run_of
+from rwn.simulate.recorded_run import run_of
+from rwn.simulate.run import Run
 
 
 def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:

@@ -24,7 +24,8 @@ from rwn.recording.signals import MEASURED
 from rwn.simulate.declared import check_declared, surely_passes
 from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.initial_state import nearest_state
-from rwn.simulate.run import Run, run_of
+from rwn.simulate.recorded_run import run_of
+from rwn.simulate.run import Run
 from rwn.simulate.scales import scales_of_input, usual_scales
 from rwn.simulate.simulator import Simulator
 from rwn.values import Shown, Values

@@ -12,7 +12,7 @@ from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import rank
 from rwn.recording.recording import Recording
-from rwn.simulate.run import judging_run
+from rwn.simulate.recorded_run import judging_run
 from rwn.studies.machines.machine import Error, Machine, Outcome, Say, cut, data_file, error_of, judged, nominal_model
 
 STEP = 0.02  # [s]
