@@ -11,7 +11,7 @@ import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.fit.preparation import prepare
 from rwn.recording.speed_measurement import BACKWARD, CENTRAL, INSTANTANEOUS, SpeedMeasurement
-from rwn.simulate import run as run_module
+from rwn.simulate import recorded_run
 
 SHEET = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "resistance": 0.05})
 
@@ -36,7 +36,7 @@ def test_each_signal_has_a_noise_level_whichever_recording_has_it() -> None:
 def test_one_sensor_measures_one_way_in_all_recordings(monkeypatch: pytest.MonkeyPatch) -> None:
     """A voltage that is held for five samples leaves the gaps of an average over five in the spectrum of the speed."""
     ways = iter([SpeedMeasurement(5, 0), CENTRAL, CENTRAL, BACKWARD, SpeedMeasurement(5, 0)])
-    monkeypatch.setattr(run_module, "speed_measurement", lambda *_, **__: next(ways))
+    monkeypatch.setattr(recorded_run, "speed_measurement", lambda *_, **__: next(ways))
     model = rwn.Model(kind="dc", parameters=MOTOR)
     three = prepare([recorded(k, lambda *_: 0.0, 200) for k in range(3)], model)
     assert {run.speed_measured for run in three.runs} == {CENTRAL}
@@ -46,7 +46,7 @@ def test_one_sensor_measures_one_way_in_all_recordings(monkeypatch: pytest.Monke
 
 def test_a_difference_that_one_recording_shows_of_its_position_is_that_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
     ways = iter([SpeedMeasurement(20, 0), INSTANTANEOUS, INSTANTANEOUS])
-    monkeypatch.setattr(run_module, "speed_measurement", lambda *_, **__: next(ways))
+    monkeypatch.setattr(recorded_run, "speed_measurement", lambda *_, **__: next(ways))
     turned = [recorded(k, lambda *_: 0.0, 200) for k in range(3)]
     runs = [replace(r, signals=dict(r.signals) | {"position": np.cumsum(r.signals["speed"]) * 1e-3}) for r in turned]
     prepared = prepare(runs, rwn.Model(kind="dc", parameters=MOTOR))
