@@ -46,7 +46,7 @@ class Evidence:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Half:
+class _Fold:
     """One half of what was recorded, and the explanation fitted to it alone."""
 
     problem: Problem
@@ -65,7 +65,7 @@ class CrossValidation:
         # deviation of a mean square
         self._chance = float(np.sqrt(2.0 / max(statistics(problem, leading.final).effective, 2.0)))
         self._halves = _halves(problem)
-        self._seen = side_by_side(lambda half: _Half(problem=half, fit=_refit(leading.final, half)), self._halves)
+        self._seen = side_by_side(lambda half: _Fold(problem=half, fit=_refit(leading.final, half)), self._halves)
         self._heldout = [problem.on(heldout)] if heldout else []
         self._innovations = _innovations(problem, leading.final)
 
@@ -167,7 +167,7 @@ def _innovations(problem: Problem, this: Fit) -> Innovations:
     return innovations(problem, this, share=one_stage(problem.work) / PARTS)
 
 
-def _birge(halves: Sequence[_Half]) -> float:
+def _birge(halves: Sequence[_Fold]) -> float:
     """Rms difference of the unknowns from half to half in units of its standard deviation (Birge 1932), at least 1."""
     a, b = (half.fit.minimum.values for half in halves)
     of_a, of_b = (deviations(half.fit, statistics(half.problem, half.fit)) for half in halves)

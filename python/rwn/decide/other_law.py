@@ -31,7 +31,7 @@ SEEN = 60.0  # gain in log-likelihood, in independent samples, of seven weights 
 MOST = 0.5  # share of the squared error above the noise that the curve has to explain
 
 
-class _Fitted(NamedTuple):
+class _FittedCurve(NamedTuple):
     """The curve at a place, fitted in a problem that knows it."""
 
     place: Place
@@ -90,11 +90,11 @@ def _best_curve(
     """
     share = one_stage(part.work) / SHARES
 
-    def begun(place: Place) -> _Fitted:
+    def begun(place: Place) -> _FittedCurve:
         on, with_it = with_network(part, model, place, PART, motor=this.motor, effects=effects)
-        return _Fitted(place, on, fit(on, this.carried_to(with_it), max_iterations=AT_FIRST, share=share))
+        return _FittedCurve(place, on, fit(on, this.carried_to(with_it), max_iterations=AT_FIRST, share=share))
 
-    def gone_on(one: _Fitted) -> _Fitted:
+    def gone_on(one: _FittedCurve) -> _FittedCurve:
         return one._replace(fit=refit(one.fit, one.on, iterations=FURTHER, share=share))
 
     found = all_places(part, model)

@@ -125,7 +125,7 @@ def _misfits_without(
     fault: Fault, seen: Mapping[str, Similarity], recordings: Sequence[Recording], model: Model
 ) -> dict[str, float]:
     """Misfit of every signal without the fault."""
-    if fault.signals == ("voltage",):
+    if fault.signals == (model.drive.input,):
         return {s: one.misfit(1.0) for s, one in _similarity(without(recordings, fault), model).items()}
     return {s: one.misfit(fault.factor if s in fault.signals else 1.0) for s, one in seen.items()}
 
@@ -148,14 +148,15 @@ def _slope(run: Run) -> Array:
 
 
 def _candidates(seen: Mapping[str, Similarity], model: Model) -> Iterator[Fault]:
-    """What may be wrong: each signal by itself, the motion as a whole, and the voltage, which all depend on."""
+    """What may be wrong: each signal by itself, the motion as a whole, and the input, which all depend on."""
     moving = tuple(s for s in MOTION if s in seen)
     groups = dict.fromkeys([*((s,) for s in seen), moving])
     for group in sorted(groups):
         if any(seen[s].far for s in group):
             yield from _scales(group, _mean([seen[s] for s in group]), model, whole=group == moving)
-    yield _wrong_sign(("voltage",))
-    yield from _in_units(("voltage",), THOUSANDS)
+    given = (model.drive.input,)
+    yield _wrong_sign(given)
+    yield from _in_units(given, THOUSANDS)
 
 
 def _mean(of: Sequence[Similarity]) -> Similarity:
@@ -253,10 +254,9 @@ def _axis_fault(recordings: Sequence[Recording], model: Model) -> Fault | None:
     if abs(seen.correlation) < LEAST_FORCE or (seen.correlation > 0.0 and abs(np.log(seen.ratio)) < np.log(2.0 * FAR)):
         return None
     before = relative_error(recordings, model)
-    given = "force" if "force" in recordings[0].signals else "torque"
     moving = tuple(s for s in MOTION if any(s in r.signals for r in recordings))
     best, least = None, min((1.0 - UNDOING_REMOVES[UNIT]) * before, LEFT)
-    for fault in chain(_any_scale((given,), model), _any_scale(moving, model)):
+    for fault in chain(_any_scale((model.drive.input,), model), _any_scale(moving, model)):
         after = relative_error(without(recordings, fault), model)
         if after < least:
             best, least = fault, after

@@ -22,7 +22,7 @@ from rwn.recording.intersample import known_law
 from rwn.recording.profiles import known_profile
 from rwn.recording.signals import COLUMNS, MEASURED, TIME
 
-_MOST_ROWS = 10**6  # that one row stands for: what is fitted has at least 50 of them, and no bench records 5e7
+_MOST_ROWS = 10**6  # of a file, for which one may be kept: at least 50 are fitted, and no bench records 5e7
 
 
 def parse_model(text: str, *, where: str) -> Model:

@@ -25,7 +25,7 @@ NUMBER = {
     "type": ["number", "string"],
     "pattern": "^(inf|-inf|nan)$",
 }
-LEFT_OUT = ("command", "corrected", "curves", "elapsed")  # of diagnosis.json
+NOT_WRITTEN = ("command", "corrected", "curves", "elapsed")  # fields that diagnosis.json leaves to other files
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,7 +101,7 @@ class DiagnosisData:
 
         A number that is not finite is a word (`NUMBER`).
         """
-        kept = {name: value for name, value in vars(self).items() if name not in LEFT_OUT}
+        kept = {name: value for name, value in vars(self).items() if name not in NOT_WRITTEN}
         return _text({"format": FORMAT, **kept})
 
     def curves_json(self) -> bytes:
@@ -121,7 +121,7 @@ class DiagnosisData:
             if plain.get("format", FORMAT) != FORMAT:
                 raise ValueError(f"format {plain['format']}, this version reads {FORMAT}")
             drawn = msgspec.json.decode(curves) if curves is not None else {"curves": []}
-            plain = {name: value for name, value in plain.items() if name not in LEFT_OUT}
+            plain = {name: value for name, value in plain.items() if name not in NOT_WRITTEN}
             if isinstance(drawn, dict) and "curves" not in drawn:
                 raise ValueError("no 'curves' in curves.json")
             plain["curves"] = drawn["curves"] if isinstance(drawn, dict) else drawn
@@ -134,7 +134,7 @@ class DiagnosisData:
         (whole,), components = msgspec.json.schema_components((DiagnosisData,), schema_hook=_numbers)
         parts = dict(components)
         top = dict(parts.pop(whole["$ref"].rsplit("/", 1)[-1]))
-        kept = {name: rule for name, rule in top["properties"].items() if name not in LEFT_OUT}
+        kept = {name: rule for name, rule in top["properties"].items() if name not in NOT_WRITTEN}
         for name in ("Plot", "Trace", "Mark"):
             parts.pop(name)
         return {

@@ -13,7 +13,7 @@ from rwn.simulate.scales import LEAST
 # Factor by which a value may lie beyond a bound of the table: bounds are measured by what recordings show, and another
 # run of the same drive may be ten times slower or weaker, while a slip of a unit is a factor of 1000.
 SLACK = 100.0
-USUAL = 10.0  # the same beyond what a usual recording shows instead: a motor of 24 V may be one of 2.4 or 240 V
+USUAL = 10.0  # factor beyond a bound in the units of a usual recording: a motor of 24 V may be one of 2.4 or 240 V
 SHARP = 1e6  # factor beyond a bound for what idealises a law (`idealised`), which may be as sharp as one likes
 
 

@@ -168,5 +168,5 @@ def unit_of_weights(problem: Problem, place: Place) -> str:
 
 def _unit(problem: Problem, state: str, *, linear: bool) -> str:
     if state == "input":
-        return "V" if problem.drive.winding else "N" if linear else "N m"
+        return problem.drive.input_unit
     return VARIABLES[state][linear]

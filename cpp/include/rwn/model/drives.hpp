@@ -1,14 +1,14 @@
 // The table of the kinds of drive. A new one is a file in drives/, its include and its entry in the tuple; its counterpart in
 // Python is a file in python/rwn/model/drives/.
 //
-// A drive with equations of motion says how many states its electrical part has, whether its input is a torque, and in
-// `Electrics` what that part does: see drives/dc.hpp. The integrator, the effects and the second mass know no more.
+// What a drive says of itself is in drive.hpp. The integrator, the effects and the second mass know no more.
 #pragma once
 
 #include <array>
 #include <string_view>
 #include <tuple>
 
+#include "rwn/model/drive.hpp"
 #include "rwn/model/drives/axis.hpp"
 #include "rwn/model/drives/dc.hpp"
 #include "rwn/model/drives/lti.hpp"
@@ -16,6 +16,8 @@
 namespace rwn {
 
 using Drives = std::tuple<DcDrive, AxisDrive, LtiDrive>;
+
+static_assert(std::apply([](auto... d) { return (DriveKind<decltype(d)> && ...); }, Drives{}));
 
 inline constexpr int drive_count = static_cast<int>(std::tuple_size_v<Drives>);
 

@@ -62,7 +62,7 @@ struct Motion {
   S position{};
   S angle{};                        // position as an angle: 2 pi times metres on a linear axis
   double angle_per_position = 1.0;  // rad/rad, or 2 pi rad/m
-  S drive_torque{};                 // Kt kappa i, or the driving torque of an axis [N m]
+  S drive_torque{};                 // Kt i, or the driving torque of an axis [N m]
   S travel{};                       // position minus position at the start of the step
   const S* memory = nullptr;        // this effect's own memory, as of the start of the step
 };

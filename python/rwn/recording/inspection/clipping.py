@@ -13,7 +13,7 @@ from rwn.recording.recording import Recording
 Array = NDArray[np.float64]
 
 CONVERTED = ("current",)  # signals that a converter of some bits has measured, with 0 at its middle
-FEWEST_BITS, MOST_BITS = 6, 16  # of such a converter
+FEWEST_BITS, MOST_BITS = 6, 16  # of a converter
 RARE = 0.02  # most of the rows that are at the end of a converter: a signal that stays there longer has its own
 CHANCE = 1e-6  # that so many samples of a noise larger than its steps have the largest value by chance
 
