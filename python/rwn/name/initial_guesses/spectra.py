@@ -187,7 +187,7 @@ def _lacking_torque(problem: Problem, vector: Array, active: Sequence[int], run:
         return unknown_inputs(problem.drive, problem.simulator, run, vector).torque
     speed, acceleration = run.motion
     needed = needed_force(
-        problem.simulator, vector, active, time=run.time, position=np.ascontiguousarray(run.position), speed=speed,
+        problem.simulator, vector, active, time=run.time, position=np.ascontiguousarray(run.angle), speed=speed,
         acceleration=acceleration,
     )  # fmt: skip
     lacking: Array = needed - run.input
