@@ -16,8 +16,8 @@ from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.diagnosis_data import Alternative, Beneath, Location, Source
+from rwn.report.fitted_filter import FittedFilter
 from rwn.report.nominal_fit import FittedParameter, NominalFit
-from rwn.report.sensor_filter import FittedFilter
 
 REGIONS = (
     Region(

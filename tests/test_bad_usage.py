@@ -27,7 +27,7 @@ def test_a_folder_that_takes_no_files(refuse: Refuse, monkeypatch: pytest.Monkey
     def deny(**_: object) -> None:
         raise OSError(30, "Read-only file system")
 
-    monkeypatch.setattr("rwn.report.files.tempfile.mkdtemp", deny)
+    monkeypatch.setattr("rwn.report.output_files.tempfile.mkdtemp", deny)
     line = refuse(csv_text())
     assert "cannot be written" in line
     assert "choose another --out" in line

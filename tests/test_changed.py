@@ -12,7 +12,7 @@ from tools.changed import ALWAYS, NO_MODULES, ROOT, paths_for
 @pytest.mark.parametrize(
     ("file", "expected"),
     [
-        ("python/rwn/fit/noise.py", "tests/fit"),
+        ("python/rwn/fit/residual_noise.py", "tests/fit"),
         ("python/rwn/recording/formats/csv.py", "tests/recording"),
         ("cpp/src/networks/rates/thesis.cpp", "tests/networks"),
         ("cpp/include/rwn/model/effects/backlash.hpp", "tests/model"),

@@ -17,7 +17,7 @@ from rwn import cli
 from rwn.errors import InputError, plain
 from rwn.model.files import read_model
 from rwn.model.vocabulary import table
-from rwn.report.files import check_file, check_folder, output_file, output_folder
+from rwn.report.output_files import check_file, check_folder, output_file, output_folder
 
 HEADER = "time [s],voltage [V],speed [rad/s]\n"
 Refused = Callable[..., str]

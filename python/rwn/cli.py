@@ -54,7 +54,7 @@ def diagnose(
 ) -> None:
     """Name the missing physics, model it, prove it and draw where it lies; exit code 3: the model does not run."""
     from rwn.model.recordings import read_recordings
-    from rwn.report.files import output_folder
+    from rwn.report.output_files import output_folder
     from rwn.report.provenance import source
     from rwn.report.terminal import print_verdict
 
@@ -101,7 +101,7 @@ def simulate(
     """Run a model freely from the input signal of a recording, in its units; exit code 3 where it ends before that."""
     from rwn.model.recordings import read_recordings
     from rwn.recording.recording import write_csv
-    from rwn.report.files import output_file
+    from rwn.report.output_files import output_file
     from rwn.report.simulated import simulated
 
     with output_file(out, overwrite=overwrite, inputs=[model, recording]) as aside:
@@ -121,7 +121,7 @@ def simulate(
 def check(recordings: Recordings, model: ModelFile, profile: Profile = None) -> None:
     """What is odd in recordings, before any physics, and what a diagnosis does about it."""
     from rwn.model.recordings import read_recordings
-    from rwn.report.check import checked
+    from rwn.report.recording_check import checked
 
     drive = _model(model, profile)
     for line in checked(read_recordings(recordings, drive), drive):
@@ -145,7 +145,7 @@ def identify(
     from rwn.model.files import write_model
     from rwn.model.recordings import read_recordings
     from rwn.report import identification
-    from rwn.report.files import output_file
+    from rwn.report.output_files import output_file
 
     with output_file(out, overwrite=overwrite, inputs=[model, *recordings]) if out else nullcontext() as aside:
         nominal = _model(model, profile)
@@ -195,7 +195,7 @@ def report(
     from rwn.report.comparison import comparison
     from rwn.report.diagnosis import Diagnosis
     from rwn.report.exchange import CURVES, MODEL, RESULT
-    from rwn.report.files import output_file
+    from rwn.report.output_files import output_file
     from rwn.report.page import page
 
     if len(folders) != (2 if compare else 1):
@@ -243,7 +243,7 @@ def evidence(
     overwrite: Overwrite = False,
 ) -> None:
     """Diagnose recordings of real machines: what was found, and the error on recordings that were not fitted."""
-    from rwn.report.files import output_folder
+    from rwn.report.output_files import output_folder
     from rwn.studies.machines.runner import run_machines
 
     with output_folder(out, overwrite=overwrite) as aside:

@@ -14,11 +14,11 @@ import numpy as np
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
 from rwn.fit.intervals import Estimate, deviations, estimates
-from rwn.fit.noise import noise_of, without_drift
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import BELIEVABLE
+from rwn.fit.residual_noise import noise_of, without_drift
 from rwn.fit.residuals import Statistics, statistics, structured
-from rwn.measurement.intersample import with_intersample
+from rwn.measurement.likeliest_law import with_intersample
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit

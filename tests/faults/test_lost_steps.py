@@ -9,7 +9,7 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.measurement.intersample import with_intersample
+from rwn.measurement.likeliest_law import with_intersample
 from rwn.model.model import Model
 from rwn.search.search import search
 

@@ -9,8 +9,8 @@ import pytest
 
 import rwn
 from rwn.fit.fit import fit_nominal
-from rwn.fit.noise import noise_of, without_drift
 from rwn.fit.preparation import prepare
+from rwn.fit.residual_noise import noise_of, without_drift
 from rwn.model.model import Model
 from rwn.recording.noise import STABLE
 

@@ -15,10 +15,10 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import nominal_of
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, statistics
-from rwn.measurement import intersample
+from rwn.measurement import likeliest_law
 from rwn.measurement.filter_colour import SensorFilter
-from rwn.measurement.intersample import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
 from rwn.measurement.known_filters import filtered
+from rwn.measurement.likeliest_law import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
 from rwn.measurement.likelihood import DECISIVE, log_likelihood
 from rwn.measurement.sensor_filter import losses_beside
 from rwn.measurement.unrecorded_input import with_unrecorded_input
@@ -234,10 +234,10 @@ def test_filters_under_a_law_that_leaves_no_input_unknown_are_looked_for_once(mo
         looked_for.append(1)
         return (SensorFilter(signal="speed", share=0.5, time_constant=1e-3, digital=True),), 0.0
 
-    monkeypatch.setattr(intersample, "filters_and_likelihood", found)
+    monkeypatch.setattr(likeliest_law, "filters_and_likelihood", found)
     bare, nominal = nominal_of([_run()], stating(MODEL, "held"))
     halves = replace(bare, runs=tuple(r.with_intersample("halves") for r in bare.runs))
     for problem, times in ((bare, 1), (halves, 2)):
         looked_for.clear()
-        intersample._with_filters(problem, nominal, ())
+        likeliest_law._with_filters(problem, nominal, ())
         assert len(looked_for) == times

@@ -11,11 +11,11 @@ import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import refitted_beside
+from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.unknown import prior_cost
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, known_filters

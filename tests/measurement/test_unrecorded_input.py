@@ -14,7 +14,7 @@ from rwn.fit.fit import fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import nominal_of
 from rwn.fit.preparation import prepare
-from rwn.measurement.intersample import stating
+from rwn.measurement.likeliest_law import stating
 from rwn.measurement.unrecorded_input import (
     _farthest,
     recording_with_inferred_input,

@@ -14,9 +14,9 @@ from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.nominal import weighted_by_nominal
-from rwn.fit.part import part
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.fit.screening_part import part
 from rwn.model.model import Model
 from rwn.name import screening
 from rwn.name.forward import _weighted_beforehand, rank

@@ -7,7 +7,7 @@ import pytest
 
 import rwn
 from rwn.fit.nominal import nominal_of
-from rwn.measurement.intersample import likeliest
+from rwn.measurement.likeliest_law import likeliest
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit
 from rwn.recording.columns import Layout

@@ -16,7 +16,7 @@ import made_up
 import rwn
 from rwn.errors import InputError
 from rwn.report.diagnosis import Diagnosis
-from rwn.report.files import check_folder, output_folder
+from rwn.report.output_files import check_folder, output_folder
 
 DEMO = Path(rwn.__file__).parent / "demo"
 STOPPED = 9

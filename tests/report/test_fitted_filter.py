@@ -11,13 +11,13 @@ from scipy.signal import lfilter
 import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import fit_nominal
-from rwn.fit.noise import with_noise_of
 from rwn.fit.preparation import prepare
+from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.residuals import statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
 from rwn.model.model import Model
-from rwn.report.sensor_filter import fitted_filters
+from rwn.report.fitted_filter import fitted_filters
 from rwn.report.text import filter_in_words
 
 SHARE, STEP = 0.6, 1e-3  # of a sample's noise that was in the sample before; [s]

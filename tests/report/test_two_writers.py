@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import rwn
-from rwn.report.files import output_folder
+from rwn.report.output_files import output_folder
 
 DEMO = Path(rwn.__file__).parent / "demo"
 

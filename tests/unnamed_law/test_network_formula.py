@@ -9,7 +9,7 @@ import numpy as np
 import rwn
 from made_up_motor import MOTOR, plant
 from rwn.fit.preparation import prepare
-from rwn.unnamed_law.formula import parts_of
+from rwn.unnamed_law.network_formula import parts_of
 from rwn.unnamed_law.places import places
 
 SHEET = rwn.Model(kind="dc", parameters=MOTOR, uncertainty={"viscous_friction": 0.3})

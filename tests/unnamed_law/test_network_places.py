@@ -10,7 +10,7 @@ from made_up_motor import MOTOR
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
-from rwn.unnamed_law.formula import parts_of
+from rwn.unnamed_law.network_formula import parts_of
 from rwn.unnamed_law.places import all_places, places, size_of
 
 TIME = 1e-3 * np.arange(2000)

@@ -11,9 +11,9 @@ from made_up_motor import MOTOR, recorded
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.unnamed_law.formula import basis_at, parts_of
+from rwn.unnamed_law.network_formula import basis_at, parts_of
+from rwn.unnamed_law.place_screening import most_promising
 from rwn.unnamed_law.places import all_places, states_of
-from rwn.unnamed_law.screening import most_promising
 
 SHEET = Model(kind="dc", parameters=MOTOR, uncertainty={"viscous_friction": 0.3, "inertia": 0.1})
 LAWS: dict[str, Callable[[float, float], float]] = {

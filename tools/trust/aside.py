@@ -1,6 +1,7 @@
 """Temporary folders of the commands of trust that do not stay behind: the next start removes those of killed ones.
 
-As rwn's own beside results (report/files.py), but without importing rwn, which must not be loaded before it is altered.
+As rwn's own beside results (report/output_files.py), but without importing rwn, which must not be loaded before it is
+altered.
 """
 
 from __future__ import annotations

@@ -16,8 +16,8 @@ from rwn.decide.decision import Decision
 from rwn.fit.budget import equal_shares
 from rwn.fit.driving_force import DrivingForceProblem
 from rwn.fit.fit import Fit, refit
-from rwn.fit.noise import without_drift
 from rwn.fit.problem import Problem
+from rwn.fit.residual_noise import without_drift
 from rwn.fit.residuals import statistics
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side

@@ -15,8 +15,8 @@ import numpy as np
 
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
+from rwn.fit.screening_part import screening_part
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
@@ -24,10 +24,10 @@ from rwn.parallel import side_by_side
 from rwn.prove.heldout import WORTH, HeldoutRow, helps
 from rwn.prove.proof import proved
 from rwn.simulate.run import Run
-from rwn.unnamed_law.formula import NAME, PART, as_effect, nominal_share
 from rwn.unnamed_law.law import has_room, knowing, with_network
+from rwn.unnamed_law.network_formula import NAME, PART, as_effect, nominal_share
+from rwn.unnamed_law.place_screening import most_promising
 from rwn.unnamed_law.places import Place, places
-from rwn.unnamed_law.screening import most_promising
 
 FEW, MANY = 7, 15  # wavelets while the states are compared, and of the network that is kept
 FREE = 1.02  # cost of a network without its nominal part against one with it, up to which it goes without

@@ -13,15 +13,15 @@ from typing import NamedTuple
 
 from rwn.fit.budget import one_stage
 from rwn.fit.fit import Fit, fit, refit
-from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
+from rwn.fit.screening_part import screening_part
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
-from rwn.unnamed_law.formula import PART
 from rwn.unnamed_law.law import has_room, with_network
+from rwn.unnamed_law.network_formula import PART
+from rwn.unnamed_law.place_screening import most_promising
 from rwn.unnamed_law.places import Place, all_places
-from rwn.unnamed_law.screening import most_promising
 
 AT_FIRST = 2  # iterations of every curve: the weights are linear but for the motion that they change
 FURTHER = 4  # iterations after the first, of the curves that leave least

@@ -17,12 +17,12 @@ from rwn.faults.fault import MOTION, SHIFT, ErrorReduction, Fault, without
 from rwn.faults.scale import gears
 from rwn.fit.fit import Fit, fit, fit_nominal, refit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.noise import with_noise_of
-from rwn.fit.part import screening_part
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import refitted_beside
+from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.residuals import variance
+from rwn.fit.screening_part import screening_part
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, noise_before_filters
 from rwn.model.model import Model

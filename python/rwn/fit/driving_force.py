@@ -15,8 +15,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.noise import noise_of
 from rwn.fit.problem import Problem
+from rwn.fit.residual_noise import noise_of
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise, noise_from_differences
 from rwn.recording.signals import DRIVING_FORCE

@@ -9,9 +9,9 @@ import numpy as np
 from rwn import _core
 from rwn.errors import NoResultError
 from rwn.fit.fit import Fit, fit_nominal
-from rwn.fit.noise import with_noise_of
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.fit.residual_noise import with_noise_of
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
 

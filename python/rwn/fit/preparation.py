@@ -13,10 +13,10 @@ from rwn import _core
 from rwn.fit.driving_force import of_driving_force
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.noise import noise_of
 from rwn.fit.prior import Prior, RunUnknown
 from rwn.fit.problem import Problem
-from rwn.fit.transfer_function import TransferFunctionProblem, first_guesses
+from rwn.fit.residual_noise import noise_of
+from rwn.fit.transfer_function_problem import TransferFunctionProblem, first_guesses
 from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index, motor_parameters

@@ -17,8 +17,8 @@ from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
-from rwn.simulate.initial_angle import angles_to_try, nearest_angle
 from rwn.simulate.level import nearest_level
+from rwn.simulate.nearest_angle import angles_to_try, nearest_angle
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import NormalEquations, Output, Simulator
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs

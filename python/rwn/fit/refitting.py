@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from rwn.fit.budget import shares_by_rank
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.noise import with_noise_of
 from rwn.fit.problem import Problem
+from rwn.fit.residual_noise import with_noise_of
 from rwn.model.vocabulary import analog_filters
 from rwn.parallel import side_by_side
 

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from rwn.fit.budget import first_stage, one_stage
 from rwn.fit.fit import NEAR_ITS_END, Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.part import screening_part
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, losses, statistics
+from rwn.fit.screening_part import screening_part
 from rwn.measurement.filter_colour import SLOWEST, SensorFilter, certain, coloured_signals, is_noise_alone
 from rwn.measurement.known_filters import filtered, log_density, share_kept
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior

@@ -12,11 +12,11 @@ import numpy as np
 from rwn.fit.budget import affords_more, one_stage, renew
 from rwn.fit.coloured_noise import final_fits
 from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
-from rwn.fit.noise import with_noise_of
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import refitted_beside
+from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.residuals import Statistics, statistics
 from rwn.fit.secant import all_down_secants
 from rwn.measurement.angle import along_the_simulated_angle

@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from rwn.fit.fit import Fit, best_few, refit, refit_all
-from rwn.fit.noise import with_noise_of
-from rwn.fit.part import screening_part
 from rwn.fit.problem import Problem
+from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.residuals import join, statistics
+from rwn.fit.screening_part import screening_part
 from rwn.name.screening import screen
 
 FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free run follows the motion

@@ -15,9 +15,9 @@ import numpy as np
 from rwn.fit.budget import shares_by_rank, shares_of_steps
 from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, cost_of_a_step, fit, refit
 from rwn.fit.levenberg_marquardt import FitStatus
-from rwn.fit.part import first_part, screening_part
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
+from rwn.fit.screening_part import first_part, screening_part
 from rwn.fit.secant import down_secants
 from rwn.name.first_order import FirstOrder
 from rwn.name.starts import (

@@ -11,8 +11,8 @@ import numpy as np
 from rwn.fit.fit import FAR_BEHIND, Fit
 from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.levenberg_marquardt import DAMPING
-from rwn.fit.part import first_part
 from rwn.fit.problem import Problem
+from rwn.fit.screening_part import first_part
 from rwn.name.first_order import FirstOrderCost
 from rwn.name.initial_guesses.guess import Guess
 from rwn.name.initial_guesses.guesses import initial_guesses

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.intervals import HALF_WIDTH
-from rwn.fit.noise import noise_of
 from rwn.fit.problem import Problem
+from rwn.fit.residual_noise import noise_of
 from rwn.fit.residuals import correlation_time
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.inverse_dynamics import force_error

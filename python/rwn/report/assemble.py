@@ -34,9 +34,9 @@ from rwn.prove.proof import LEFT_OUT
 from rwn.report import figures
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.diagnosis_data import Alternative, Beneath, Location
+from rwn.report.fitted_filter import FittedFilter, fitted_filters
 from rwn.report.next_steps import NEAR
 from rwn.report.nominal_fit import nominal_fit
-from rwn.report.sensor_filter import FittedFilter, fitted_filters
 from rwn.report.text import listing, located, plain_name, shaft_in_words, times_given, unknown_name
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs

@@ -12,7 +12,7 @@ from rwn.input_file import input_file, path_of
 from rwn.model.files import read_model, write_model
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.exchange import CURVES, MODEL, REPORT, RESULT
-from rwn.report.files import one_result, output_folder
+from rwn.report.output_files import one_result, output_folder
 from rwn.report.page import page, panels, pictures
 from rwn.report.plots import drawn
 from rwn.report.sentences import sentences, verdict_sentence

@@ -15,9 +15,9 @@ from rwn.mismatch_map.regions import Region
 from rwn.name.found_effect import FoundEffect
 from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding
+from rwn.report.fitted_filter import FittedFilter
 from rwn.report.nominal_fit import NominalFit
 from rwn.report.plot import Plot
-from rwn.report.sensor_filter import FittedFilter
 
 FORMAT = 1  # of diagnosis.json and curves.json; a reader of another number cannot rely on what it knows
 NUMBER = {

@@ -10,7 +10,7 @@ from rwn.input_file import path_of
 from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.recording.recording import Recording, write_csv
-from rwn.report.files import output_file
+from rwn.report.output_files import output_file
 from rwn.simulate.simulation import Simulation
 from rwn.values import SHOWN_BY
 

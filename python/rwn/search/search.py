@@ -16,8 +16,8 @@ from rwn.fit.preparation import prepare
 from rwn.fit.refitting import refitted_beside
 from rwn.fit.residuals import statistics
 from rwn.measurement.filter_colour import SensorFilter
-from rwn.measurement.intersample import likeliest_with_filters, stating, with_intersample, without_unknown
 from rwn.measurement.known_filters import filtered, known_filters, stating_filters
+from rwn.measurement.likeliest_law import likeliest_with_filters, stating, with_intersample, without_unknown
 from rwn.measurement.likelihood import is_decisive, log_posterior
 from rwn.measurement.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model

@@ -21,9 +21,9 @@ from rwn.recording.delays import delayed
 from rwn.recording.filters import as_filtered
 from rwn.recording.recording import table_of_signals
 from rwn.recording.signals import MEASURED
+from rwn.simulate.coefficient_state import nearest_state
 from rwn.simulate.declared import check_declared, surely_passes
-from rwn.simulate.initial_angle import angles_to_try, nearest_angle
-from rwn.simulate.initial_state import nearest_state
+from rwn.simulate.nearest_angle import angles_to_try, nearest_angle
 from rwn.simulate.recorded_run import run_of
 from rwn.simulate.run import Run
 from rwn.simulate.scales import scales_of_input, usual_scales

@@ -10,7 +10,7 @@ from rwn import _core
 from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
-from rwn.unnamed_law.formula import NAME, parts_of
+from rwn.unnamed_law.network_formula import NAME, parts_of
 from rwn.unnamed_law.places import Place, size_of
 
 STIFF = 3.0  # standard deviation of the weights' prior, of the drive's largest torque or voltage

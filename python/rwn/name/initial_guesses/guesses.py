@@ -9,13 +9,13 @@ from rwn.fit.fit import Fit
 from rwn.fit.hypothesis import first_unit
 from rwn.fit.problem import Problem
 from rwn.model.vocabulary import Effect
-from rwn.name.initial_guesses import resonance, spectra, windows
+from rwn.name.initial_guesses import resonance, spectra, time_windows
 from rwn.name.initial_guesses.guess import Guess, Read
 
 # what the residual tells, by the `Guess` of an effect (cpp/include/rwn/model/effect.hpp)
 READ: Mapping[str, Read] = {
     "spectrum": spectra.read,
-    "window": windows.read,
+    "window": time_windows.read,
     "resonance": resonance.read,
 }
 

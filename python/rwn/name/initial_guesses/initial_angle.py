@@ -14,7 +14,7 @@ from rwn.fit.problem import Problem
 from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.vocabulary import Effect, motor_index
 from rwn.name.initial_guesses.guess import Guess
-from rwn.simulate.initial_angle import angles_to_try
+from rwn.simulate.nearest_angle import angles_to_try
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rwn.errors import InputError
-from rwn.report.files import check_file, check_folder
+from rwn.report.output_files import check_file, check_folder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

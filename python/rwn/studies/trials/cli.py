@@ -32,7 +32,7 @@ def make(
     jobs: Jobs = 2,
 ) -> None:
     """Make COUNT trials with independent plants and seal their answers."""
-    from rwn.report.files import check_folder
+    from rwn.report.output_files import check_folder
     from rwn.studies.trials import make as sets
 
     check_folder(out)
@@ -51,7 +51,7 @@ def spoil(
     out: Annotated[Path, typer.Option(help="Folder to make.")],
 ) -> None:
     """Put a recording mistake (unit, sign, gear ratio, a channel out of step) into every trial of FOLDER."""
-    from rwn.report.files import check_folder
+    from rwn.report.output_files import check_folder
     from rwn.studies.trials.spoil import spoil as spoil_set
 
     check_folder(out)
@@ -62,7 +62,7 @@ def spoil(
 @app.command()
 def run(folder: Folder, results: Results = None, jobs: Jobs = 2) -> None:
     """Diagnose every trial of FOLDER that has no diagnosis yet."""
-    from rwn.report.files import check_folder
+    from rwn.report.output_files import check_folder
     from rwn.studies.trials.run import run as run_set
 
     if results is not None:

@@ -18,7 +18,7 @@ from rwn.model.vocabulary import motor_index, table
 from rwn.name.forward import rank
 from rwn.name.initial_guesses.initial_angle import aligned
 from rwn.name.initial_guesses.spectra import angle_spectrum
-from rwn.simulate.initial_angle import angles_to_try
+from rwn.simulate.nearest_angle import angles_to_try
 
 STEP = 1e-3
 MOTOR = {

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.problem import Problem
 from rwn.model.vocabulary import motor_index, state_indices
-from rwn.simulate.initial_state import nearest_state
+from rwn.simulate.coefficient_state import nearest_state
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import NormalEquations
 from rwn.simulate.transfer_function import state_space, states

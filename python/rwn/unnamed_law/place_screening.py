@@ -21,7 +21,7 @@ from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.linear_response import speed_filter
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import unknown_inputs
-from rwn.unnamed_law.formula import basis_at
+from rwn.unnamed_law.network_formula import basis_at
 from rwn.unnamed_law.places import FACTORS, Place
 
 Array = NDArray[np.float64]

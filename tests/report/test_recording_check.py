@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import rwn
-from rwn.report.check import checked
+from rwn.report.recording_check import checked
 
 DEMO = Path(rwn.__file__).parent / "demo"
 MODEL = rwn.read_model(DEMO / "model.toml")

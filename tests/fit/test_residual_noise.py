@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rwn.fit.noise import CLOCK, noise_of
+from rwn.fit.residual_noise import CLOCK, noise_of
 from rwn.recording.noise import Noise, noise_from_differences
 from rwn.recording.speed_measurement import BACKWARD, CENTRAL, SpeedMeasurement, difference
 from rwn.simulate.run import Run
