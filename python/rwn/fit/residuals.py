@@ -9,9 +9,11 @@ from statistics import NormalDist
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.disturbance import distance_from_disturbance
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.recording.noise import WHITE
+from rwn.simulate.linear_response import speed_filter
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
 
@@ -93,10 +95,26 @@ def ringing_share(x: Array, length: int = 32) -> float:
 
 
 def structured(problem: Problem, this: Fit) -> tuple[str, ...]:
-    """The signals in which a fit leaves more than noise."""
+    """The signals in which a fit leaves more than noise; of the position, more than a torque new in each row does."""
     counted = any(run.speed_measured.shows_counts for run in problem.runs)
-    joined = join(problem, problem.residuals(this.vector, this.active))
-    return structured_of(joined, differences=("speed",) if counted else ())
+    residuals = problem.residuals(this.vector, this.active)
+    found = structured_of(join(problem, residuals), differences=("speed",) if counted else ())
+    if "position" not in found or _errs_as_disturbed(problem, this, residuals):
+        return tuple(s for s in found if s != "position")
+    return found
+
+
+def _errs_as_disturbed(problem: Problem, this: Fit, residuals: Sequence[Mapping[str, Array]]) -> bool:
+    """Whether the position of every free run errs as under white torque (see `disturbance`), by the same test."""
+    pairs = [(run, left["position"]) for run, left in zip(problem.runs, residuals, strict=True) if "position" in left]
+    if problem.drive.coefficients or any(run.restart_every for run, _ in pairs):
+        return False
+    shares = [speed_filter(problem.drive, this.vector, run.sample_time)[0] for run, _ in pairs]
+    found = [
+        distance_from_disturbance(run.masked("position", error), share)
+        for (run, error), share in zip(pairs, shares, strict=True)
+    ]
+    return max(found) < _most_distant(len(found))
 
 
 def structured_of(joined: Mapping[str, Array], *, differences: Collection[str] = ()) -> tuple[str, ...]:
@@ -105,8 +123,13 @@ def structured_of(joined: Mapping[str, Array], *, differences: Collection[str] =
     White noise is found to have structure in one case of 1 / LEVEL, whatever the number of samples (n,). The noise of
     `differences` of counts is fast: of these only slow errors are structure.
     """
-    limit = np.sqrt(-0.5 * np.log(0.5 * LEVEL / max(len(joined), 1)))  # Kolmogorov, Smirnov
+    limit = _most_distant(len(joined))
     return tuple(s for s, x in joined.items() if _distance_from_white(x, fast=s not in differences) > limit)
+
+
+def _most_distant(tests: int) -> float:
+    """Distance that one of so many cumulative periodograms of noise exceeds in one case of 1 / LEVEL."""
+    return float(np.sqrt(-0.5 * np.log(0.5 * LEVEL / max(tests, 1))))  # Kolmogorov, Smirnov
 
 
 def _distance_from_white(x: Array, *, fast: bool = True) -> float:
