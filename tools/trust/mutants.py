@@ -15,6 +15,7 @@ import resource
 import shutil
 import signal
 import sys
+import sysconfig
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
@@ -157,6 +158,9 @@ def main() -> int:
         for part in ("python", "tests", "pyproject.toml", "tools"):
             whole = ROOT / part
             shutil.copytree(whole, copy / part) if whole.is_dir() else shutil.copy(whole, copy / part)
+        installed = Path(sysconfig.get_paths()["platlib"])
+        for compiled in installed.glob("rwn/**/*.so"):  # a clean clone has none beside its sources
+            shutil.copy(compiled, copy / "python" / compiled.relative_to(installed))
         for tests in {FILES[mutant.path] for mutant in drawn}:
             if not _pass(tests, copy):
                 print(f"{', '.join(tests)} fail on what is not altered: no score", file=sys.stderr)
