@@ -199,7 +199,7 @@ def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recor
     """The recordings without the currents that hang on when the input changed since the row before, which none knows.
 
     A winding follows its voltage within a row or two: where that stepped, evenly spread over the step, the current is
-    known to a twelfth of the square of what it will become.
+    known to a twelfth of the square of what it will become. Raises InputError where a recording does not fit the model.
     """
     recordings, law = list(recordings), model.recording.intersample
     if law in (AUTO, HELD) or not model.drive.winding or any("current" not in r.signals for r in recordings):

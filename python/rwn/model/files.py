@@ -34,7 +34,7 @@ def model_of(source: Model | str | Path) -> Model:
 
 
 def write_model(model: Model, path: str | Path) -> None:
-    """Write a model file that `read_model` reads back as an equal model."""
+    """Write a model file that `read_model` reads back as an equal model. Raises InputError for a path that is none."""
     path_of(path, "motor.toml").write_text(format_model(model), encoding="utf-8")
 
 

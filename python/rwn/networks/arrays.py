@@ -28,7 +28,10 @@ def as_float_array(name: str, values: ArrayLike, ndim: int) -> Array:
 
 
 def as_patterns(name: str, values: ArrayLike) -> Array:
-    """Array (patterns, columns); one dimension is read as one column."""
+    """Array (patterns, columns); one dimension is read as one column.
+
+    Raises InputError for what is no array of numbers of that shape.
+    """
     array = np.asarray(values)
     return as_float_array(name, array[:, np.newaxis] if array.ndim == 1 else array, 2)
 

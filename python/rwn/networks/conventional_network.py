@@ -95,13 +95,17 @@ class ConventionalNetwork:
         return self.core.output(as_patterns("x", x))
 
     def mse(self, x: ArrayLike, y: ArrayLike) -> float:
-        """Mean squared error (2.21) over patterns x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
+        """Mean squared error (2.21) over patterns x (patterns, inputs) and wanted outputs y (patterns, outputs).
+
+        Raises InputError for arrays of other shapes.
+        """
         xs, ys = as_pairs(x, y)
         return float(np.mean((self.output(xs) - ys) ** 2))
 
     def gradient(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Gradient of 1/2 sum of squared errors (2.12) for x (patterns, inputs) and y (patterns, outputs), in
-        the order of `parameters`; 2.13-2.19, with m and d summed over outputs, which the thesis omits."""
+        the order of `parameters`; 2.13-2.19, with m and d summed over outputs, which the thesis omits.
+        Raises InputError for arrays of other shapes."""
         return self.core.gradient(*as_pairs(x, y))
 
     def jacobian(self, x: ArrayLike) -> Array:

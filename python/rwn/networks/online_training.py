@@ -117,7 +117,8 @@ def train_recurrent(
     frozen_every: int = 0,
 ) -> OnlineTraining[RecurrentNetwork]:
     """Trains `network` on inputs x (n, inputs) and wanted output y (n,), `cycles` times over; each cycle begins with
-    phi and V1-V3 zero. `learn` (of b, a, w, m, d, c), `rates` and `frozen_every` as in `train_structured`."""
+    phi and V1-V3 zero. `learn` (of b, a, w, m, d, c), `rates` and `frozen_every` as in `train_structured`.
+    Raises InputError for arrays of other shapes."""
     theta, history = _core.train_recurrent(
         network.core,
         network.as_inputs(x),

@@ -89,7 +89,10 @@ class RecurrentNetwork:
         return self.core.sensitivities(self.as_inputs(x))
 
     def mse(self, x: ArrayLike, y: ArrayLike) -> float:
-        """Mean squared error for inputs x (n, inputs) and wanted output y (n,), parameters frozen."""
+        """Mean squared error for inputs x (n, inputs) and wanted output y (n,), parameters frozen.
+
+        Raises InputError for arrays of other shapes.
+        """
         return float(np.mean((as_float_array("y", y, 1) - self.simulate(x)) ** 2))
 
     def as_inputs(self, x: ArrayLike) -> Array:

@@ -143,11 +143,15 @@ class StructuredNetwork:
         self, voltage: ArrayLike, speed: ArrayLike, *, start: ArrayLike = (0.0, 0.0)
     ) -> tuple[Array, Array]:
         """Speed (n,) [rad/s] as `simulate` has it, with `start`, and its derivative by `theta` (n, 5 + 4 wavelets)
-        (4.13-4.28, E), for the voltage (n,) [V] and the measured speed."""
+        (4.13-4.28, E), for the voltage (n,) [V] and the measured speed.
+        Raises InputError for arrays of other shapes."""
         return self.core.sensitivities(*as_signals(voltage, speed), as_start(start))
 
     def torque(self, speed: ArrayLike) -> Array:
-        """Friction torque (n,) [N m] of the network along a measured speed (n,) [rad/s] (4.10)."""
+        """Friction torque (n,) [N m] of the network along a measured speed (n,) [rad/s] (4.10).
+
+        Raises InputError for arrays of other shapes.
+        """
         u = as_float_array("speed", speed, 1)
         if (self.c == 0).all():
             return self.wavelet.value((u[:, None] - self.m) / self.d) @ self.w
@@ -158,7 +162,10 @@ class StructuredNetwork:
         return out
 
     def mse(self, voltage: ArrayLike, speed: ArrayLike, *, start: ArrayLike = (0.0, 0.0)) -> float:
-        """Mean squared error [rad2/s2] of `simulate` for voltage (n,) [V], speed (n,) [rad/s] and start."""
+        """Mean squared error [rad2/s2] of `simulate` for voltage (n,) [V], speed (n,) [rad/s] and start.
+
+        Raises InputError for arrays of other shapes.
+        """
         u, y = as_signals(voltage, speed)
         return float(np.mean((y - self.simulate(u, y, start=start)) ** 2))
 

@@ -32,15 +32,15 @@ class Wavelet:
         object.__setattr__(self, "core", _core.Wavelet(self.name, self.omega0))
 
     def value(self, z: ArrayLike) -> Array:
-        """phi(z), elementwise."""
+        """phi(z), elementwise. Raises InputError for what is no array of numbers."""
         return self.core.value(_floats(z))
 
     def derivative(self, z: ArrayLike) -> Array:
-        """phi'(z), elementwise."""
+        """phi'(z), elementwise. Raises InputError for what is no array of numbers."""
         return self.core.derivative(_floats(z))
 
     def second_derivative(self, z: ArrayLike) -> Array:
-        """phi''(z), elementwise."""
+        """phi''(z), elementwise. Raises InputError for what is no array of numbers."""
         return self.core.second_derivative(_floats(z))
 
     @property

@@ -159,7 +159,7 @@ def product(unit: str, scale_unit: str) -> str:
 
 
 def has_dimension(unit: str, si_unit: str, *, where: object) -> bool:
-    """Whether `unit` measures the same kind of quantity as `si_unit`."""
+    """Whether `unit` measures the same kind of quantity as `si_unit`. Raises InputError for a unit that is none."""
     given, wanted = _parse(unit, where=where), _parse(si_unit, where=where)
     return bool(given.dimensionality == wanted.dimensionality)
 
@@ -180,7 +180,10 @@ def is_unit(text: str) -> bool:
 
 
 def sample(unit: str, value: float) -> Any:
-    """`value` of `unit` as a quantity that refuses sums of unlike kinds; for checking formulas."""
+    """`value` of `unit` as a quantity that refuses sums of unlike kinds; for checking formulas.
+
+    Raises InputError for a unit that is none.
+    """
     return _registry().Quantity(
         value, _parse(unit if unit not in ("", "1") else "dimensionless", where="units")
     )

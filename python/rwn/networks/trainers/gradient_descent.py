@@ -40,5 +40,8 @@ class GradientDescent:
         )
 
     def train(self, network: ConventionalNetwork, x: ArrayLike, y: ArrayLike) -> Training:
-        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
+        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs).
+
+        Raises InputError for arrays of other shapes.
+        """
         return Training.of(network, _core.gradient_descent(network.core, *as_pairs(x, y), **asdict(self)))

@@ -38,5 +38,8 @@ class LevenbergMarquardt:
         check_options(iterations=self.iterations, positive={"mu": self.mu}, beta=self.beta)
 
     def train(self, network: ConventionalNetwork, x: ArrayLike, y: ArrayLike) -> Training:
-        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
+        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs).
+
+        Raises InputError for arrays of other shapes.
+        """
         return Training.of(network, _core.levenberg_marquardt(network.core, *as_pairs(x, y), **asdict(self)))

@@ -41,5 +41,8 @@ class PatternDescent:
         check_options(iterations=self.iterations, positive={"rate": self.rate}, fractions=fractions)
 
     def train(self, network: ConventionalNetwork, x: ArrayLike, y: ArrayLike) -> Training:
-        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
+        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs).
+
+        Raises InputError for arrays of other shapes.
+        """
         return Training.of(network, _core.pattern_descent(network.core, *as_pairs(x, y), **asdict(self)))

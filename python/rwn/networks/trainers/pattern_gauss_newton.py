@@ -48,5 +48,8 @@ class PatternGaussNewton:
             raise ValueError(f"forgetting must be in (0, 1], got {self.forgetting}")
 
     def train(self, network: ConventionalNetwork, x: ArrayLike, y: ArrayLike) -> Training:
-        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
+        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs).
+
+        Raises InputError for arrays of other shapes.
+        """
         return Training.of(network, _core.pattern_gauss_newton(network.core, *as_pairs(x, y), **asdict(self)))

@@ -36,18 +36,27 @@ class StructuredFit:
     condition: float
 
     def friction(self, speed: ArrayLike) -> Array:
-        """Whole friction torque (n,) [N m], viscous part included, along a speed (n,) [rad/s]."""
+        """Whole friction torque (n,) [N m], viscous part included, along a speed (n,) [rad/s].
+
+        Raises InputError for arrays of other shapes.
+        """
         u = as_float_array("speed", speed, 1)
         slope = float(self.network.v[0]) - self.slope
         return np.asarray(self.network.torque(u) + slope * u, dtype=np.float64)
 
     def free_run(self, voltage: ArrayLike, *, start: ArrayLike = (0.0, 0.0)) -> Array:
-        """Speed (n,) for the voltage (n,), the network fed with the speed that it simulates (c must be 0)."""
+        """Speed (n,) for the voltage (n,), the network fed with the speed that it simulates (c must be 0).
+
+        Raises InputError for arrays of other shapes.
+        """
         u = as_float_array("voltage", voltage, 1)
         return _core.simulate_fed_back(self.network.core, self.slope, u, as_start(start))
 
     def simulate(self, voltage: ArrayLike, speed: ArrayLike, *, start: ArrayLike = (0.0, 0.0)) -> Array:
-        """Speed (n,) for the voltage (n,), the network fed with the measured `speed` (n,)."""
+        """Speed (n,) for the voltage (n,), the network fed with the measured `speed` (n,).
+
+        Raises InputError for arrays of other shapes.
+        """
         u, y = as_signals(voltage, speed)
         torque = self.network.torque(y) - self.slope * y
         return _core.simulate_plant(self.network.core, u, torque, as_start(start))

@@ -42,5 +42,8 @@ class VariableProjection:
         check_options(iterations=self.iterations, positive={"mu": self.mu}, beta=self.beta)
 
     def train(self, network: ConventionalNetwork, x: ArrayLike, y: ArrayLike) -> Training:
-        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs)."""
+        """Trains on inputs x (patterns, inputs) and wanted outputs y (patterns, outputs).
+
+        Raises InputError for arrays of other shapes.
+        """
         return Training.of(network, _core.variable_projection(network.core, *as_pairs(x, y), **asdict(self)))
