@@ -162,7 +162,7 @@ def test_what_is_no_export_of_the_tool_says_what_one_has() -> None:
 @pytest.mark.parametrize(
     ("count", "shown"),
     [(0, None), (1, "a0"), (8, ", ".join(f"a{k}" for k in range(8))),
-     (11, ", ".join(f"a{k}" for k in range(8)) + " and 3 more")],
+     (19, ", ".join(f"a{k}" for k in range(8)) + " and 11 more")],
 )  # fmt: skip
 def test_what_is_not_used_is_said_a_few_by_name(count: int, shown: str | None) -> None:
     table = _table(speed="rpm", **{f"a{k}": "V" for k in range(count)})

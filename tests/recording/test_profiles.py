@@ -16,7 +16,7 @@ from rwn.model.files import read_model, write_model
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
 from rwn.recording.columns import Column, Layout
-from rwn.recording.profiles import PROFILES, Profile, ProfileColumn, Wanted, profile, sources
+from rwn.recording.profiles import PROFILES, Profile, ProfileColumn, Wanted, exporters, profile, sources
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import COLUMNS
 from rwn.recording.units import is_unit
@@ -136,6 +136,11 @@ def test_a_unit_of_the_file_goes_before_the_profile(tmp_path: Path) -> None:
     header = "time [s],Present PWM,Present Velocity [rpm]"
     path = _write(tmp_path / "run.csv", header, [TIME, VOLTAGE / 0.01356, SPEED / RPM])
     _as_meant(read_recording(path, layout=Layout(profile="dynamixel")), ("voltage", "speed"))
+
+
+def test_names_of_a_tool_are_known_by_two_signals_beside_the_time() -> None:
+    assert exporters(["Iq_measured", "vel_estimate", "x"]) == ["odrive"]
+    assert exporters(["time", "vel_estimate"]) == []
 
 
 def test_what_is_no_export_of_the_tool_is_refused(tmp_path: Path) -> None:
