@@ -52,6 +52,19 @@ def test_a_rounded_copy_is_a_double(how: str) -> None:
     assert is_piece(_recording(run), _recording(rounded))
 
 
+def test_so_are_the_same_numbers_under_another_unit(tmp_path: Path) -> None:
+    run = _run(1)
+    for name, unit in (("rpm", "rpm"), ("slip", "rad/s")):
+        write_csv(tmp_path / f"{name}.csv", TIME, {**run, "speed": run["speed"] * 0.10471975}, units={"speed": "rpm"})
+        text = (tmp_path / f"{name}.csv").read_text().replace("speed [rpm]", f"speed [{unit}]")
+        (tmp_path / f"{name}.csv").write_text(text)
+    right, slip = (read_recording(tmp_path / f"{name}.csv") for name in ("rpm", "slip"))
+    assert np.max(slip.signals["speed"]) > 5.0 * np.max(right.signals["speed"])
+    assert is_piece(slip, right)
+    write_csv(tmp_path / "slip.csv", TIME, _run(2))
+    assert not is_piece(read_recording(tmp_path / "slip.csv"), right)
+
+
 def test_so_is_a_rounded_piece_without_a_column() -> None:
     run = _run(1)
     piece = {name: np.round(run[name][300:900], 2) for name in ("voltage", "speed")}

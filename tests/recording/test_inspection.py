@@ -51,7 +51,7 @@ def test_spikes_are_found_left_out_and_said(speed: Array) -> None:
 def test_a_lone_spike_is_said_as_one(speed: Array) -> None:
     speed[50] = 250.0
     (found,) = inspected([_recording({"speed": speed})]).findings
-    assert found.words == "1 single sample of the speed is far off those beside it"
+    assert found.words == "1 single sample of the speed (sample 51) is far off those beside it"
 
 
 def test_a_signal_that_jumps_often_has_no_spikes(speed: Array) -> None:

@@ -161,6 +161,11 @@ def test_a_text_without_a_number_is_refused_with_an_example(text: str) -> None:
         units.quantity(text, "H", where="x")
 
 
+def test_a_decimal_comma_is_told() -> None:
+    with pytest.raises(InputError, match=r"'1,6e-4 kg m\^2' is not a number.*a point for the decimal comma"):
+        units.quantity("1,6e-4 kg m^2", "kg m^2", where="x")
+
+
 def test_a_quantity_is_text_with_its_unit() -> None:
     assert units.quantity("0.5 mH", "H", where="x") == pytest.approx(5e-4)
     assert units.quantity("0.5", "1", where="x") == 0.5

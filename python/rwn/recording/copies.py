@@ -3,6 +3,8 @@ in other units; and how many rows two have in common."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,11 +30,23 @@ def is_piece(part: Recording, whole: Recording) -> bool:
     """Whether the samples of `part`, whatever its time starts at, are successive samples of `whole` in every signal
     that both have, and these include a measured one.
 
-    Samples of one may be those of the other rounded, up, down or to the nearest. Two runs of the same profile are not:
-    their noise differs, and where one is written with fewer digits the noise carries some samples across a step.
+    Samples of one may be those of the other rounded, up, down or to the nearest, or the same numbers under another
+    unit. Two runs of the same profile are not: their noise differs, and where one is written with fewer digits the
+    noise carries some samples across a step.
     """
     both = _Both(part, whole)
-    return both.measured and len(both.places(0, len(part))) > 0
+    if not both.measured:
+        return False
+    if len(both.places(0, len(part))) > 0:
+        return True
+    relabelled = any(_scale(part, name) != _scale(whole, name) for name in both.shared)
+    return relabelled and len(_Both(_as_written(part), _as_written(whole)).places(0, len(part))) > 0
+
+
+def _as_written(recording: Recording) -> Recording:
+    """The same with the numbers of the file, whatever it says that they are in."""
+    signals = {name: np.asarray(x) / _scale(recording, name) for name, x in recording.signals.items()}
+    return replace(recording, signals=signals, units={})
 
 
 def rows_in_common(part: Recording, whole: Recording) -> int:

@@ -130,12 +130,13 @@ def factor(unit: str, si_unit: str, *, where: object, strict_angle: bool = True)
 def split(text: str, *, where: object, example: str = "0.4 N/V") -> tuple[float, str]:
     """A number and the unit after it ("" without one). Raises InputError where there is no number."""
     match = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", text)
-    if match is None:
+    comma = re.match(r"\s*[-+]?\d+,\d", text)
+    if match is None or comma:
         raise InputError(
-            f"'{text}' is not a number with a unit",
+            f"'{plain(text, longest=40)}' is not a number with a unit",
             where=where,
             expected=f'text like "{example}"',
-            fix="write the number first, then its unit",
+            fix="write a point for the decimal comma" if comma else "write the number first, then its unit",
         )
     return float(match[1]), match[2]
 

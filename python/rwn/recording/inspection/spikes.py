@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 LEVEL = 0.01  # chance that one is found in Gaussian noise, in all samples together
 RARE = 0.02  # most of the rows that are called spikes: a signal that jumps more often does so by itself
 BESIDE = 0.25  # most that a signal may move beside a spike, in units of the jump
+SHOWN = 4  # spikes whose places are said
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
 FEWEST = 8  # samples among which one is found
 SETTLING = 3  # samples after a step of the input in which a current may peak by itself
@@ -112,9 +113,10 @@ def _in_all(first: Flags, together: int) -> Flags:
 
 def _words(signal: str, flags: Flags) -> str:
     count = int(flags.sum())
+    which = ", ".join(str(k + 1) for k in np.flatnonzero(flags)[:SHOWN]) + (", .." if count > SHOWN else "")
     if count == 1:
-        return f"1 single sample of the {signal} is far off those beside it"
-    return f"{count} single samples of the {signal} are far off those beside them"
+        return f"1 single sample of the {signal} (sample {which}) is far off those beside it"
+    return f"{count} single samples of the {signal} (samples {which}) are far off those beside them"
 
 
 # The input is what was commanded, and may jump as it likes.
