@@ -92,9 +92,10 @@ def test_a_copy_of_a_fitted_recording_proves_nothing(copied: str, refused: Refus
     assert "given twice, as a.csv too" in refused(*DIAGNOSE, "--heldout", "copy.csv")
 
 
-@pytest.mark.parametrize("heldout", [("--heldout=b.csv",), ("--heldout", "b.csv")])
-def test_a_stray_file_after_heldout_is_not_fitted(heldout: tuple[str, ...], refused: Refused) -> None:
-    assert "'c.csv' follows --heldout b.csv" in refused(*DIAGNOSE, *heldout, "c.csv")
+@pytest.mark.parametrize("heldout", ["--heldout=b.csv", "--heldout b.csv"])
+@pytest.mark.parametrize("between", ["", "--overwrite", "--seed 1", "--effort=0.1"])
+def test_a_stray_file_after_heldout_is_not_fitted(heldout: str, between: str, refused: Refused) -> None:
+    assert "'c.csv' follows --heldout b.csv" in refused(*DIAGNOSE, *heldout.split(), *between.split(), "c.csv")
 
 
 def test_a_full_disk_leaves_the_old_result_and_names_the_place(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import shlex
 import shutil
 import sys
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -78,15 +79,16 @@ def diagnose(
 
 def _refuse_strays(arguments: list[str]) -> None:
     """A file after `--heldout FILE` would be fitted to, which is hardly what is meant."""
-    apart = [part for text in arguments for part in (text.split("=", 1) if text.startswith("--heldout=") else [text])]
-    for flag, kept, stray in zip(apart, apart[1:], apart[2:], strict=False):
-        if flag == "--heldout" and not stray.startswith("-"):
+    kept, apart = "", [part for text in arguments for part in (text.split("=", 1) if text.startswith("--") else [text])]
+    for flag, stray in pairwise(apart):
+        if flag == "--heldout":
+            kept = stray
+        elif kept and not stray.startswith("-") and (flag == "--overwrite" or not flag.startswith("--")):
             raise InputError(
-                f"'{stray}' follows --heldout {kept}",
-                where="command line",
+                f"'{stray}' follows --heldout {kept}", where="command line",
                 expected="--heldout before each file that is kept back, files to fit before all options",
                 fix=f"write --heldout {stray}, or move it to the front",
-            )
+            )  # fmt: skip
 
 
 @app.command()

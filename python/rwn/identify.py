@@ -116,7 +116,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     if drifting is not None:
         problem, this = drifting, fit_nominal(drifting)
     left, status, fitted = statistics(problem, this), this.minimum.status, fitted_model(this, model)
-    parameters, explained = estimates(this, left), explained_signals(fitted, given)
+    parameters, explained = estimates(this, left), explained_signals(fitted, runs)
     name = status.name.lower().replace("_", "-")
     reasons = [f"the fit did not converge ({name}): {status.value.rstrip('.')}"] if name != "converged" else []
     reasons += [*_describes_nothing(explained, structured(problem, this)), *_ended_at_limits(parameters)]

@@ -79,6 +79,7 @@ def test_a_torque_without_a_name_is_corrected_by_a_network(waved: rwn.Diagnosis)
     for name in ("inertia", "resistance"):  # what the network took over is not on the motor's account
         assert fitted[name].corrected is not None
         assert fitted[name].corrected.value == pytest.approx(MOTOR[name], rel=0.02)
+    assert (waved.curves[-1].y_label, waved.curves[-1].y_unit) == ("torque", "N m")
     picture = waved.curves[-1].traces[0]
     inside = np.abs(picture.x) < 80.0
     assert np.std((picture.y - [wavy(w, 0.0) for w in picture.x])[inside]) < 0.2 * 0.03

@@ -16,7 +16,7 @@ from command_line import Run
 from rwn.errors import InputError
 from rwn.studies.thesis import cli as thesis
 from rwn.studies.trials.damaged import reading
-from rwn.studies.trials.grade import load_answers
+from rwn.studies.trials.grade import grade_folder, load_answers
 from rwn.studies.trials.said import said_in, timing_of
 from rwn.studies.trials.seal import ANSWERS, HASH, seal
 from rwn.studies.trials.trial_files import read_speed
@@ -42,6 +42,20 @@ def test_damaged_answers_are_named(content: bytes, tmp_path: Path) -> None:
     (tmp_path / "trial" / "answer.json").write_bytes(content)
     with pytest.raises(InputError, match=r"answer\.json"):
         load_answers(tmp_path)
+
+
+@pytest.mark.parametrize("left", ["a folder without its model", "nothing", "a file"])
+def test_a_trial_that_the_seal_holds_and_that_is_gone_is_named(left: str, tmp_path: Path) -> None:
+    for name in ("trial_1", "trial_2"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "trial_1" / "model.toml").write_text("")
+    seal(tmp_path, {"answers": {"trial_1": {}, "trial_2": {}}})
+    if left != "a folder without its model":
+        (tmp_path / "trial_2").rmdir()
+    if left == "a file":
+        (tmp_path / "trial_2").write_text("")
+    with pytest.raises(InputError, match=r"trial_2: the answers hold this trial"):
+        grade_folder(tmp_path)
 
 
 @pytest.mark.parametrize("cut", [0, 5, 20, -1])

@@ -213,10 +213,11 @@ def _counted_time(table: Table, layout: Layout) -> Array:
         raise no_unit(TIME.name, TIME.name, where=table.where)
     if layout.sample_time is None:
         raise InputError(
-            "there is no column 'time'",
+            f"there is no column 'time'; there are {', '.join(plain(name, longest=40) for name in table.units)}",
             where=table.where,
             expected="time [s]",
-            fix="add it, or give sample_time under [recording] in the model file",
+            fix="add it, or under [recording] in the model file map the column that is it, as "
+            'columns.time = { source = "t", unit = "s" }, or give sample_time',
         )
     samples = len(next(iter(table.columns.values()), ()))
     return np.arange(samples, dtype=np.float64) * layout.sample_time

@@ -13,7 +13,7 @@ import numpy as np
 
 from rwn.faults.fault import RECORDING
 from rwn.studies.trials.adapter import heldout_files, simulated_file
-from rwn.studies.trials.damaged import reading
+from rwn.studies.trials.damaged import reading, refused
 from rwn.studies.trials.effects import known_as
 from rwn.studies.trials.plant import simulate
 from rwn.studies.trials.run import out_of, trial_folders
@@ -122,8 +122,11 @@ def answers_of(trial: Path) -> Path:
 def grade_folder(folder: Path, *, results: Path | None = None) -> Graded:
     """Opens the seal and grades every trial; one without a diagnosis counts as wrong."""
     about, answers = load_answers(folder)
-    grades = []
-    for trial in trial_folders(folder):
+    grades, trials = [], trial_folders(folder)
+    lost = sorted(set(answers) - {trial.name for trial in trials})
+    if lost:
+        raise refused(folder / lost[0], "the answers hold this trial, and no folder with its model.toml is here")
+    for trial in trials:
         if trial.name in answers:
             out = out_of(trial, results)
             with reading(answers_of(trial)):
