@@ -67,8 +67,16 @@ def _channels(
             continue
         units[name] = file.get_channel_unit(group=group, index=index) or None
         if name in wanted:
+            _refuse_overlong(file.groups[group])
             if len(places) > 1:
                 several[name] = len(places)
             signal = file.get(group=group, index=index)
             channels[name] = Channel(np.asarray(signal.timestamps, dtype=np.float64), signal.samples)
     return channels, units, several
+
+
+def _refuse_overlong(group: Any) -> None:
+    """Raises ValueError where a channel lies beyond the records of its group: asammdf would read what is no file."""
+    room = 8 * group.channel_group.samples_byte_nr
+    if any(8 * one.byte_offset + one.bit_offset + one.bit_count > room for one in group.channels):
+        raise ValueError("a channel lies beyond its record")
