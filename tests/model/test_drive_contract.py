@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from compiler import complaints
+
 DRIVE = """
 #include "rwn/model/drives.hpp"
 namespace rwn {
@@ -35,15 +34,7 @@ RIGHT = {"NAME": "spring", "STATES": "0", "FORCED": "true", "WIDTHS": "4, 8", "T
 
 def said(place: Path, **changed: str) -> str:
     """What the compiler says of a drive that differs from a right one; empty where it compiles."""
-    compiler = shutil.which("g++")
-    if compiler is None:
-        pytest.skip("there is no g++")
-    text = DRIVE
-    for name, value in (RIGHT | changed).items():
-        text = text.replace(name, value)
-    (place / "drive.cpp").write_text(text)
-    command = [compiler, "-std=c++20", "-fsyntax-only", f"-I{ROOT / 'cpp' / 'include'}", str(place / "drive.cpp")]
-    return subprocess.run(command, capture_output=True, text=True, check=False).stderr
+    return complaints(place, DRIVE, RIGHT | changed)
 
 
 def test_a_drive_compiles(tmp_path: Path) -> None:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
 
-INCLUDE = Path(__file__).resolve().parents[2] / "cpp" / "include"
+from compiler import complaints
+
 PARAMETER = 'Parameter{.name = "k", .symbol = "k", .unit = "N m s/rad", .meaning = "slope", .upper = 1.0, .start = 0.1}'
 EFFECT = """
 #include "rwn/model/effect.hpp"
@@ -45,15 +44,7 @@ static_assert(detail::all_effects(static_cast<const Table*>(nullptr)));
 
 def said(place: Path, effect: str = EFFECT, **changed: str) -> str:
     """What the compiler says of an effect that differs from a right one; empty where it compiles."""
-    compiler = shutil.which("g++")
-    if compiler is None:
-        pytest.skip("there is no g++")
-    text = effect
-    for name, value in (RIGHT | changed).items():
-        text = text.replace(name, value)
-    (place / "effect.cpp").write_text(text)
-    command = [compiler, "-std=c++20", "-fsyntax-only", f"-I{INCLUDE}", str(place / "effect.cpp")]
-    return subprocess.run(command, capture_output=True, text=True, check=False).stderr
+    return complaints(place, effect, RIGHT | changed)
 
 
 def test_an_effect_compiles(tmp_path: Path) -> None:

@@ -13,6 +13,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.whiteness import distance_from_level
+
 Array = NDArray[np.float64]
 
 RATIOS = np.logspace(-6.0, 9.0, 121)  # m / f: the noise of the sensor alone is all, or nothing, at their ends
@@ -37,8 +39,4 @@ def distance_from_disturbance(error: Array, share: float) -> float:
     shapes = 1.0 + RATIOS[:, None] * sensor
     levels = np.mean(power / shapes, axis=1)
     likeliest = int(np.argmin(np.log(np.maximum(levels, 1e-300)) + np.mean(np.log(shapes), axis=1)))
-    relative = np.cumsum(power / shapes[likeliest])
-    if relative[-1] <= 0.0:
-        return np.inf
-    above = relative / relative[-1] - np.arange(1, power.size + 1) / power.size
-    return float(np.sqrt(power.size) * np.max(np.abs(above)))
+    return distance_from_level(power / shapes[likeliest])

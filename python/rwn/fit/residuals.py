@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rwn.fit.disturbance import distance_from_disturbance
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
+from rwn.fit.whiteness import distance_from_level
 from rwn.recording.noise import WHITE
 from rwn.simulate.linear_response import speed_filter
 from rwn.simulate.run import Run
@@ -143,9 +144,7 @@ def _distance_from_white(x: Array, *, fast: bool = True) -> float:
     power = _power(np.fft.rfft(x))[1 : (x.size + 1) // 2]
     if power.size < 8 or not power.any():
         return 0.0
-    shares = np.cumsum(power) / power.sum()
-    above = shares - np.arange(1, power.size + 1) / power.size
-    return float(np.sqrt(power.size) * np.max(np.abs(above) if fast else above))
+    return distance_from_level(power, fast=fast)
 
 
 def _power(spectrum: NDArray[np.complex128]) -> Array:

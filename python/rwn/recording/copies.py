@@ -39,7 +39,7 @@ def is_piece(part: Recording, whole: Recording) -> bool:
         return False
     if len(both.places(0, len(part))) > 0:
         return True
-    relabelled = any(_scale(part, name) != _scale(whole, name) for name in both.shared)
+    relabelled = any(by != 1.0 for by in both.scales.values())
     return relabelled and len(_Both(_as_written(part), _as_written(whole)).places(0, len(part))) > 0
 
 
@@ -81,9 +81,9 @@ class _Both:
         self.shared = [name for name in part.signals if name in whole.signals]
         self.measured = any(name in MEASURED for name in self.shared)
         self.steps = {name: (_steps(part, name), _steps(whole, name)) for name in self.shared}
-        scales = {name: _scale(part, name) / _scale(whole, name) for name in self.shared}
+        self.scales = {name: _scale(part, name) / _scale(whole, name) for name in self.shared}
         # a change of units other than by the decimal point is never exact in decimals
-        self.converted = {s for s, by in scales.items() if abs(np.log10(by) - round(np.log10(by))) > _SAME}
+        self.converted = {s for s, by in self.scales.items() if abs(np.log10(by) - round(np.log10(by))) > _SAME}
 
     def places(self, begin: int, rows: int) -> NDArray[np.intp]:
         """The rows of `whole` from which on it is `part` from `begin` on, for so many rows."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -118,12 +117,10 @@ def network_over_its_state(made: NetworkCorrection) -> Plot:
     values = {p.name: p.start for p in effect.parameters} | made.values
     values |= {place.factor: 1.0} if place.factor else {}
     shape, name = {**values, place.state: x}, place.drawn_by.removeprefix("a ")
-    if place.factor == place.state:  # drawn is the term itself, not what its factor is multiplied with
-        place = replace(place, factor="")
     return Plot(
         slot="law", title=f"What corrected.toml holds for it: {place.words}",
         x_label=place.state, x_unit=unit_of_state(made.ranking.problem, place),
-        y_label=place.kind, y_unit=unit_of_weights(made.ranking.problem, place),
+        y_label=place.drawn.kind, y_unit=unit_of_weights(made.ranking.problem, place.drawn),
         traces=(Trace(name=name, role="corrected", x=x, y=effect.formula.evaluate(shape)),),
         note="Fitted in free run together with the nominal parameters.",
     )  # fmt: skip

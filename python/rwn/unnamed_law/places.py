@@ -53,9 +53,14 @@ class Place:
         return "force" if self.linear and kind == "torque" else kind
 
     @property
+    def drawn(self) -> Place:
+        """What is drawn over the state: a coefficient times the state that it is over is the term itself."""
+        return replace(self, factor="") if self.factor == self.state else self
+
+    @property
     def words(self) -> str:
         """A clause: "a torque over speed", which a friction coefficient over speed comes to as well."""
-        kind = replace(self, factor="").kind if self.factor == self.state else self.kind
+        kind = self.drawn.kind
         article = "an" if kind[0] in "aeiou" else "a"
         return f"{article} {kind} over {'angle' if self.periods else self.state}"
 

@@ -26,6 +26,10 @@ namespace detail {
 /// States before and behind the speed: enough for every member to index.
 using AnyState = std::array<double, 8>;
 
+struct AnyMotion {
+  AnyState x;
+};
+
 template <class E>
 concept BeforeTheShaft = requires(const E& e, AnyState& x, const double& input) {
   { e.begin(x) };
@@ -34,13 +38,14 @@ concept BeforeTheShaft = requires(const E& e, AnyState& x, const double& input) 
 };
 
 template <class E>
-concept WithStates = requires(const E& e, AnyState& x, const Terms<double>& t, const double& v) {
+concept WithStates = requires(const E& e, AnyState& x, const AnyMotion& s, const Terms<double>& t, const double& v) {
   { e.linear_torque(x) } -> std::convertible_to<double>;
   { e.couple(x, std::size_t{2}, std::size_t{1}, 1.0, v, false) };
   { e.drive(x, v) };
   { e.remainder(x, x, v, t, v, 1.0) };
   { e.unknown_voltage(x, v, t, v, 0.0) } -> std::convertible_to<double>;
   { e.resting_current(v, v) } -> std::convertible_to<double>;
+  { e.settled(s, v, v) } -> std::same_as<AnyMotion>;
   { e.rate(t) } -> std::convertible_to<double>;
   { e.is_settled(x, x, t) } -> std::convertible_to<bool>;
   { e.speed_up(t, 0.0) } -> std::convertible_to<double>;
