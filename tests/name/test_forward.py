@@ -16,7 +16,7 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import MISSPECIFIED, MOST_COLOURED, Statistics, statistics, statistics_of
+from rwn.fit.residuals import MOST_COLOURED, Statistics, statistics, statistics_of
 from rwn.model.model import Model
 from rwn.name import forward
 from rwn.name.backward import with_simpler
@@ -49,23 +49,27 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(fit_with: FitWith, name: st
         assert replace(this, minimum=replace(this.minimum, values=values)).limits_met == met
 
 
-@pytest.mark.parametrize(("cost", "kept"), [(0.7, True), (0.9, False)])
-def test_a_further_effect_counts_by_all_that_it_costs_less(
-    problem: Problem, fit_with: FitWith, monkeypatch: pytest.MonkeyPatch, cost: float, kept: bool
+@pytest.mark.parametrize(("gain", "kept"), [(1.05, True), (0.95, False)])
+def test_more_effects_are_kept_where_they_are_likelier(
+    problem: Problem, fit_with: FitWith, monkeypatch: pytest.MonkeyPatch, gain: float, kept: bool
 ) -> None:
-    """Also where nearly all of the cost is that of a data sheet which is far off, and little of it misfit."""
-    sheet = 1e3 * fit_nominal(problem).cost
-    single, pair = (
-        replace(this, minimum=replace(this.minimum, cost=share * sheet))
-        for this, share in ((fit_with("unbalance"), 1.0), (fit_with("coulomb-friction"), cost))
-    )
-    monkeypatch.setattr(forward, "_beside", lambda *_: Extensions([pair], frozenset()))
-    nominal = replace(single, minimum=replace(single.minimum, cost=2.0 * sheet))
+    """By all that they cost less, data sheet and misfit together, in units of what their further unknowns cost."""
+    wanted = ["unbalance", "coulomb-friction"]
+    single = fit_with("unbalance")
+    several = fit(problem, hypothesis(problem.prior, wanted, problem.scales), max_iterations=0)
+    left = statistics(problem, several)
+    samples = min(left.effective, left.most_independent)
+    further = several.unknowns_seen - single.unknowns_seen
+    price = 0.5 * further * np.log(samples) + np.log(len(wanted))
+    price *= 2.0 * max(left.variance, 1.0) * left.count / samples
+    single = replace(single, minimum=replace(single.minimum, cost=several.cost + gain * price))
+    monkeypatch.setattr(forward, "_beside", lambda *_: Extensions([several], frozenset()))
+    nominal = replace(single, minimum=replace(single.minimum, cost=2.0 * single.cost))
     grown = _grown(
-        Fits(problem, nominal, [single]), [single], [], NO_EXTENSIONS, at_once=2, begun=0, progress=_silent
+        Fits(problem, nominal, [single]), [single], wanted, NO_EXTENSIONS, at_once=2, begun=0, progress=_silent
     )  # fmt: skip
     assert grown.paired is kept
-    assert (pair in grown.fits) is kept
+    assert (several in grown.fits) is kept
 
 
 def test_the_ends_of_a_difference_are_not_compared(problem: Problem) -> None:
@@ -141,7 +145,7 @@ def test_what_no_recording_depends_on_costs_an_explanation_nothing(problem: Prob
 
 
 def _effective(left: Statistics) -> float:
-    return max(left.effective if left.at_the_floor else min(left.effective, MISSPECIFIED), 2.0)
+    return max(min(left.effective, left.most_independent), 2.0)
 
 
 def test_a_current_that_is_not_recorded_is_made_of_voltage_and_speed(problem: Problem) -> None:

@@ -25,7 +25,7 @@ RINGING = 3.0  # energy of a residual's loudest band that may still be that of n
 LEVEL = 0.01  # of the test whether what is left has structure, and whether one simulation is worse than another
 CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations (`loss_gained`) that a test at LEVEL asks for
 LOUD = 1.3  # variance of a residual, in units of the noise, below which its loudest band says nothing
-MISSPECIFIED = 50.0  # most independent samples that a residual with physics left in it counts for
+MISSPECIFIED = 50.0  # most independent samples that a residual counts for which is all misfit
 MOST_SAMPLES = 1000.0  # most independent samples that noise counts for: a simulation is exact to 0.1 % of its square
 
 
@@ -52,8 +52,12 @@ class Statistics:
 
     @property
     def most_independent(self) -> float:
-        """How many samples it may count for, however long the recordings: a wrong model is wrong systematically."""
-        return MOST_SAMPLES if self.at_the_floor else MISSPECIFIED
+        """How many samples it may count for, however long the recordings: a wrong model is wrong systematically.
+
+        What is left above the noise is misfit, and has few independent samples; the noise beside it has more.
+        """
+        misfit = 0.0 if self.at_the_floor else 1.0 - 1.0 / max(self.variance, 1.0)
+        return 1.0 / ((1.0 - misfit) / MOST_SAMPLES + misfit / MISSPECIFIED)
 
 
 def correlation_time(x: Array) -> float:

@@ -34,7 +34,6 @@ from rwn.name.weights import weigh
 Progress = Callable[[str, float], None]
 
 MOST_EFFECTS = OF_THE_MACHINE + 1  # in one explanation: a sensor or an actuator shows beside what acts in the machine
-LEAST_GAIN = 0.2  # smallest share of the cost, misfit and data sheet together, that a further effect has to remove
 ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 
 
@@ -146,7 +145,7 @@ def _grown(
         )  # fmt: skip
         more, extensions = found.fits, found if size == 2 else extensions
         cut_short = size if found.cut_short else 0
-        complete = not _is_worth_it(more, best)
+        complete = not _is_worth_it(problem, more, best, rivals=len(wanted))
         if complete:
             break
         fits, paired = [*fits, *more], True
@@ -176,9 +175,11 @@ def _beside_and_in_windows(
     return found._replace(fits=distinct([*found.fits, *fitted_to_free_run(more, problem)])), [*windowed, *more]
 
 
-def _is_worth_it(more: Sequence[Fit], best: Fit) -> bool:
-    """Whether one of `more` costs so much less than what was `best`, by misfit and data sheet together."""
-    return any(f.cost <= (1.0 - LEAST_GAIN) * best.cost for f in more)
+def _is_worth_it(problem: Problem, more: Sequence[Fit], best: Fit, *, rivals: int) -> bool:
+    """Whether one of `more` is likelier than what was `best`, by the evidence that explanations are weighed with."""
+    closest, left = _best_of(problem, [best, *more])
+    likeliest = weigh([best, *more], left, rivals=rivals, prior=_prior(problem))[0].fit
+    return closest is not best and likeliest is not best
 
 
 def _best_of(problem: Problem, fits: Sequence[Fit]) -> tuple[Fit, Statistics]:
