@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +50,40 @@ def test_spikes_among_such_peaks_are_found() -> None:
     current = _peaks(0.02)
     current[at] = [30.0, -30.0, 30.0, -30.0, 30.0, 30.0]
     assert set(np.flatnonzero(SPIKES.flags(_recording(current=current), "current"))) == set(at)
+
+
+def _drive(seed: int, *, friction: float) -> Recording:
+    """A motor under steps of all sizes; its current peaks within a sample of each."""
+    rng = np.random.default_rng(seed)
+    voltage = np.repeat(np.round(rng.uniform(-20.0, 20.0, 40)), TIME.size // 40)
+    current, speed = np.zeros(TIME.size), np.zeros(TIME.size)
+    for k in range(1, TIME.size):
+        i, w = current[k - 1], speed[k - 1]
+        current[k] = i + 0.6 * ((voltage[k - 1] - 0.05 * w) / 0.5 - i)
+        speed[k] = w + 1e-3 * (0.05 * i - friction * np.sign(w) - 2e-5 * w) / 1.5e-4
+    return Recording(
+        name="run", time=TIME,
+        signals={
+            "voltage": voltage, "current": current + 0.04 * rng.standard_normal(TIME.size),
+            "speed": speed + 0.3 * rng.standard_normal(TIME.size),
+        },
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("signal", "size"), [("speed", 50.0), ("current", 20.0)])
+@pytest.mark.parametrize("late", [-1, 1, 2])
+def test_a_spike_beside_a_step_is_told_from_what_the_step_does(signal: str, size: float, late: int) -> None:
+    """It is not larger than all that steps do: the other steps tell what the motion does."""
+    for seed in range(3):
+        run = _drive(seed, friction=0.012)
+        assert not SPIKES.flags(run, signal).any()
+        steps = np.abs(np.diff(run.signals["voltage"]))
+        at = sorted(int(k) + 1 + late for k in np.argsort(steps)[-2:])
+        spoilt = run.signals[signal].copy()
+        spoilt[at] += size
+        assert np.max(np.abs(spoilt)) < 2.0 * np.max(np.abs(run.signals[signal]))
+        found = SPIKES.flags(replace(run, signals={**run.signals, signal: spoilt}), signal)
+        assert np.flatnonzero(found).tolist() == at
 
 
 @pytest.mark.parametrize("fastest", [1.5, 60.0])

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.inspection.finding import Check, Flags
-from rwn.recording.noise import noise_from_differences
+from rwn.recording.inspection.step_response import REACH, Interpolated, interpolated
+from rwn.recording.noise import PER_MEDIAN, noise_from_differences
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
@@ -23,18 +26,22 @@ SETTLING = 3  # samples after a step of the input in which a current may peak by
 NEARBY = 25  # samples whose changes a step of the input stands out from: a sine has none
 
 
-def _after_steps(recording: Recording) -> Flags:
-    """Samples at or shortly after a step of the input that stands out from its changes nearby and from small ones."""
+def _after_steps(recording: Recording) -> Array:
+    """How large a step of the input is (n,), in units of the largest, that a sample is at or shortly after; or 0.
+
+    Of those that stand out from the changes nearby and from small ones.
+    """
     from scipy.ndimage import median_filter  # late: the command line starts without it
 
-    flags = np.zeros(len(recording), dtype=bool)
+    sizes = np.zeros(len(recording))
     for name in (s for s in recording.signals if s not in MEASURED):
         change = np.abs(np.diff(recording.signals[name], prepend=recording.signals[name][0]))
-        usual = np.maximum(median_filter(change, NEARBY) / BESIDE, BESIDE * float(np.max(change, initial=0.0)))
-        stepped = change > usual
+        largest = float(np.max(change, initial=0.0))
+        usual = np.maximum(median_filter(change, NEARBY) / BESIDE, BESIDE * largest)
+        stepped = np.where(change > usual, change, 0.0) / (largest or 1.0)
         for late in range(SETTLING + 1):
-            flags[late:] |= stepped[: flags.size - late]
-    return flags
+            sizes[late:] = np.maximum(sizes[late:], stepped[: sizes.size - late])
+    return sizes
 
 
 def _spikes(recording: Recording, signal: str) -> Flags:
@@ -46,7 +53,9 @@ def _spikes(recording: Recording, signal: str) -> Flags:
     since = np.append(0, measured[:-1] + 1)  # the last sample that was measured
     after_steps = np.maximum.reduceat(_after_steps(recording), since)[: measured.size]
     flags = np.zeros(missing.size, dtype=bool)
-    flags[measured] = _among(np.asarray(recording.signals[signal])[measured], after_steps)
+    x = np.asarray(recording.signals[signal])[measured]
+    inputs = [np.asarray(recording.signals[s])[measured] for s in recording.signals if s not in MEASURED]
+    flags[measured] = _among(x, after_steps > 0.0) | _beside_steps(x, inputs, after_steps)
     return flags if flags.mean() <= RARE else np.zeros(missing.size, dtype=bool)
 
 
@@ -62,6 +71,40 @@ def _among(x: Array, after_steps: Flags) -> Flags:
         known = np.flatnonzero(~found)
         bridged = np.interp(np.arange(x.size), known, x[known])
     return found | _alike(x, found)
+
+
+def _beside_steps(x: Array, inputs: Sequence[Array], after_steps: Array) -> Flags:
+    """The few samples beside steps of the inputs that are off by themselves, and by much more than at other steps.
+
+    Off what those beside them and the inputs make of them, which grows with the step: a winding answers within a
+    sample, and the clock that times it is not exact.
+    """
+    from scipy.ndimage import maximum_filter1d  # late: the command line starts without it
+
+    found = np.zeros(x.size, dtype=bool)
+    steps = maximum_filter1d(after_steps, 2 * REACH + 1)  # the samples that have one within their reach
+    most = int(RARE * np.count_nonzero(steps))
+    if most == 0:
+        return found
+    off = interpolated(x, inputs)
+    errors = off.errors
+    limit = _limit(errors.size) * PER_MEDIAN * float(np.median(np.abs(errors)))
+    relative = np.where(np.abs(errors) > limit, np.abs(errors) / np.where(steps > 0.0, steps, np.inf), 0.0)
+    largest = list[int]()
+    while len(largest) < most and _is_alone(off, k := int(np.argmax(relative))):
+        size, largest = float(relative[k]), [*largest, k]
+        relative[max(k - 2 * REACH, 0) : k + 2 * REACH + 1] = 0.0  # it spoils the interpolation of those beside it
+        if BESIDE * size > float(np.max(relative)):
+            found[largest] = True
+    return found
+
+
+def _is_alone(off: Interpolated, at: int) -> bool:
+    """Whether the interpolation errs beside a sample as it does where that one alone is off."""
+    here = off.errors[at - REACH : at + REACH + 1]
+    return here.size == off.of_one.size and bool(
+        np.max(np.abs(here - off.errors[at] * off.of_one)) < BESIDE * abs(off.errors[at])
+    )
 
 
 def _alike(x: Array, found: Flags) -> Flags:
@@ -82,12 +125,10 @@ def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     Several together, and those that `must_be_beyond`, are spikes beyond all others alone: a motor may well swing within
     a few samples.
     """
-    from scipy.special import ndtri  # late: the command line starts without it
-
     noise = max(noise_from_differences(x), quantum(x))
     if noise == 0.0:
         return np.zeros(x.size, dtype=bool)
-    limit = float(-ndtri(0.5 * LEVEL / x.size)) * noise * np.sqrt(1.5)  # a sample against the mean of two
+    limit = _limit(x.size) * noise * np.sqrt(1.5)  # a sample against the mean of two
     before, after = x[: -together - 1], x[together + 1 :]
     here = np.stack([x[1 + k : x.size - together + k] for k in range(together)])
     jump = np.min(np.abs(here - 0.5 * (before + after)), axis=0)
@@ -101,6 +142,13 @@ def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     dropped[[0, -1]] = False  # a run begins and ends at rest
     may = beyond | (~must_be_beyond[1:-together] & (together == 1))
     return _in_all(off & (dropped | (smooth & may)), together)
+
+
+def _limit(samples: int) -> float:
+    """Deviations that none of so many normal numbers is off, but in one case of 1 / LEVEL."""
+    from scipy.special import ndtri  # late: the command line starts without it
+
+    return float(-ndtri(0.5 * LEVEL / samples))
 
 
 def _in_all(first: Flags, together: int) -> Flags:
