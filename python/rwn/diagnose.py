@@ -15,6 +15,7 @@ from rwn.decide.decision import decide
 from rwn.errors import InputError
 from rwn.faults.fault import without_all
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
+from rwn.faults.spikes_left import without_spikes_left
 from rwn.faults.uneven_files import uneven_unseen
 from rwn.fit.nominal import check_it_runs
 from rwn.fit.preparation import prepare
@@ -101,12 +102,14 @@ class _Unseen:
 
     runs: Sequence[Run]
     late: tuple[LateEnable, ...]
+    spikes: tuple[Finding, ...]
 
     def findings(self, found: SearchResult) -> tuple[Finding, ...]:
-        """What their own motion told: late enables, an input between rows, levels of their own."""
+        """What their own motion told: spikes, late enables, an input between rows, levels of their own."""
         given = found.model.drive.input
         enabled = (one.as_finding(given) for one in self.late)
-        return (*enabled, *inferred_input_findings(self.runs, given), *uneven_unseen(found.ranking, self.runs))
+        told = (*inferred_input_findings(self.runs, given), *uneven_unseen(found.ranking, self.runs))
+        return (*self.spikes, *enabled, *told)
 
 
 def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
@@ -114,9 +117,13 @@ def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
     right = without_all(recordings, found.faults)
     late = late_beside(right, found.model, problem, best.fit)
     right = powered(right, late, found.model)
-    runs = measured_alike([judging_run(r, found.model) for r in right], problem.whole)
-    kept_back = replace(problem.in_free_run(), runs=tuple(runs))
-    return _Unseen(runs=with_inferred_input(kept_back, best.final).runs, late=late)
+
+    def runs(of: Sequence[Recording]) -> tuple[Run, ...]:
+        return tuple(measured_alike([judging_run(r, found.model) for r in of], problem.whole))
+
+    right, spikes = without_spikes_left(right, problem.on(runs(right)), best.fit)
+    kept_back = replace(problem.in_free_run(), runs=runs(right))
+    return _Unseen(runs=with_inferred_input(kept_back, best.final).runs, late=late, spikes=spikes)
 
 
 def _check_options(seed: int, jobs: int | None, effort: float, progress: Any) -> None:

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from rwn.recording.inspection.step_response import REACH, interpolated
+from rwn.recording.inspection.outliers import REACH
+from rwn.recording.inspection.step_response import interpolated
 
 Array = NDArray[np.float64]
 

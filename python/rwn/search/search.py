@@ -10,6 +10,7 @@ from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.delay import shift_instead
 from rwn.faults.fault import Fault, without, without_all
 from rwn.faults.late_enable import LateEnable, late_under, powered
+from rwn.faults.spikes_left import without_spikes_left
 from rwn.faults.uneven_files import uneven_files
 from rwn.fit.fit import Fit
 from rwn.fit.preparation import prepare
@@ -23,7 +24,7 @@ from rwn.measurement.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.name.forward import Progress
 from rwn.name.ranking import Ranking
-from rwn.recording.inspection import Finding
+from rwn.recording.inspection import Finding, Inspected
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording
 from rwn.search.beneath_faults import beneath_faults
@@ -39,12 +40,13 @@ class SearchResult:
     late: tuple[LateEnable, ...]
     faults: tuple[Fault, ...]
     ranking: Ranking
+    spikes: tuple[Finding, ...] = ()  # that the motion hid
 
     @property
     def findings(self) -> tuple[Finding, ...]:
         """How the input acted and the motion began, as a check of recordings says it."""
         given = self.model.drive.input
-        found = [late.as_finding(given) for late in self.late]
+        found = [*self.spikes, *(late.as_finding(given) for late in self.late)]
         found += [
             Finding(
                 kind="in-motion", recording=run.name, signals=(), count=0, words="it starts in motion",
@@ -92,9 +94,12 @@ def search(
     as_acted = _as_acted(on, again)
     faults, ranking = beneath_faults(as_acted, again, say=say, effort=effort)
     filters: tuple[SensorFilter, ...] = ()
+    spikes = list[Finding]()
     for _ in range(ASKED_AGAIN):
+        recordings, spoilt = _without_spikes_left(recordings, faults, ranking)
+        spikes += spoilt
         asked = _asked_again(recordings, model, still, again, faults, ranking)
-        alike = asked == _Assumptions(still, again, _filters(ranking, again))
+        alike = not spoilt and asked == _Assumptions(still, again, _filters(ranking, again))
         if alike and (faults or ranking.left.at_the_floor):
             break
         best = None if faults else ranking.fits[0].fit
@@ -115,7 +120,18 @@ def search(
             faults, ranking = others, freed
             break
     again = stating_filters(again, ranking.problem.filters)
-    return SearchResult(model=again, late=still, faults=tuple(faults), ranking=ranking)
+    return SearchResult(
+        model=again, late=still, faults=tuple(faults), ranking=ranking, spikes=tuple(spikes)
+    )  # fmt: skip
+
+
+def _without_spikes_left(
+    recordings: Sequence[Recording], faults: Sequence[Fault], ranking: Ranking
+) -> Inspected:  # fmt: skip
+    """The recordings without samples that are far off the best explanation; as they are where samples were moved."""
+    if any(fault.delay for fault in faults):
+        return Inspected(list(recordings), ())
+    return without_spikes_left(recordings, ranking.problem.in_free_run(), ranking.fits[0].fit)
 
 
 def _asked_again(

@@ -17,7 +17,7 @@ from rwn.recording.inspection.motion import contradictions
 from rwn.recording.inspection.spikes import SPIKES
 from rwn.recording.recording import Recording
 
-__all__ = ["CHECKS", "Check", "Finding", "Inspected", "inspected"]
+__all__ = ["CHECKS", "Check", "Finding", "Inspected", "inspected", "without_samples"]
 
 CHECKS: tuple[Check, ...] = (HELD, SPIKES, CLIPPING)
 
@@ -38,7 +38,7 @@ def inspected(recordings: Sequence[Recording]) -> Inspected:
                 flags = check.flags(recording, signal)
                 if flags.any():
                     found.append(check.found(recording, signal, flags))
-                    recording = _without(recording, signal, flags, bridged=check.bridged)
+                    recording = without_samples(recording, signal, flags, bridged=check.bridged)
         recording, hum = without_hum(recording)
         found += hum
         recording, noisy = without_input_noise(recording)
@@ -48,7 +48,7 @@ def inspected(recordings: Sequence[Recording]) -> Inspected:
     return Inspected(made, tuple(found))
 
 
-def _without(recording: Recording, signal: str, lost: Flags, *, bridged: bool) -> Recording:
+def without_samples(recording: Recording, signal: str, lost: Flags, *, bridged: bool = True) -> Recording:
     """The recording with the lost samples marked, and bridged in a line for what follows the recorded motion."""
     missing = lost | recording.missing.get(signal, np.zeros(lost.size, dtype=bool))
     known, values = ~missing, np.array(recording.signals[signal])

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.inspection.finding import Check, Flags
-from rwn.recording.inspection.step_response import REACH, Interpolated, interpolated
+from rwn.recording.inspection.outliers import BESIDE, RARE, REACH, most_deviations, outliers
+from rwn.recording.inspection.step_response import Interpolated, interpolated
 from rwn.recording.noise import PER_MEDIAN, noise_from_differences
 from rwn.recording.quantisation import quantum
 from rwn.recording.recording import Recording
@@ -16,9 +17,6 @@ from rwn.recording.signals import MEASURED
 
 Array = NDArray[np.float64]
 
-LEVEL = 0.01  # chance that one is found in Gaussian noise, in all samples together
-RARE = 0.02  # most of the rows that are called spikes: a signal that jumps more often does so by itself
-BESIDE = 0.25  # most that a signal may move beside a spike, in units of the jump
 SHOWN = 4  # spikes whose places are said
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
 FEWEST = 8  # samples among which one is found
@@ -81,22 +79,15 @@ def _beside_steps(x: Array, inputs: Sequence[Array], after_steps: Array) -> Flag
     """
     from scipy.ndimage import maximum_filter1d  # late: the command line starts without it
 
-    found = np.zeros(x.size, dtype=bool)
     steps = maximum_filter1d(after_steps, 2 * REACH + 1)  # the samples that have one within their reach
-    most = int(RARE * np.count_nonzero(steps))
-    if most == 0:
-        return found
+    beside = int(np.count_nonzero(steps))
+    if beside == 0:
+        return np.zeros(x.size, dtype=bool)
     off = interpolated(x, inputs)
-    errors = off.errors
-    limit = _limit(errors.size) * PER_MEDIAN * float(np.median(np.abs(errors)))
-    relative = np.where(np.abs(errors) > limit, np.abs(errors) / np.where(steps > 0.0, steps, np.inf), 0.0)
-    largest = list[int]()
-    while len(largest) < most and _is_alone(off, k := int(np.argmax(relative))):
-        size, largest = float(relative[k]), [*largest, k]
-        relative[max(k - 2 * REACH, 0) : k + 2 * REACH + 1] = 0.0  # it spoils the interpolation of those beside it
-        if BESIDE * size > float(np.max(relative)):
-            found[largest] = True
-    return found
+    limit = most_deviations(x.size) * PER_MEDIAN * float(np.median(np.abs(off.errors)))
+    relative = np.abs(off.errors) / np.where(steps > 0.0, steps, np.inf)
+    found = outliers(relative, limit=0.0, among=beside, alone=lambda at: _is_alone(off, at))
+    return found & (np.abs(off.errors) > limit)
 
 
 def _is_alone(off: Interpolated, at: int) -> bool:
@@ -128,7 +119,7 @@ def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     noise = max(noise_from_differences(x), quantum(x))
     if noise == 0.0:
         return np.zeros(x.size, dtype=bool)
-    limit = _limit(x.size) * noise * np.sqrt(1.5)  # a sample against the mean of two
+    limit = most_deviations(x.size) * noise * np.sqrt(1.5)  # a sample against the mean of two
     before, after = x[: -together - 1], x[together + 1 :]
     here = np.stack([x[1 + k : x.size - together + k] for k in range(together)])
     jump = np.min(np.abs(here - 0.5 * (before + after)), axis=0)
@@ -142,13 +133,6 @@ def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     dropped[[0, -1]] = False  # a run begins and ends at rest
     may = beyond | (~must_be_beyond[1:-together] & (together == 1))
     return _in_all(off & (dropped | (smooth & may)), together)
-
-
-def _limit(samples: int) -> float:
-    """Deviations that none of so many normal numbers is off, but in one case of 1 / LEVEL."""
-    from scipy.special import ndtri  # late: the command line starts without it
-
-    return float(-ndtri(0.5 * LEVEL / samples))
 
 
 def _in_all(first: Flags, together: int) -> Flags:

@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.recording.inspection.outliers import REACH
 from rwn.recording.noise import PER_MEDIAN
 
 Array = NDArray[np.float64]
 
-REACH = 2  # samples on either side, and of the input: a winding and its load have two states
 ROUNDS = 4  # of reweighting
 HUBER = 1.345  # deviations beyond which an error counts linearly: 95 % efficient for normal ones (Huber 1964)
 
@@ -25,7 +25,7 @@ class Interpolated(NamedTuple):
 
 
 def interpolated(x: Array, inputs: Sequence[Array]) -> Interpolated:
-    """The samples x (n,) against what those within `REACH` and the inputs (n,) there make of them.
+    """The samples x (n,) against what those within `REACH` and the inputs (n,) there make of them: two states' worth.
 
     Linear, with the coefficients that the whole signal shows (Huber's M-estimate, so that a few samples that are far
     off do not decide).

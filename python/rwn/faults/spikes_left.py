@@ -1,0 +1,56 @@
+"""Spikes that the motion hid: single samples far off what the best explanation simulates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.fit.fit import Fit
+from rwn.fit.problem import Problem
+from rwn.recording.inspection import Finding, Inspected, without_samples
+from rwn.recording.inspection.outliers import BESIDE, most_deviations, outliers
+from rwn.recording.inspection.spikes import SPIKES
+from rwn.recording.noise import PER_MEDIAN
+from rwn.recording.recording import Recording
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+FEWEST = 8  # samples among which one is found
+
+
+def without_spikes_left(recordings: Sequence[Recording], problem: Problem, this: Fit) -> Inspected:
+    """The recordings without samples that are far off a fit, and what was found.
+
+    `problem`: of the same recordings; one that lost or moved samples on the way there is left as it is.
+    """
+    made, found = [], list[Finding]()
+    left = problem.residuals(this.vector, this.active)
+    for recording, run, errors in zip(recordings, problem.runs, left, strict=True):
+        for signal, error in errors.items() if run.time.size == len(recording) else ():
+            flags = _far_off(run.masked(signal, error), problem.noise[signal].deviation)
+            if flags.any():
+                found.append(SPIKES.found(recording, signal, flags))
+                recording = without_samples(recording, signal, flags)
+        made.append(recording)
+    return Inspected(made, tuple(found))
+
+
+def _far_off(error: Array, noise: float) -> Flags:
+    """Of the error (n,) of a signal, NaN where nothing is compared: the few samples that are off those beside them.
+
+    By more than four times as much as any other is: what a model has wrong it has wrong beside other steps as well.
+    """
+    flags = np.zeros(error.size, dtype=bool)
+    compared = np.flatnonzero(np.isfinite(error))
+    if compared.size < FEWEST:
+        return flags
+    x = np.pad(error[compared], 1, mode="reflect")
+    off = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:]))
+    apart = np.abs(x[2:] - x[:-2])
+    limit = most_deviations(off.size) * max(PER_MEDIAN * float(np.median(off)), noise)
+    found = outliers(off, limit=limit, among=off.size, alone=lambda at: bool(apart[at] < BESIDE * off[at]))
+    flags[compared] = found
+    return flags

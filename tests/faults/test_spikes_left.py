@@ -1,0 +1,80 @@
+"""Spikes that the motion hid, told by what the best explanation leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rwn
+from made_up_files import files_of
+from rwn.faults.fault import SHIFT, Fault
+from rwn.faults.spikes_left import without_spikes_left
+from rwn.fit.fit import fit_nominal
+from rwn.fit.preparation import prepare
+from rwn.model.model import Model
+from rwn.name.forward import rank
+from rwn.search.search import _without_spikes_left, search
+
+MOTOR = {
+    "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
+    "viscous_friction": 4e-5,
+}  # fmt: skip
+MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "resistance": 0.1})
+STEP = 300  # a sample at which the voltage steps
+
+
+def _recordings(spikes: Mapping[str, Sequence[int]], size: float = 1.5) -> list[rwn.Recording]:
+    """Two runs; in the first, spikes of so many times the range of a signal at some samples."""
+    first, second = files_of(MODEL, [], (1.0, 1.0))
+    signals = dict(first.signals)
+    for name, at in spikes.items():
+        signals[name] = signals[name].copy()
+        signals[name][list(at)] += size * np.ptp(first.signals["current"])
+    return [replace(first, signals=signals), second]
+
+
+def _left_out(recordings: Sequence[rwn.Recording], model: Model = MODEL) -> dict[str, list[int]]:
+    """The samples of the first recording that the fitted model says are spikes."""
+    problem = prepare(recordings, model)
+    found = without_spikes_left(recordings, problem.in_free_run(), fit_nominal(problem))
+    assert not found.recordings[1].missing
+    assert sum(f.count for f in found.findings) == sum(int(m.sum()) for m in found.recordings[0].missing.values())
+    return {s: np.flatnonzero(m).tolist() for s, m in found.recordings[0].missing.items()}
+
+
+@pytest.mark.parametrize("late", [0, 1, 2, 25])
+def test_a_spike_that_steps_of_the_current_hide_is_told_by_what_a_fit_leaves(late: int) -> None:
+    assert _left_out(_recordings({"current": [STEP + late]}, size=0.1)) == {"current": [STEP + late]}
+
+
+def test_several_of_both_signals_are_found() -> None:
+    spikes = {"current": [101, 102 + 50, 401], "speed": [301, 450]}
+    assert _left_out(_recordings(spikes)) == spikes
+
+
+def test_what_a_model_has_wrong_at_every_step_is_no_spike() -> None:
+    """A winding ten times as fast peaks within a sample, at the largest step the most."""
+    recordings = _recordings({})
+    assert not _left_out(recordings)
+    assert not _left_out(recordings, replace(MODEL, parameters={**MOTOR, "inductance": 1e-4}))
+
+
+def test_the_search_begins_anew_without_them() -> None:
+    recordings = _recordings({"current": [STEP]}, size=0.5)
+    found = search(recordings, MODEL, late=(), say=lambda *_: None)
+    assert [(f.recording, f.signals, f.count) for f in found.findings if f.kind == "spikes"] == [
+        ("run_0", ("current",), 1)
+    ]
+    assert np.flatnonzero(found.ranking.problem.whole[0].not_compared("current")).tolist() == [STEP]
+    assert found.ranking.left.at_the_floor
+
+
+def test_none_are_left_out_where_samples_were_moved() -> None:
+    recordings = _recordings({"current": [STEP]}, size=0.5)
+    ranking = rank(prepare(recordings, MODEL), progress=lambda *_: None, names=["coulomb-friction"], at_once=1)
+    late = Fault(name=SHIFT, signals=("speed",), meaning="", delay=2)
+    assert _without_spikes_left(recordings, [late], ranking).findings == ()
+    assert len(_without_spikes_left(recordings, [], ranking).findings) == 1
