@@ -50,12 +50,15 @@ class Fault:
     step: float = 0.0  # sample time [s]
     also: tuple[str, ...] = ()  # other faults that these recordings do not tell from it
     removes: ErrorReduction | None = None  # None: a scale that is plainly wrong
+    recordings: tuple[str, ...] = ()  # names of those that have it; none: all
 
     def undo(self, recording: Recording) -> Recording:
         """The recording as it should have been; where a signal came late, all are cut to what is left.
 
         Where one came early, what it was before its first sample is not known: the run begins where the input does.
         """
+        if self.recordings and recording.name not in self.recordings:
+            return recording
         n = len(recording) - max(self.delay, 0)
         signals = {name: np.array(values[:n]) for name, values in recording.signals.items()}
         moved = [name for name in self.signals if name in signals]
@@ -71,7 +74,9 @@ class Fault:
         return replace(recording, time=recording.time[:n], signals=signals, missing=missing, applied_input=applied)
 
     def in_layout(self, layout: Layout) -> Layout:
-        """The layout of recordings that have it: their delays, and what each signal is multiplied by."""
+        """The layout of recordings that all have it: their delays, and what each signal is multiplied by."""
+        if self.recordings:
+            return layout
         late = [s for s in self.signals if self.delay and s in MEASURED]
         delays = {s: layout.delays.get(s, 0.0) + self.delay * self.step for s in late}
         scaled = self.signals if self.factor != 1.0 else ()
@@ -95,7 +100,7 @@ class Fault:
         return FoundEffect(
             name=self.name, equation=RECORDING, parameters=parameters,
             probability=min(SURE, probability) / (1 + len(self.also)),
-            meaning=self.meaning, signals=self.signals,
+            meaning=self.meaning, signals=self.signals, recordings=self.recordings,
         )  # fmt: skip
 
 

@@ -61,7 +61,7 @@ def wrong_scale(recordings: Sequence[Recording], model: Model) -> Fault | None:
         return certain
     if model.drive.force:
         return _axis_fault(recordings, model)
-    seen = _similarity(recordings, model)
+    seen = similarity(recordings, model)
     if not any(one.far for one in seen.values()):
         return None
     best, least = None, np.inf
@@ -114,7 +114,7 @@ def gears(recordings: Sequence[Recording], model: Model) -> Iterator[Fault]:
     """Gear ratios too small to be plain, which physics might explain as well; of a motor alone."""
     if not model.drive.winding:
         return
-    seen = _similarity(recordings, model)
+    seen = similarity(recordings, model)
     moving = tuple(s for s in MOTION if s in seen)
     ratio = _mean([seen[s] for s in moving]).ratio if moving else 1.0
     if abs(np.log(ratio)) > np.log(GEAR_LIKE) and not back_emf(recordings, model).denies(ratio):
@@ -126,11 +126,11 @@ def _misfits_without(
 ) -> dict[str, float]:
     """Misfit of every signal without the fault."""
     if fault.signals == (model.drive.input,):
-        return {s: one.misfit(1.0) for s, one in _similarity(without(recordings, fault), model).items()}
+        return {s: one.misfit(1.0) for s, one in similarity(without(recordings, fault), model).items()}
     return {s: one.misfit(fault.factor if s in fault.signals else 1.0) for s, one in seen.items()}
 
 
-def _similarity(recordings: Sequence[Recording], model: Model) -> dict[str, Similarity]:
+def similarity(recordings: Sequence[Recording], model: Model) -> dict[str, Similarity]:
     """Of each recorded signal to its free run from the model as given; of a position by its slope, free of drift."""
     problem = prepare(recordings, model)
     given = problem.as_given()

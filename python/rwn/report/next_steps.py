@@ -94,6 +94,10 @@ def _mistake(found: DiagnosisData) -> Iterator[str]:
             yield f"Correct the recording, or write under [recording] in the model file: {lines}. Then diagnose again."
         else:
             factor = fault.parameters["factor"].value if "factor" in fault.parameters else -1.0
+            if fault.recordings:  # the columns of a model file are those of all recordings
+                times = f"the {listing(fault.signals)} times {1.0 / factor:.6g}"
+                yield f"Correct {listing(fault.recordings)}: write {times}, or its unit. Then diagnose again."
+                continue
             lines = ", ".join(f"`columns.{name} = {{ scale = {1.0 / factor:.6g} }}`" for name in fault.signals)
             yield f"Correct the recording, or write under [recording] in the model file: {lines}. Then diagnose again."
     if found.next_experiment:

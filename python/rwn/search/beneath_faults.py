@@ -22,6 +22,7 @@ from rwn.faults.delay import (
 )
 from rwn.faults.fault import GEAR, Fault, without, without_all
 from rwn.faults.gear import gear_ratio
+from rwn.faults.odd_files import wrong_in_some
 from rwn.faults.scale import as_gear, wrong_scale
 from rwn.fit.budget import affords_more, meter
 from rwn.fit.preparation import prepare
@@ -173,7 +174,7 @@ def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Fault],
     """Wrong units, signs and gears, and the recordings without them."""
     made: list[Fault] = []
     right = list(recordings)
-    while len(made) < MOST_SCALES and (fault := wrong_scale(right, model)):
+    while len(made) < MOST_SCALES and (fault := wrong_in_some(right, model) or wrong_scale(right, model)):
         made.append(fault)
         right = without(right, fault)
     return made, right

@@ -1,0 +1,42 @@
+"""A unit or sign that is wrong in some of the recordings, beside others whose motion the model follows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from rwn.faults.fault import GEAR, Fault
+from rwn.faults.scale import LEFT, similarity, wrong_scale
+from rwn.model.model import Model
+from rwn.recording.recording import Recording
+
+
+def wrong_in_some(recordings: Sequence[Recording], model: Model) -> Fault | None:
+    """A unit or sign that is wrong in some recordings and right in all others, which show it; None where none is.
+
+    One is right where the signals are as large as the model as given simulates them: no physics is another in each
+    file of a machine by as much as a unit. A gear is part of the machine.
+    """
+    if len(recordings) < 2 or model.drive.coefficients:
+        return None
+    alone = {recording.name: wrong_scale([recording], model) for recording in recordings}
+    fault = next((one for one in alone.values() if one is not None), None)
+    if fault is None or fault.name == GEAR:
+        return None
+    odd = tuple(name for name, one in alone.items() if _is_same(one, fault))
+    others = [r for r in recordings if r.name not in odd]
+    if not others or not all(alone[r.name] is None and _follows(r, fault, model) for r in others):
+        return None
+    meaning = f"{fault.meaning}, in {', '.join(odd)} and not in {', '.join(r.name for r in others)}"
+    return replace(fault, recordings=odd, also=(), meaning=meaning)
+
+
+def _is_same(one: Fault | None, other: Fault) -> bool:
+    return one is not None and (one.name, one.signals, one.factor) == (other.name, other.signals, other.factor)
+
+
+def _follows(recording: Recording, fault: Fault, model: Model) -> bool:
+    """Whether the signals of a fault, or all where it is one of the input, are near their simulation as they are."""
+    seen = similarity([recording], model)
+    judged = [seen[s] for s in fault.signals if s in seen] or list(seen.values())
+    return all(not one.far and one.misfit(1.0) < LEFT for one in judged)
