@@ -13,6 +13,7 @@ import pytest
 import rwn
 from made_up_motor import AXIS, slow_axis
 from made_up_motor import SMALL as MOTOR
+from rwn.faults import late_enable
 from rwn.faults.fault import Fault, without
 from rwn.faults.late_enable import LateEnable, _best_held, late_beside, late_enables, powered, retimed
 from rwn.fit.fit import fit, fit_nominal
@@ -259,3 +260,16 @@ def test_a_late_enable_that_the_nominal_model_did_not_show_is_found_beside_an_ex
     assert (late.place, late.samples) == (1, pytest.approx(130, abs=2))
     known = LateEnable(place=1, recording="run", samples=130, time=0.130)
     assert len(_asked_again(recordings, MODEL, (known,), MODEL, (), ranking).late) == 1
+
+
+def test_what_friction_makes_of_the_first_samples_is_not_weighed_against_all_that_holds_a_drive(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The nominal model would have moved a sample or two before; that takes seconds and could say nothing."""
+    weighed: list[Any] = []
+    monkeypatch.setattr(late_enable, "_worthwhile", lambda found, *_: weighed.append(found) or ())
+    voltage = np.concatenate([np.zeros(60), STEPS])
+    assert late_enables([_run(voltage, 61, friction=0.03)], MODEL) == ()
+    assert not weighed
+    late_enables([_run(voltage, 100)], MODEL)
+    assert len(weighed) == 1

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.fit import NEAR_ITS_END, Fit, refit
+from rwn.fit.prior_weight import variance_inflation
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
@@ -74,6 +75,10 @@ class Standstill:
     def cost(self, time: float) -> float:
         """Cost, priors included, of the hypothesis refitted to this alone with power from a time [s] on."""
         return refit(self.this, self._with_power_from(time), iterations=NEAR_ITS_END).cost
+
+    def inflation(self, time: float) -> float:
+        """`variance_inflation` of the fit with power from a time [s] on."""
+        return variance_inflation(self._with_power_from(time), self.this)
 
     def _with_power_from(self, time: float) -> Problem:
         return replace(self.problem, runs=(run_powered_from(time, self._run),))

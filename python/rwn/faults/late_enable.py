@@ -64,7 +64,15 @@ def late_enables(recordings: Sequence[Recording], model: Model) -> tuple[LateEna
     without = [powered_from(since_start(r)[k], r, model) for r, k in zip(recordings, still, strict=True)]
     problem, nominal = nominal_of(without, model)
     found = _enabled_late(recordings, model, problem, nominal, problem.runs)
+    found = tuple(late for late in found if _gains(late, recordings, model, problem, nominal))
     return _worthwhile(found, recordings, model) if found else ()
+
+
+def _gains(late: LateEnable, recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit) -> bool:
+    """Whether a recording is far likelier with a late enable where a fit explains its beginning alone."""
+    beginning = _beginning(problem, this, recordings[late.place], model, problem.runs[late.place])
+    gained = beginning.cost(0.0) - beginning.cost(late.time)
+    return gained > 2.0 * DECISIVE * beginning.inflation(late.time)
 
 
 def late_beside(
