@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.recording.by_content import ByContent
 from rwn.recording.clock import clock_beside, clock_of
 from rwn.recording.quantisation import NEAR, quantum
 from rwn.recording.speed_window import window_of
@@ -54,6 +55,7 @@ CENTRAL = SpeedMeasurement(1, 1)
 BACKWARD = SpeedMeasurement(1, 0)
 FORWARD = SpeedMeasurement(0, 1)
 AVERAGED = tuple(SpeedMeasurement(k, 0) for k in range(LONGEST, 2, -1))
+_KNOWN = ByContent[SpeedMeasurement]()
 DIFFERENCES = (CENTRAL, BACKWARD, FORWARD, SpeedMeasurement(2, 0), *AVERAGED)
 
 
@@ -70,6 +72,11 @@ def speed_measurement(
     """
     every = np.full(time.size, True)
     new, known = (every if new is None else new), (every if new_position is None else new_position)
+    key = _KNOWN.key(time, speed, position, new, known)
+    return _KNOWN.get(key) or _KNOWN.keep(key, _measured(time, speed, position, new, known))
+
+
+def _measured(time: Array, speed: Array, position: Array, new: Flags, known: Flags) -> SpeedMeasurement:
     if speed.size and position.size and (rows := window_of(time, speed, position, new)):
         return SpeedMeasurement(rows, 0)
     known = known & new
