@@ -17,6 +17,7 @@ from rwn.report.diagnosis_data import Alternative, Location
 from rwn.report.next_steps import next_steps
 from rwn.report.page import page
 from rwn.report.sentences import before_after, headline, verdict_sentence
+from rwn.report.terminal import lines
 
 
 @pytest.mark.parametrize(
@@ -192,15 +193,34 @@ def test_a_place_is_said_in_words() -> None:
     assert words.located([fast], [], linear=False, shaft=replace(shaft, alone=1.9)).startswith("the torque that")
 
 
+def test_a_place_is_said_briefly() -> None:
+    slow = Region(coordinate="speed", low=0, high=2, unit="rad/s", share=0.7, samples_share=0.1, name="low speed")
+    shaft = ShaftAlone(alone=0.25, drive=2.0, noise=0.1, signal="speed")
+    said = [
+        words.located_briefly([slow], [], linear=True),
+        words.located_briefly([slow], [], linear=False, motion=False),
+        words.located_briefly([slow], [], linear=False, shaft=shaft),
+        words.located_briefly([], [], linear=False, shaft=shaft),
+        words.located_briefly([replace(slow, share=0.2)], [], linear=False),
+    ]
+    assert said == [
+        "a force that is strongest at low speed", "an error of the output that is strongest at low speed",
+        "a voltage of the winding that is strongest at low speed", "a voltage of the winding", "",
+    ]  # fmt: skip
+
+
 def test_a_place_says_that_it_is_not_that_of_the_errors_in_the_proof() -> None:
     """Strongest at low speed in the equation of motion, and in free run less off there than elsewhere."""
     slow = Region(coordinate="speed", low=0, high=2, unit="rad/s", share=0.7, samples_share=0.1, name="low speed")
-    place = Location(regions=(slow,), description=words.located([slow], [], linear=False))
+    place = Location(
+        regions=(slow,), description=words.located([slow], [], linear=False),
+        briefly=words.located_briefly([slow], [], linear=False),
+    )  # fmt: skip
     found = replace(made_up.unexplained(), location=place)
     assert verdict_sentence(found).startswith(
-        "Something is missing that has no name here: the torque that the refitted equation of motion leaves over is "
-        "strongest at low speed, where 10 % of the samples hold 70 % of its square."
+        "Something is missing that has no name here: a torque that is strongest at low speed. "
     )
+    assert any(line.startswith("  Where: the torque that the refitted equation of motion") for line in lines(found))
     assert "The proof compares free runs: their errors may be largest elsewhere." in page(found)
 
 

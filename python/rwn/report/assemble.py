@@ -37,7 +37,7 @@ from rwn.report.diagnosis_data import Alternative, Beneath, Location
 from rwn.report.fitted_filter import FittedFilter, fitted_filters
 from rwn.report.next_steps import NEAR
 from rwn.report.nominal_fit import nominal_fit
-from rwn.report.text import listing, located, plain_name, shaft_in_words, times_given, unknown_name
+from rwn.report.text import listing, located, located_briefly, plain_name, shaft_in_words, times_given, unknown_name
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
@@ -64,7 +64,10 @@ def assemble(
     torque_unknown = said.verdict != "adequate" and not model.drive.coefficients and not winding
     depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
     motion = not model.drive.coefficients
-    place = located(where, depends, linear=model.linear, motion=motion, shaft=decision.shaft)
+    place, briefly = (
+        in_words(where, depends, linear=model.linear, motion=motion, shaft=decision.shaft)
+        for in_words in (located, located_briefly)
+    )
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
     filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
     shown = correction.by_free_run or chosen
@@ -77,7 +80,7 @@ def assemble(
         beneath=Beneath(verdict=said.beneath.verdict, set=said.beneath.names) if said.beneath else None,
         explanation=_explanation(decision),
         alternatives=alternatives,
-        location=Location(equation=equation, regions=where, description=place),
+        location=Location(equation=equation, regions=where, description=place, briefly=briefly),
         nominal_fit=nominal_fit(ranking, chosen, model, widening=widening),
         heldout=rows,
         curves=drawn,

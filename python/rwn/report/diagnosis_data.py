@@ -44,6 +44,7 @@ class Location:
     equation: str = ""
     regions: tuple[Region, ...] = ()
     description: str = ""  # "a torque that depends on angle, 14 periods per revolution, 3 mN m"
+    briefly: str = ""  # "a torque that is strongest at low speed"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -135,7 +135,7 @@ def _more_than_noise(found: DiagnosisData) -> Iterator[str]:
 
 def _unexplained(found: DiagnosisData) -> tuple[str, ...]:
     somewhere = f"something in the {found.equation} equation" if found.equation else "the motion is not followed"
-    what = found.location.description or somewhere
+    what = found.location.briefly or found.location.description or somewhere
     drawn = (f"In corrected.toml stands for it: {found.stand_in}.",) if found.stand_in else ()
     return (f"Something is missing that has no name here: {what}.", *drawn, *_proof(found, "Adding that"))
 

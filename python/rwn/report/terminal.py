@@ -74,6 +74,8 @@ def _account(found: DiagnosisData) -> Iterator[str]:
         yield f"{name:<{width}}  {'█' * full}{'·' * (_BAR - full)} {percent(kept):>8}  {said}"
     if len(rows) > 1:
         yield about_shares(shown(found.account))
+    if found.verdict == "unexplained" and found.location.description:
+        yield f"Where: {found.location.description}."
 
 
 def _parameters(found: DiagnosisData) -> Iterator[str]:

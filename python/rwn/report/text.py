@@ -203,12 +203,28 @@ def located(
     parts = [law_in_words(laws[0], linear=linear)] if laws and laws[0].share > CLEAR else []
     if shaft is not None and winding:
         parts.append(f"it lies between the voltage and the current: {shaft_in_words(shaft)}")
-    standing_out = [r for r in where if r.share - r.samples_share > EXCESS]
-    if standing_out:
-        r = standing_out[0]
+    if r := _strongest(where):
         left = f"the {'force' if linear else 'torque'} that the refitted equation of motion leaves over"
         left = "the voltage that the refitted equation of the winding leaves over" if winding else left
         what = left if motion else "the error of the refitted model's output"
         much = f"{percent(r.samples_share)} of the samples hold {percent(r.share)} of its square"
         parts.append(f"{what} is strongest {region_in_words(r)}, where {much}")
     return "; ".join(parts)
+
+
+def located_briefly(
+    where: Sequence[Region], laws: Sequence[Law], *, linear: bool, motion: bool = True, shaft: ShaftAlone | None = None
+) -> str:
+    """The same as `located` in a few words: what is missing, and where most of it."""
+    if laws and laws[0].share > CLEAR:
+        return law_in_words(laws[0], linear=linear)
+    winding = shaft is not None and shaft.moves_as_recorded
+    left = f"a {'force' if linear else 'torque'}" if motion else "an error of the output"
+    what = "a voltage of the winding" if winding else left
+    if r := _strongest(where):
+        return f"{what} that is strongest {region_in_words(r)}"
+    return what if winding else ""
+
+
+def _strongest(where: Sequence[Region]) -> Region | None:
+    return next((r for r in where if r.share - r.samples_share > EXCESS), None)
