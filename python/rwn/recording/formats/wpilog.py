@@ -5,6 +5,7 @@ Source of the format: allwpilib, wpiutil/doc/datalog.adoc.
 
 from __future__ import annotations
 
+import json
 import re
 import struct
 from collections.abc import Collection, Iterator
@@ -130,8 +131,22 @@ def _channel(entry: _Entry, column: int) -> Channel:
 
 
 def _unit(metadata: str) -> str | None:
-    """A unit that SysIdRoutineLog wrote as metadata ("Meter per Second"); JSON and other notes are none."""
-    text = metadata.replace("_", " ")
+    """A unit that was written as metadata ("Meter per Second", {"unit": "rad/s"}); other notes are none.
+
+    SysIdRoutineLog writes its name alone, AdvantageKit and NetworkTables an object of JSON.
+    """
+    text = _noted(metadata).replace("_", " ")
     if _WORD.search(text):  # of a symbol, as A, the case says which unit it is
         text = text.lower()
-    return text if text and len(text) < 60 and "{" not in text and units.is_unit(text) else None
+    return text if text and len(text) < 60 and units.is_unit(text) else None
+
+
+def _noted(metadata: str) -> str:
+    if not metadata.lstrip().startswith("{"):
+        return metadata
+    try:
+        noted = json.loads(metadata)
+    except (ValueError, RecursionError):  # a note that only looks like JSON
+        return ""
+    texts = (noted.get(key) for key in ("unit", "units"))
+    return next((text for text in texts if isinstance(text, str)), "")
