@@ -82,9 +82,9 @@ def main() -> None:
     plain = parameter_vector(AXIS, {})
     dry = parameter_vector(AXIS, {"coulomb-friction": {"coulomb_torque": COULOMB}})
     dc = parameter_vector(DC, {})
-    got = _core.simulate(_core.Task("axis", time=t, input=reversing), plain, [], [])[2]
+    got = _core.simulate(_core.Task("axis", time=t, input=reversing), plain, [], []).signals["speed"]
     check("axis", got, reference_axis(reversing, 0.0), 1e-9)
-    got = _core.simulate(_core.Task("axis", time=t, input=resting), dry, [coulomb.index], [])[2]
+    got = _core.simulate(_core.Task("axis", time=t, input=resting), dry, [coulomb.index], []).signals["speed"]
     check("axis, Coulomb friction", got, reference_axis(resting, COULOMB), 2e-2)  # the reference stops at samples
     by = [motor_index("inertia"), motor_index("viscous_friction"), coulomb.first]
     rows: tuple[tuple[str, str, np.ndarray, np.ndarray, list[int], list[int]], ...] = (

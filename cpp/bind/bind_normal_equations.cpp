@@ -56,8 +56,16 @@ Measured measured_from(const Array& current, const Array& speed, const Array& po
   return m;
 }
 
-py::tuple sums(const Task& task, const Measured& seen, const Array& parameters, const std::vector<int>& active,
-               const std::vector<int>& by, std::optional<Work*> work) {
+/// The sums of squares of one run, as Python takes them.
+struct Sums {
+  std::string status;
+  double chi2;
+  long count;
+  Array gradient, curvature;
+};
+
+Sums sums(const Task& task, const Measured& seen, const Array& parameters, const std::vector<int>& active,
+          const std::vector<int>& by, std::optional<Work*> work) {
   const SimulationTask what = task.with(parameters, active, by, work.value_or(nullptr));
   const Measurements measured = seen.measurements();
   for (const auto& signal : {measured.current, measured.speed, measured.position}) {
@@ -71,8 +79,11 @@ py::tuple sums(const Task& task, const Measured& seen, const Array& parameters, 
     sum = normal_equations(what, measured);
   }
   const auto p = static_cast<py::ssize_t>(by.size());
-  return py::make_tuple(std::string(to_string(sum.status)), sum.chi2, sum.count, Array(p, sum.gradient.data()),
-                        matrix(sum.curvature, p));
+  return {.status = std::string(to_string(sum.status)),
+          .chi2 = sum.chi2,
+          .count = static_cast<long>(sum.count),
+          .gradient = Array(p, sum.gradient.data()),
+          .curvature = matrix(sum.curvature, p)};
 }
 
 }  // namespace
@@ -87,8 +98,14 @@ void bind_normal_equations(py::module_& m) {
            "errors then count as what is new in them.");
   m.def("innovations", &innovations_of, "errors"_a, "reflection"_a, "restart"_a = 0,
         "What is new in errors (n) whose noise has these partial autocorrelations; NaN is passed over.");
+  py::class_<Sums>(m, "NormalEquations", "Squared error chi2 over `count` samples, J'r (p) and J'J (p, p).")
+      .def_readonly("status", &Sums::status)
+      .def_readonly("chi2", &Sums::chi2)
+      .def_readonly("count", &Sums::count)
+      .def_readonly("gradient", &Sums::gradient)
+      .def_readonly("curvature", &Sums::curvature);
   m.def("normal_equations", &sums, "task"_a, "measurements"_a, "parameters"_a.noconvert(), "active"_a, "by"_a,
-        "work"_a = std::optional<Work*>{}, "Free-run output error: status, chi2, count, J'r (p) and J'J (p, p).");
+        "work"_a = std::optional<Work*>{}, "Free-run output error of one run.");
 }
 
 }  // namespace rwn::bind

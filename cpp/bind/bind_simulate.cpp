@@ -124,7 +124,13 @@ bool has_current(int drive) {
   });
 }
 
-py::tuple run(const Task& task, const Array& parameters, const std::vector<int>& active, const std::vector<int>& by,
+/// What a simulation gave: signals (n) and their derivatives (n, p), by the name of the signal.
+struct Simulated {
+  std::string status;
+  py::dict signals, slopes;
+};
+
+Simulated run(const Task& task, const Array& parameters, const std::vector<int>& active, const std::vector<int>& by,
               std::optional<Work*> work) {
   const auto n = task.time.size();
   const auto p = static_cast<py::ssize_t>(by.size());
@@ -144,7 +150,9 @@ py::tuple run(const Task& task, const Array& parameters, const std::vector<int>&
     py::gil_scoped_release release;
     status = simulate(what, output);
   }
-  return py::make_tuple(std::string(to_string(status)), out[0], out[1], out[2], out[3], out[4], out[5]);
+  return {.status = std::string(to_string(status)),
+          .signals = py::dict("current"_a = out[0], "speed"_a = out[1], "position"_a = out[2]),
+          .slopes = py::dict("current"_a = out[3], "speed"_a = out[4], "position"_a = out[5])};
 }
 
 }  // namespace
@@ -161,8 +169,12 @@ void bind_simulate(py::module_& m) {
   m.def("simulation_advice", [](const std::string& status) {
     return std::string(advice(status_of(status)));
   });
+  py::class_<Simulated>(m, "Simulated", "Signals (n) [SI] and their derivatives (n, p), by the name of the signal.")
+      .def_readonly("status", &Simulated::status)
+      .def_readonly("signals", &Simulated::signals)
+      .def_readonly("slopes", &Simulated::slopes);
   m.def("simulate", &run, "task"_a, "parameters"_a.noconvert(), "active"_a, "by"_a, "work"_a = std::optional<Work*>{},
-        "Returns status, current, speed, position (n) and their derivatives (n, p).");
+        "Free run from the input and the start, with derivatives by the parameters `by`.");
 }
 
 }  // namespace rwn::bind

@@ -5,8 +5,13 @@
 namespace rwn::bind {
 namespace {
 
-py::tuple left_over(const Task& task, const Array& parameters, const std::vector<int>& active, const Array& speed,
-                    const Array& position, const Array& acceleration, const Array& current, const Array& current_slope) {
+/// What the equations leave over along a motion.
+struct LeftOver {
+  Array torque, voltage;
+};
+
+LeftOver left_over(const Task& task, const Array& parameters, const std::vector<int>& active, const Array& speed,
+                   const Array& position, const Array& acceleration, const Array& current, const Array& current_slope) {
   Array torque(task.time.size()), voltage(current.size());
   unknown_inputs(task.with(parameters, active, {}, nullptr),
                  {.current = view(current),
@@ -15,16 +20,19 @@ py::tuple left_over(const Task& task, const Array& parameters, const std::vector
                   .position = view(position),
                   .acceleration = view(acceleration)},
                  view(torque), view(voltage));
-  return py::make_tuple(torque, voltage);
+  return {.torque = torque, .voltage = voltage};
 }
 
 }  // namespace
 
 void bind_unknown_inputs(py::module_& m) {
+  py::class_<LeftOver>(m, "LeftOver", "Torque (n) and, where the current was given, voltage (n).")
+      .def_readonly("torque", &LeftOver::torque)
+      .def_readonly("voltage", &LeftOver::voltage);
   m.def("unknown_inputs", &left_over, "task"_a, "parameters"_a.noconvert(), "active"_a, py::kw_only(),
         "speed"_a.noconvert(), "position"_a.noconvert(), "acceleration"_a.noconvert(), "current"_a = Array(0),
         "current_slope"_a = Array(0),
-        "Torque (n) and, where the current is given, voltage (n) that the equations leave over along a motion.");
+        "What the equations leave over along a motion.");
 }
 
 }  // namespace rwn::bind

@@ -35,6 +35,16 @@ class Task:
     """
     def __init__(self, drive: str, *, time: numpy.typing.NDArray[numpy.float64], input: numpy.typing.NDArray[numpy.float64], input_time: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_per_position: typing.SupportsFloat | typing.SupportsIndex = 1.0, input_before: typing.SupportsFloat | typing.SupportsIndex = 0.0, angle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., angle_from_speed: bool = False, angle_from_start: bool = False, restart_every: typing.SupportsInt | typing.SupportsIndex = 0, restart_speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., restart_position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., order: typing.SupportsInt | typing.SupportsIndex = 0, own: collections.abc.Sequence[OwnEffect] = []) -> None:
         ...
+class LeftOver:
+    """
+    Torque (n) and, where the current was given, voltage (n).
+    """
+    @property
+    def torque(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @property
+    def voltage(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
 class Measurements:
     """
     Recorded signals (n) of one run; empty: not recorded, NaN: does not count.
@@ -43,6 +53,38 @@ class Measurements:
         """
         weights: 1 / standard deviation of current, speed and position; speed_difference: samples before and after between whose positions the speed was taken; reflection: partial autocorrelations of the noise of each, whose errors then count as what is new in them.
         """
+class NormalEquations:
+    """
+    Squared error chi2 over `count` samples, J'r (p) and J'J (p, p).
+    """
+    @property
+    def chi2(self) -> float:
+        ...
+    @property
+    def count(self) -> int:
+        ...
+    @property
+    def curvature(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @property
+    def gradient(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @property
+    def status(self) -> str:
+        ...
+class Simulated:
+    """
+    Signals (n) [SI] and their derivatives (n, p), by the name of the signal.
+    """
+    @property
+    def signals(self) -> dict:
+        ...
+    @property
+    def slopes(self) -> dict:
+        ...
+    @property
+    def status(self) -> str:
+        ...
 class Wavelet:
     def __init__(self, name: str, omega0: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
@@ -256,9 +298,9 @@ def motor_parameter_table() -> list:
     """
     The motor's own parameters.
     """
-def normal_equations(task: Task, measurements: Measurements, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], work: Work | None = None) -> tuple:
+def normal_equations(task: Task, measurements: Measurements, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], work: Work | None = None) -> NormalEquations:
     """
-    Free-run output error: status, chi2, count, J'r (p) and J'J (p, p).
+    Free-run output error of one run.
     """
 def parameter_count() -> int:
     ...
@@ -284,9 +326,9 @@ def recursive_gauss_newton(network: StructuredNetwork, input: typing.Annotated[n
     ...
 def select_wavelets(wavelet: Wavelet, m: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], d: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
     ...
-def simulate(task: Task, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], work: Work | None = None) -> tuple:
+def simulate(task: Task, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], by: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], work: Work | None = None) -> Simulated:
     """
-    Returns status, current, speed, position (n) and their derivatives (n, p).
+    Free run from the input and the start, with derivatives by the parameters `by`.
     """
 def simulate_fed_back(network: StructuredNetwork, slope: typing.SupportsFloat | typing.SupportsIndex, input: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
     """
@@ -316,9 +358,9 @@ def trainer_defaults() -> dict:
     ...
 def trainer_names() -> list[str]:
     ...
-def unknown_inputs(task: Task, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], *, speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], acceleration: numpy.typing.NDArray[numpy.float64], current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., current_slope: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> tuple:
+def unknown_inputs(task: Task, parameters: numpy.typing.NDArray[numpy.float64], active: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], *, speed: numpy.typing.NDArray[numpy.float64], position: numpy.typing.NDArray[numpy.float64], acceleration: numpy.typing.NDArray[numpy.float64], current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ..., current_slope: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = ...) -> LeftOver:
     """
-    Torque (n) and, where the current is given, voltage (n) that the equations leave over along a motion.
+    What the equations leave over along a motion.
     """
 def variable_projection(network: ConventionalNetwork, x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], *, mu: typing.SupportsFloat | typing.SupportsIndex, beta: typing.SupportsFloat | typing.SupportsIndex, resolution: typing.SupportsFloat | typing.SupportsIndex, iterations: typing.SupportsInt | typing.SupportsIndex, target: typing.SupportsFloat | typing.SupportsIndex, stall: typing.SupportsFloat | typing.SupportsIndex) -> Training:
     ...

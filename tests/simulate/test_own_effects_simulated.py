@@ -39,10 +39,9 @@ def simulated(model: Model, by: dict[str, float], *, step: float = 1e-3) -> dict
     vector = parameter_vector(model.parameters, model.effects, model.effect_table)
     cores = [e.core for e in model.own_effects]
     wanted = [effect.at(p) for p in by]
-    status, *arrays = _core.simulate(_core.Task("dc", time=t, input=voltage, own=cores), vector, [effect.index], wanted)
-    assert status == "ok"
-    names = ("current", "speed", "position", "d current", "d speed", "d position")
-    return dict(zip(names, arrays, strict=True))
+    made = _core.simulate(_core.Task("dc", time=t, input=voltage, own=cores), vector, [effect.index], wanted)
+    assert made.status == "ok"
+    return made.signals | {f"d {signal}": slopes for signal, slopes in made.slopes.items()}
 
 
 def both(name: str, effect: OwnEffect, values: dict[str, float]) -> tuple[dict[str, Array], dict[str, Array]]:
@@ -120,8 +119,9 @@ def test_a_formula_may_read_nominal_parameters_and_passes_their_slopes_on() -> N
     vector = parameter_vector(model.parameters, model.effects, model.effect_table)
     mine = _core.simulate(_core.Task("dc", time=t, input=voltage, own=cores), vector, [effect.index], by)
     plain = _core.simulate(_core.Task("dc", time=t, input=voltage), parameter_vector(twice, {}), [], by)
-    np.testing.assert_allclose(mine[2], plain[2], atol=1e-6 * np.ptp(plain[2]))
-    np.testing.assert_allclose(mine[5], plain[5] * [2.0, 1.0], atol=1e-5 * np.ptp(plain[5]))
+    speeds, slopes = ([getattr(run, of)["speed"] for run in (mine, plain)] for of in ("signals", "slopes"))
+    np.testing.assert_allclose(*speeds, atol=1e-6 * np.ptp(speeds[1]))
+    np.testing.assert_allclose(slopes[0], slopes[1] * [2.0, 1.0], atol=1e-5 * np.ptp(speeds[1]))
 
 
 def test_models_with_different_formulas_run_side_by_side() -> None:

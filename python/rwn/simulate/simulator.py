@@ -93,14 +93,13 @@ class Simulator:
 
         `vector` holds the start of the run (`started`); speed is as it was measured. Signals end at RAN_AWAY.
         """
-        status, *arrays = _core.simulate(self.task(run), _of_core(vector), list(active), list(by), self.work)
-        signals = dict(zip(MEASURED, arrays[:3], strict=True))
-        slopes = dict(zip(MEASURED, arrays[3:], strict=True))
+        made = _core.simulate(self.task(run), _of_core(vector), list(active), list(by), self.work)
+        signals, slopes = made.signals, made.slopes
         if run.speed_measured.is_difference:
             signals["speed"] = difference(run.speed_measured, run.time, signals["position"])
             slopes["speed"] = difference(run.speed_measured, run.time, slopes["position"])
         within = {signal: np.clip(values, -RAN_AWAY, RAN_AWAY) for signal, values in signals.items()}
-        return Output(status=status, signals=within, slopes=slopes)
+        return Output(status=made.status, signals=within, slopes=slopes)
 
     def normal_equations(
         self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int], *, noise: Mapping[str, Noise],
@@ -116,12 +115,13 @@ class Simulator:
             weights=tuple(1.0 / n.level for n in of_signal), reflection=tuple(list(n.reflection) for n in of_signal),
             speed_difference=(run.speed_measured.before, run.speed_measured.after),
         )  # fmt: skip
-        status, chi2, count, gradient, curvature = _core.normal_equations(
+        sums = _core.normal_equations(
             self.task(run), measurements, _of_core(vector), list(active), list(by), self.work
         )
         return NormalEquations(
-            chi2=chi2, gradient=gradient, curvature=curvature, count=count, finite=status == "ok"
-        )
+            chi2=sums.chi2, gradient=sums.gradient, curvature=sums.curvature, count=sums.count,
+            finite=sums.status == "ok",
+        )  # fmt: skip
 
 
 def _of_core(vector: Array) -> Array:

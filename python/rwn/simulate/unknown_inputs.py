@@ -91,5 +91,5 @@ def along_motion(
     motion = {"speed": speed, "position": position, "acceleration": acceleration, "current": current}
     arrays = {name: np.ascontiguousarray(x) for name, x in (motion | {"current_slope": slope}).items()}
     parameters = vector[: _core.parameter_count()]  # no start of a run counts here
-    torque, voltage = _core.unknown_inputs(task, parameters, list(active), **arrays)
-    return torque, voltage
+    left = _core.unknown_inputs(task, parameters, list(active), **arrays)
+    return left.torque, left.voltage
