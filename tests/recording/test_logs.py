@@ -16,9 +16,7 @@ from one_recording import RADIANS, RPM, TIME, VOLTAGE, imported
 from rwn.errors import InputError
 from rwn.recording.columns import Column, Layout
 from rwn.recording.formats import FORMATS
-from rwn.recording.formats.wpilog import _unit
 from rwn.recording.recording import Recording, read_recording
-from rwn.recording.units import same
 
 JOINT_STATE = """std_msgs/Header header
 string[] name
@@ -170,19 +168,6 @@ def test_channels_that_are_not_asked_for_are_named_and_not_read(tmp_path: Path) 
     table = FORMATS[".wpilog"](tmp_path / "a.wpilog", {"voltage"})
     assert set(table.columns) == {"time", "voltage"}
     assert table.units == {"time": "s", "voltage": "volt", "speed": "rotation per second"}
-
-
-@pytest.mark.parametrize(
-    ("metadata", "unit"),
-    [
-        ('{"source":"AdvantageKit","unit":"rad/s"}', "rad/s"), ('{"units": "rpm"}', "rpm"),
-        ('{"source":"NT"}', None), ('{"unit": 7}', None), ("{not JSON", None), ("{" * 5000, None), ("[1]", None),
-        ("Meter per Second", "m/s"), ("A", "A"), ("mA", "mA"), ("", None),
-    ],
-)  # fmt: skip
-def test_the_unit_of_an_entry_is_read_from_its_metadata(metadata: str, unit: str | None) -> None:
-    told = _unit(metadata)
-    assert told is None if unit is None else told is not None and same(told, unit, where="a log")
 
 
 @pytest.mark.parametrize("ending", [".mcap", ".wpilog", ".tdms", pytest.param(".mf4", marks=pytest.mark.slow), ".json"])
