@@ -13,11 +13,11 @@ import rwn
 from made_up_files import files_of
 from rwn.faults.fault import SIGN, UNIT
 from rwn.faults.odd_files import wrong_in_some
+from rwn.faults.plain_faults import plain_faults
 from rwn.faults.scale import wrong_scale
 from rwn.model.model import Model
 from rwn.recording.columns import Layout
 from rwn.report.next_steps import _mistake
-from rwn.search.beneath_faults import _scaled
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
@@ -36,7 +36,7 @@ def _times(recording: rwn.Recording, factor: float) -> rwn.Recording:
 def test_the_files_that_have_it_are_named_and_corrected(factor: float, name: str) -> None:
     right = files_of(MODEL, [], (1.0, 1.0, 1.0))
     given = [_times(right[0], factor), right[1], _times(right[2], factor)]
-    made, corrected = _scaled(given, MODEL)
+    made, corrected = plain_faults(given, MODEL)
     assert [(f.name, f.recordings) for f in made] == [(name, ("run_0", "run_2"))]
     assert "in run_0, run_2 and not in run_1" in made[0].meaning
     for one, other in zip(corrected, right, strict=True):

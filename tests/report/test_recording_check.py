@@ -57,3 +57,11 @@ def test_a_speed_that_is_a_difference_of_positions_is_said_to_be_one() -> None:
         late = np.concatenate([np.zeros(window), counted[:-window]])
         recording = replace(clean, signals={**clean.signals, "speed": (counted - late) / (window * 1e-3)})
         assert any("the speed is a difference of positions" in line for line in checked([recording], MODEL))
+
+
+def test_a_wrong_unit_is_said_after_the_recordings() -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
+    signals = {**recording.signals, "voltage": 1e3 * recording.signals["voltage"]}
+    *_, said = checked([replace(recording, signals=signals)], MODEL)
+    assert said.startswith("voltage in thousandths of the unit (milli) taken for the unit: rwn diagnose undoes it")
+    assert not any("undoes" in line for line in checked([recording], MODEL))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from rwn.faults.late_enable import late_enables
+from rwn.faults.late_enable import late_enables, powered
+from rwn.faults.plain_faults import plain_faults
 from rwn.model.model import Model
 from rwn.recording.clock import clock_of
 from rwn.recording.inspection import inspected
@@ -14,7 +15,7 @@ from rwn.simulate.run import Run
 
 
 def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
-    """Sampling, start and sensors of each recording as they are taken, and what is odd with what is done about it.
+    """Sampling, start and sensors of each recording as they are taken, what is odd, and what is done about it.
 
     Raises InputError where a recording does not fit the model.
     """
@@ -27,6 +28,9 @@ def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
         yield from (f"  {words}" for words in (*_sampling(run), _start(run, model), *_speed(run)))
         yield from (f"  {finding.words}: {finding.done}" for finding in (*findings, *enabled))
         yield from (f"  {warning}" for warning in recording.warnings)
+    on = powered([recording for (recording,), _ in usable], late, model)
+    faults = [] if model.drive.coefficients else plain_faults(on, model)[0]
+    yield from (f"{fault.meaning}: rwn diagnose undoes it, and weighs what is missing beneath" for fault in faults)
 
 
 def _sampling(run: Run) -> Iterator[str]:

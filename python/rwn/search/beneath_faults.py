@@ -22,8 +22,8 @@ from rwn.faults.delay import (
 )
 from rwn.faults.fault import GEAR, Fault, without, without_all
 from rwn.faults.gear import gear_ratio
-from rwn.faults.odd_files import wrong_in_some
-from rwn.faults.scale import as_gear, wrong_scale
+from rwn.faults.plain_faults import plain_faults
+from rwn.faults.scale import as_gear
 from rwn.fit.budget import affords_more, meter
 from rwn.fit.preparation import prepare
 from rwn.measurement.filter_colour import SensorFilter
@@ -32,7 +32,6 @@ from rwn.name.forward import MOST_EFFECTS, Progress, rank
 from rwn.name.ranking import Ranking
 from rwn.recording.recording import Recording
 
-MOST_SCALES = 2  # channels of a wrong scale that are found at a time
 MOST_REFINEMENTS = 3  # times that a delay is refined with the physics that was found once it was undone
 WRONG = 0.01  # relative error of a gear ratio, from which the recordings are explained anew with the better one
 
@@ -85,7 +84,7 @@ def beneath_faults(
     if model.drive.coefficients:  # its gain is in no unit that could be doubted
         return [], ranking(recordings)
     say("looking for faults in the recordings", 0.0)
-    made, right = _scaled(recordings, model)
+    made, right = plain_faults(recordings, model)
     suspect = suspected(right, model)
     say("refitting the nominal model", 0.05)
     fault, singly, physics = _decided(suspect, right, model, ranking) if suspect else NO_FAULT
@@ -168,13 +167,3 @@ def _refined(
         if fault is undone or not affords_more(beneath.problem.work):
             break
     return _RefinedDelay(fault, beneath, left, fault is undone)
-
-
-def _scaled(recordings: Sequence[Recording], model: Model) -> tuple[list[Fault], list[Recording]]:
-    """Wrong units, signs and gears, and the recordings without them."""
-    made: list[Fault] = []
-    right = list(recordings)
-    while len(made) < MOST_SCALES and (fault := wrong_in_some(right, model) or wrong_scale(right, model)):
-        made.append(fault)
-        right = without(right, fault)
-    return made, right
