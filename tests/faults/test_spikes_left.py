@@ -11,7 +11,7 @@ import pytest
 import rwn
 from made_up_files import files_of
 from rwn.faults.fault import SHIFT, Fault
-from rwn.faults.spikes_left import without_spikes_left
+from rwn.faults.spikes_left import _far_off, without_spikes_left
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
@@ -53,6 +53,14 @@ def test_a_spike_that_steps_of_the_current_hide_is_told_by_what_a_fit_leaves(lat
 def test_several_of_both_signals_are_found() -> None:
     spikes = {"current": [101, 102 + 50, 401], "speed": [301, 450]}
     assert _left_out(_recordings(spikes)) == spikes
+
+
+def test_an_error_at_either_end_has_nothing_beside_it_to_be_told_by() -> None:
+    error = 1e-3 * np.random.default_rng(4).standard_normal(400)
+    error[[0, -1]] = 5.0
+    assert not _far_off(error, 1e-3).any()
+    error[[0, -1]], error[200] = 0.0, 5.0
+    assert np.flatnonzero(_far_off(error, 1e-3)).tolist() == [200]
 
 
 def test_what_a_model_has_wrong_at_every_step_is_no_spike() -> None:

@@ -47,9 +47,9 @@ def _far_off(error: Array, noise: float) -> Flags:
     compared = np.flatnonzero(np.isfinite(error))
     if compared.size < FEWEST:
         return flags
-    x = np.pad(error[compared], 1, mode="reflect")
-    off = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:]))
-    apart = np.abs(x[2:] - x[:-2])
+    x = error[compared]
+    off, apart = np.zeros(x.size), np.full(x.size, np.inf)  # the first and the last have nothing on one side
+    off[1:-1], apart[1:-1] = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])), np.abs(x[2:] - x[:-2])
     limit = most_deviations(off.size) * max(PER_MEDIAN * float(np.median(off)), noise)
     found = outliers(off, limit=limit, among=off.size, alone=lambda at: bool(apart[at] < BESIDE * off[at]))
     flags[compared] = found
