@@ -158,3 +158,14 @@ def test_what_a_signal_answers_to_its_input_at_the_mains_is_no_hum(dwell: int, s
     found, (said,) = without_hum(noisy)
     assert said.kind == "hum"
     assert np.std(found.signals["current"] - clean) < 0.2 * np.std(hum)
+
+
+@pytest.mark.parametrize("step", [0.1, 0.05, 0.02, 0.01, 1.0, 0.04, 1 / 60, 1 / 30, 1 / 120, 0.25, 1 / 3])
+def test_any_rate_of_a_logger_is_looked_at(step: float) -> None:
+    """A rate that goes into those of both mains shows none of their lines."""
+    u = steps(2, count=1500)
+    clean = recorded(u, driven(u, step=min(step, 0.02)), step=step)
+    made, found = without_hum(clean)
+    assert not found
+    np.testing.assert_array_equal(made.signals["speed"], clean.signals["speed"])
+    assert len(inspected([clean]).recordings) == 1

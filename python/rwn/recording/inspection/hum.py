@@ -84,6 +84,8 @@ def _hum(time: Array, x: Array, inputs: Sequence[Array]) -> list[Line]:
     step, band = float(np.median(np.diff(time))), (TAPERS + 1) / length
     asked = {(m, order): m * order for m in MAINS for order in ORDERS}
     seen = {which: f for which, f in asked.items() if band < _alias(f, step) < 0.5 / step - band}
+    if not seen:  # rows at a rate that goes into that of the mains show it at rest, or at half their rate
+        return []
     even = [_evenly(time, u, step) for u in inputs]
     own = [f for u in even for f in _lines_of_its_own(u, step, list(seen.values()), band)]
     frequencies, chances = _test(_evenly(time, x, step), step, finer=FINER, inputs=even)
