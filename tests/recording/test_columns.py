@@ -252,3 +252,12 @@ def test_nor_is_what_a_part_of_the_file_holds(tmp_path: Path) -> None:
     table = read_table(Path(f"{path}#log"), ("w", "m(:,2)"))
     mapping = {"speed": Column(source="w"), "voltage": Column(source="m(:,2)")}
     assert unused(table, mapping) == (f"{path}#log: not used: m(:,1)",)
+
+
+def test_a_column_that_is_taken_for_a_signal_is_no_other_by_its_name() -> None:
+    """The current that stands for the torque of an axis was taken as measured too, and cut where it is at its limit."""
+    table = _table(time="s", current="A", speed="rad/s")
+    mapping = column_map(table, _map(torque=Column(source="current", unit="A", scale=1.9, scale_unit="N m/A")))
+    assert {name: column.source for name, column in mapping.items()} == {
+        "time": "time", "speed": "speed", "torque": "current"
+    }  # fmt: skip

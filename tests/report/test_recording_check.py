@@ -19,7 +19,7 @@ def test_a_clean_recording_from_rest_is_said_to_be_one() -> None:
     lines = list(checked([recording], MODEL))
     assert lines[0].startswith("train.csv: 5000 samples of voltage, current, speed")
     assert "  starts at rest" in lines
-    assert not any("missing" in line or "spike" in line or "jitter" in line for line in lines)
+    assert not any("missing" in line or "spike" in line or "each is off" in line for line in lines)
 
 
 def test_a_start_in_motion_lost_rows_and_spikes_are_said() -> None:
@@ -65,3 +65,15 @@ def test_a_wrong_unit_is_said_after_the_recordings() -> None:
     *_, said = checked([replace(recording, signals=signals)], MODEL)
     assert said.startswith("voltage in thousandths of the unit (milli) taken for the unit: rwn diagnose undoes it")
     assert not any("undoes" in line for line in checked([recording], MODEL))
+
+
+def test_uneven_times_are_said_as_what_they_are() -> None:
+    """About even times, or by a period that varies."""
+    recording = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
+    draw = np.random.default_rng(5)
+    about = recording.time + 1e-4 * draw.uniform(-1.0, 1.0, len(recording))
+    wandering = np.cumsum(1e-3 * draw.uniform(0.75, 1.25, len(recording)))
+    runs = [replace(recording, time=time) for time in (about, wandering)]
+    said = [next(line for line in checked([run], MODEL) if "every" in line) for run in runs]
+    assert said[0] == "  a sample every 0.001 s; each is off even times by 5.8% of that, rms"
+    assert "on average; from row to row it varies by 14.4%, rms" in said[1]

@@ -82,7 +82,8 @@ def column_map(table: Table, layout: Layout, *, needed: Collection[str] = COLUMN
     columns that the file lacks, and are then left out. Raises InputError where a column is nearly called like a signal
     (that is a slip, not an extra column), or none is called like one.
     """
-    by_name = set(COLUMNS) - set(layout.columns)
+    taken = {column.source for column in layout.columns.values()}  # as the current that stands for a torque
+    by_name = set(COLUMNS) - set(layout.columns) - taken
     if (layout.columns or layout.profile) and not any(table.units.values()):
         by_name = set()
     mapping = {name: Column(source=name) for name in by_name if name in table.units}

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from rwn.faults.late_enable import late_enables, powered
 from rwn.faults.plain_faults import plain_faults
 from rwn.model.model import Model
@@ -12,6 +14,8 @@ from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
 from rwn.simulate.recorded_run import run_of
 from rwn.simulate.run import Run
+
+HALF = 0.5  # jitter, in times between rows, from which on rows lie nowhere near even times
 
 
 def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
@@ -35,7 +39,11 @@ def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
 
 def _sampling(run: Run) -> Iterator[str]:
     at = clock_of(run.time)
-    yield f"a sample every {at.period:.4g} s" + (f", jitter {at.jitter:.1%} of it" if at.irregular else "")
+    period = f"a sample every {at.period:.4g} s"
+    if at.jitter < HALF:
+        yield period + (f"; each is off even times by {at.jitter:.1%} of that, rms" if at.irregular else "")
+    else:  # no even times lie beside these rows
+        yield f"{period} on average; from row to row it varies by {np.std(np.diff(run.time)) / at.period:.1%}, rms"
     if at.lost:
         yield f"{at.lost} rows are missing: how the input acted meanwhile is read off the errors"
 
