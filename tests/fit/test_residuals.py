@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 import rwn
 from rwn.fit.preparation import prepare
-from rwn.fit.residuals import MOST_COLOURED, RINGING, statistics_of, structured_of
+from rwn.fit.residuals import Statistics, statistics_of, structured_of
 from rwn.model.model import Model
 from rwn.name.forward import rank
 
@@ -18,6 +20,10 @@ SAMPLES = 4000
 
 def _noise() -> Array:
     return np.random.default_rng(5).standard_normal(SAMPLES)
+
+
+def _statistics(joined: Mapping[str, Array], *, over: int = 0) -> Statistics:
+    return statistics_of(joined, structured=structured_of(joined, differences={"speed": over} if over else {}))
 
 
 def _rounding() -> Array:
@@ -36,15 +42,13 @@ def _swing(periods: float) -> Array:
 
 def test_noise_is_at_the_floor_however_loud() -> None:
     for loud in (1.0, 5.0):
-        left = statistics_of({"speed": loud * _noise()})
-        assert left.at_the_floor
-        assert left.ringing < 0.6 * RINGING
+        assert _statistics({"speed": loud * _noise()}).at_the_floor
 
 
 @pytest.mark.parametrize("away", [1e60, 1e101])
 def test_what_ran_away_is_one_observation_of_something_that_is_no_noise(away: float) -> None:
     joined = {"speed": np.concatenate([_noise(), [away]]), "current": _noise()}
-    left = statistics_of(joined)
+    left = _statistics(joined)
     assert left.effective == pytest.approx(1.0, rel=1e-3)
     assert left.variance == np.inf
     assert not left.at_the_floor
@@ -52,25 +56,24 @@ def test_what_ran_away_is_one_observation_of_something_that_is_no_noise(away: fl
 
 
 def test_differences_of_counts_are_noise() -> None:
-    for error in (np.diff(_rounding()), _rounding()[2:] - _rounding()[:-2]):
-        assert statistics_of({"speed": 5.0 * error}).at_the_floor
+    for over in (1, 2, 5):
+        error = _rounding()[over:] - _rounding()[:-over]
+        assert _statistics({"speed": 5.0 * error}, over=over).at_the_floor
 
 
 def test_of_differences_of_counts_only_slow_errors_are_structure() -> None:
     irregular = {"speed": np.diff(_rounding() + 0.3 * _noise())}  # the lines of an encoder are off their places
     assert structured_of(irregular) == ("speed",)
-    assert structured_of(irregular, differences=("speed",)) == ()
+    assert structured_of(irregular, differences={"speed": 1}) == ()
     slow = {"speed": irregular["speed"] + 0.3 * np.sin(np.arange(SAMPLES - 1) / 40.0)}
-    assert structured_of(slow, differences=("speed",)) == ("speed",)
+    assert structured_of(slow, differences={"speed": 1}) == ("speed",)
 
 
 @pytest.mark.parametrize("periods", [4.0, 5.3, 7.3])
 def test_what_swings_is_more_than_noise(periods: float) -> None:
-    left = statistics_of({"speed": 5.0 * _swing(periods) + _noise()})
-    assert left.coloured < MOST_COLOURED  # means over 8 samples and more do not see it
-    assert not left.at_the_floor
-    quiet = statistics_of({"speed": 0.3 * _swing(periods) + _noise()})
-    assert quiet.at_the_floor  # where it is not loud it may be noise
+    loud, quiet = ({"speed": size * _swing(periods) + _noise()} for size in (5.0, 0.3))
+    assert not _statistics(loud).at_the_floor
+    assert _statistics(quiet).at_the_floor  # there is no more of it than the noise may be wrong by
 
 
 @pytest.mark.slow

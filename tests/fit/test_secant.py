@@ -71,7 +71,7 @@ def test_a_turn_never_loses(problem: Problem) -> None:
 
 def test_no_interval_of_a_contact_is_narrower_than_the_contact_is_exact(problem: Problem) -> None:
     this = _hypothesis(problem, "backlash", PLAY)
-    white = Statistics(count=problem.samples, variance=1.0, correlation_time=1.0, coloured=1.0)
+    white = Statistics(count=problem.samples, variance=1.0, correlation_time=1.0)
     found = estimates(fit(problem, this), white)
     gap = found["backlash.gap"]
     assert gap.interval is not None

@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 import rwn
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
-from rwn.fit.residuals import MISSPECIFIED, MOST_SAMPLES, correlation_time, join, statistics_of
+from rwn.fit.residuals import MISSPECIFIED, MOST_SAMPLES, correlation_time, join, statistics_of, structured_of
 from rwn.measurement.likelihood import is_decisive, under_own_colour
 
 
@@ -22,7 +22,8 @@ from rwn.measurement.likelihood import is_decisive, under_own_colour
 def test_a_gain_counts_in_as_many_samples_as_what_is_left_is_worth(slow: float, most: float) -> None:
     """Of 20 000 samples: errors that are more than noise say the less the more of them is misfit."""
     noise = np.random.default_rng(1).standard_normal(20_000)
-    left = statistics_of({"speed": noise + slow * np.sin(np.arange(noise.size) / 300.0)})
+    joined = {"speed": noise + slow * np.sin(np.arange(noise.size) / 300.0)}
+    left = statistics_of(joined, structured=structured_of(joined))
     enough = np.log(1000.0) * noise.size / most
     assert is_decisive(1.05 * enough, left)
     assert not is_decisive(0.95 * enough, left)

@@ -16,7 +16,7 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import MOST_COLOURED, Statistics, statistics, statistics_of
+from rwn.fit.residuals import Statistics, statistics, statistics_of, structured_of
 from rwn.model.model import Model
 from rwn.name import forward
 from rwn.name.backward import with_simpler
@@ -89,12 +89,14 @@ def test_the_ends_of_a_difference_are_not_compared(problem: Problem) -> None:
 def test_a_drifting_position_is_no_sign_of_a_law() -> None:
     noise, drift = np.random.default_rng(2).standard_normal(4000), np.sin(np.linspace(0.0, 9.0, 4000))
     run = Run(name="drifting", time=np.arange(4000.0), input=noise, speed=noise, position=drift)
-    problem: Any = SimpleNamespace(residuals=lambda *_: [{"speed": noise, "position": drift}], noise={}, runs=[run])
+    left = [{"speed": noise, "position": drift}]
+    transfer = SimpleNamespace(coefficients=True)  # of which no torque is told
+    problem: Any = SimpleNamespace(residuals=lambda *_: left, noise={}, runs=[run], drive=transfer)
     this: Any = SimpleNamespace(vector=None, active=[])
-    assert statistics(problem, this).coloured > 10.0
-    assert statistics(problem, this, drift=False).coloured < MOST_COLOURED
+    assert statistics(problem, this).structured == ("position",)
+    assert statistics(problem, this, drift=False).structured == ()
     problem.residuals = lambda *_: [{"position": drift}]
-    assert statistics(problem, this, drift=False).coloured > 10.0
+    assert statistics(problem, this, drift=False).structured == ("position",)
 
 
 def test_second_effects_are_added_to_explanations_of_different_kinds(problem: Problem, fit_with: FitWith) -> None:
@@ -199,7 +201,8 @@ def test_beside_an_explanation_of_all_its_parts_alone_are_tried(
     both = replace(first.hypothesis, added=(first.added[0], part.added[0]))
     pair = replace(first, hypothesis=both, minimum=replace(first.minimum, cost=0.0))
     noise = np.random.default_rng(1).normal(size=1000)
-    left = statistics_of({"speed": noise if at_the_floor else 9.0 * np.cumsum(noise)})
+    joined = {"speed": noise if at_the_floor else 9.0 * np.cumsum(noise)}
+    left = statistics_of(joined, structured=structured_of(joined))
     monkeypatch.setattr("rwn.name.forward.statistics", lambda *_: left)
     tried: dict[str, list[str]] = {}
 

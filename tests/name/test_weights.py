@@ -11,8 +11,8 @@ import pytest
 from rwn.fit.residuals import Statistics
 from rwn.name.weights import LOST, weigh, weighed_beside
 
-LEFT = Statistics(count=1000, variance=4.0, correlation_time=10.0, coloured=9.0)
-AWAY = Statistics(count=1000, variance=np.inf, correlation_time=1000.0, coloured=np.inf)
+LEFT = Statistics(count=1000, variance=4.0, correlation_time=10.0, structured=("speed",))
+AWAY = Statistics(count=1000, variance=np.inf, correlation_time=1000.0, structured=("speed",))
 
 
 def _fit(cost: float, *added: str) -> Any:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,17 +15,17 @@ from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.whiteness import distance_from_level
 from rwn.recording.noise import WHITE
+from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.linear_response import speed_filter
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
 
 Array = NDArray[np.float64]
 
-MOST_COLOURED = 1.4  # coloured energy of a residual that may still be measurement noise
-RINGING = 3.0  # energy of a residual's loudest band that may still be that of noise: differences of counts have 2
 LEVEL = 0.01  # of the test whether what is left has structure, and whether one simulation is worse than another
+NONE: Mapping[str, int] = MappingProxyType({})
 CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations (`loss_gained`) that a test at LEVEL asks for
-LOUD = 1.3  # variance of a residual, in units of the noise, below which its loudest band says nothing
+SLIGHT = 1.05  # variance in units of the noise below which no structure counts: noise is known to that
 MISSPECIFIED = 50.0  # most independent samples that a residual counts for which is all misfit
 MOST_SAMPLES = 1000.0  # most independent samples that noise counts for: a simulation is exact to 0.1 % of its square
 
@@ -36,14 +37,12 @@ class Statistics:
     count: int  # samples
     variance: float  # mean squared weighted error; 1: the noise alone
     correlation_time: float  # integrated autocorrelation time, in samples; 1: white
-    coloured: float  # energy of block means against that of white noise; 1: white
-    ringing: float = 1.0  # energy of the loudest band of frequencies against that of white noise; 1: white
+    structured: tuple[str, ...] = ()  # the signals in which it is not noise (see `structured`)
 
     @property
     def at_the_floor(self) -> bool:
-        """Whether the residual may be measurement noise alone: it is not slow, nor loud and of one pitch."""
-        rings = self.ringing >= RINGING and self.variance >= LOUD
-        return (self.coloured < MOST_COLOURED and not rings) or self.variance < 1.05
+        """Whether the residual may be measurement noise alone: it has no structure, or little is left."""
+        return not self.structured or self.variance < SLIGHT
 
     @property
     def effective(self) -> float:
@@ -73,37 +72,18 @@ def correlation_time(x: Array) -> float:
     return float(max(1.0, sums[inside[0] if inside.size else n - 1]))
 
 
-def coloured_share(x: Array, blocks: Sequence[int] = (8, 32, 128)) -> float:
-    """Largest of m var(mean of m samples) / var(x) of x (n,) over block lengths m: 1 for white noise."""
-    x = x[np.isfinite(x)]
-    variance = float(np.mean(x**2))
-    found = [1.0]
-    for m in blocks:
-        k = x.size // m
-        if k >= 8 and variance > 0.0:
-            found.append(m * float(np.mean(x[: k * m].reshape(k, m).mean(axis=1) ** 2)) / variance)
-    return max(found)
-
-
-def ringing_share(x: Array, length: int = 32) -> float:
-    """Largest spectral density of x (n,) (Welch, segments of `length` samples) against its mean: 1 for white noise.
-
-    A shaft that swings leaves means of zero, which `coloured_share` takes for noise.
-    """
-    x = x[np.isfinite(x)]
-    if x.size < 8 * length or not np.any(x):
-        return 1.0
-    # scipy's welch takes 30 times as long
-    segments = np.lib.stride_tricks.sliding_window_view(x, length)[:: length // 2]
-    density = np.mean(_power(np.fft.rfft(segments * np.hanning(length + 1)[:-1])), axis=0)[1:-1]
-    return float(np.max(density) / np.mean(density))
-
-
 def structured(problem: Problem, this: Fit) -> tuple[str, ...]:
     """The signals in which a fit leaves more than noise; of the position, more than a torque new in each row does."""
-    counted = any(run.speed_measured.shows_counts for run in problem.runs)
     residuals = problem.residuals(this.vector, this.active)
-    found = structured_of(join(problem, residuals), differences=("speed",) if counted else ())
+    return _structured(problem, this, residuals, join(problem, residuals))
+
+
+def _structured(
+    problem: Problem, this: Fit, residuals: Sequence[Mapping[str, Array]], joined: Mapping[str, Array]
+) -> tuple[str, ...]:  # fmt: skip
+    ways = [run.speed_measured for run in problem.runs if run.speed_measured.shows_counts]
+    differences = {"speed": max(way.before + way.after for way in ways)} if ways else {}
+    found = structured_of(joined, differences={**differences, DRIVING_FORCE: 1})  # it holds the acceleration
     if "position" not in found or _errs_as_disturbed(problem, this, residuals):
         return tuple(s for s in found if s != "position")
     return found
@@ -122,14 +102,15 @@ def _errs_as_disturbed(problem: Problem, this: Fit, residuals: Sequence[Mapping[
     return max(found) < _most_distant(len(found))
 
 
-def structured_of(joined: Mapping[str, Array], *, differences: Collection[str] = ()) -> tuple[str, ...]:
+def structured_of(joined: Mapping[str, Array], *, differences: Mapping[str, int] = NONE) -> tuple[str, ...]:
     """The signals whose errors are not white: Bartlett's test of the cumulative periodogram at LEVEL, over all of them.
 
     White noise is found to have structure in one case of 1 / LEVEL, whatever the number of samples (n,). The noise of
-    `differences` of counts is fast: of these only slow errors are structure.
+    `differences` over so many samples is fast up to half the rate of these: of such signals only slow errors are
+    structure.
     """
     limit = _most_distant(len(joined))
-    return tuple(s for s, x in joined.items() if _distance_from_white(x, fast=s not in differences) > limit)
+    return tuple(s for s, x in joined.items() if _distance_from_white(x, over=differences.get(s, 0)) > limit)
 
 
 def _most_distant(tests: int) -> float:
@@ -137,18 +118,18 @@ def _most_distant(tests: int) -> float:
     return float(np.sqrt(-0.5 * np.log(0.5 * LEVEL / max(tests, 1))))  # Kolmogorov, Smirnov
 
 
-def _distance_from_white(x: Array, *, fast: bool = True) -> float:
+def _distance_from_white(x: Array, *, over: int = 0) -> float:
     """sqrt(m) times the largest distance of the cumulative periodogram of m frequencies from a straight line.
 
-    `fast`: also where it is below, as of errors that are mostly fast.
+    `over`: samples of a difference, below half the rate of which only what is above the line counts; 0: none.
     """
     if np.nanmax(np.abs(x), initial=0.0) ** 2 > RAN_AWAY:
         return np.inf
     x = np.where(np.isfinite(x), x, 0.0)
-    power = _power(np.fft.rfft(x))[1 : (x.size + 1) // 2]
+    power = _power(np.fft.rfft(x))[1 : (x.size + 1) // 2 // max(over, 1)]
     if power.size < 8 or not power.any():
         return 0.0
-    return distance_from_level(power, fast=fast)
+    return distance_from_level(power, fast=not over)
 
 
 def _power(spectrum: NDArray[np.complex128]) -> Array:
@@ -161,10 +142,11 @@ def statistics(problem: Problem, this: Fit, *, drift: bool = True) -> Statistics
 
     `drift`: with the position's beside those of other signals; its noise level is the slow error that it is left.
     """
-    joined = join(problem, problem.residuals(this.vector, this.active))
+    residuals = problem.residuals(this.vector, this.active)
+    joined = join(problem, residuals)
     if not drift and len(joined) > 1:
         joined.pop("position", None)
-    return statistics_of(joined)
+    return statistics_of(joined, structured=_structured(problem, this, residuals, joined))
 
 
 def variances(problem: Problem, this: Fit) -> dict[str, float]:
@@ -208,19 +190,19 @@ def losses(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> Array:
     return np.concatenate(list(map(of_a_run, residuals)))
 
 
-def statistics_of(joined: Mapping[str, Array]) -> Statistics:
-    """Statistics of weighted residuals (n,) by signal."""
+def statistics_of(joined: Mapping[str, Array], *, structured: tuple[str, ...]) -> Statistics:
+    """Statistics of weighted residuals (n,) by signal, of which some are `structured`."""
     energies, count = _energies(joined), _count(joined)
     whole = sum(energies.values())
     if whole > RAN_AWAY:  # a simulation that ran away shows one thing
-        return Statistics(count=count, variance=np.inf, correlation_time=float(max(count, 1)), coloured=np.inf)
+        away = tuple(joined)
+        return Statistics(count=count, variance=np.inf, correlation_time=float(max(count, 1)), structured=away)
     correlated = sum(energies[s] * correlation_time(r) for s, r in joined.items())
     return Statistics(
         count=count,
         variance=whole / max(count, 1),
         correlation_time=max(1.0, correlated / whole) if whole else 1.0,
-        coloured=max(coloured_share(r) for r in joined.values()),
-        ringing=max(ringing_share(r) for r in joined.values()),
+        structured=structured,
     )
 
 
