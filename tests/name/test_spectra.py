@@ -57,3 +57,21 @@ def test_cogging_shows_in_the_torque_where_the_free_run_is_lost() -> None:
     grid, given = spectra.order_grid(problem), problem.as_given().vector
     by_free_run = spectra.angle_spectrum(problem, given, problem.residuals(given, []), grid)
     assert spectra.orders_of(by_free_run, grid, 1) != [24.0]
+
+
+def test_a_ripple_shows_in_the_winding_where_only_a_position_tells_the_motion() -> None:
+    """At an even speed it turns little current into torque, but all of the back-EMF into current."""
+    time = 5e-4 * np.arange(6000)
+    voltage = 6.0 * np.abs((0.9 * time) % 2.0 - 1.0) - 3.0  # slow triangles
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    small = {**MOTOR, "resistance": 2.3, "torque_constant": 0.0234, "back_emf_constant": 0.0234, "inertia": 2e-5}
+    ripple = {"amplitude": 0.06, "harmonic": 10.0, "phase": 0.7}
+    seen = rwn.simulate(Model(kind="dc", parameters=small, effects={"torque-ripple": ripple}), run).signals
+    counted = {s: np.round(seen[s] / step) * step for s, step in (("current", 0.003), ("position", 0.00314))}
+    model = Model(kind="dc", parameters=small, uncertainty={"inertia": 0.1, "resistance": 0.05})
+    problem = prepare([replace(run, signals={"voltage": voltage, **counted})], model)
+    found = spectra.read(problem, problem.as_given(), problem.prior.table["torque-ripple"], 1)
+    assert found == [{"harmonic": 10.0}]
+    given, grid = problem.as_given().vector, spectra.order_grid(problem)
+    by_torque = spectra.torque_spectrum(problem, given, [], grid)
+    assert spectra.orders_of(by_torque, grid, 1) != [10.0]

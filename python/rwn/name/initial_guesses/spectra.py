@@ -34,18 +34,17 @@ def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess]
     grid = order_grid(problem)
     grid = grid[grid >= order.lower]  # once per revolution is an unbalance
     found: list[float] = []
-    by_speed = any(r.speed.size for r in problem.runs)
-    if effect.site != "flux" or not by_speed:
-        found = orders_of(torque_spectrum(problem, base.vector, base.active, grid), grid, count)
+    by_speed, flux = any(r.speed.size for r in problem.runs), effect.site == "flux"
+    if flux and all(r.current.size for r in problem.runs):
+        found = orders_of(flux_spectrum(problem, base.vector, grid), grid, count)
+        wanted: tuple[tuple[bool, int], ...] = ((True, 1),)  # with the current or without, and how many orders
+    else:  # a current that was not recorded is known badly
+        wanted = ((True, count), (False, count)) if flux else ((False, count),)
+        if not (flux and by_speed):
+            found = orders_of(torque_spectrum(problem, base.vector, base.active, grid), grid, count)
     if not by_speed:
         return [{order.name: n} for n in found]
     residuals = problem.residuals(base.vector, base.active)
-    wanted: tuple[tuple[bool, int], ...] = ((False, count),)  # with the current or without, and how many orders
-    if effect.site == "flux" and all(r.current.size for r in problem.runs):
-        found = orders_of(flux_spectrum(problem, base.vector, grid), grid, count)
-        wanted = ((True, 1),)
-    elif effect.site == "flux":  # a current that was not recorded is known badly
-        wanted = ((True, count), (False, count))
     for with_current, most in wanted:
         spectrum = angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
         found += orders_of(spectrum, grid, most)
