@@ -15,7 +15,7 @@ from rwn.decide.decision import decide
 from rwn.errors import InputError
 from rwn.faults.fault import without_all
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
-from rwn.faults.spikes_left import without_spikes_left
+from rwn.faults.sensor_errors import without_sensor_errors
 from rwn.faults.uneven_files import uneven_unseen
 from rwn.fit.nominal import check_it_runs
 from rwn.fit.preparation import prepare
@@ -121,7 +121,7 @@ def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
     def runs(of: Sequence[Recording]) -> tuple[Run, ...]:
         return tuple(measured_alike([judging_run(r, found.model) for r in of], problem.whole))
 
-    right, spikes = without_spikes_left(right, problem.on(runs(right)), best.fit)
+    right, spikes = without_sensor_errors(right, problem.on(runs(right)), best.fit)
     kept_back = replace(problem.in_free_run(), runs=runs(right))
     return _Unseen(runs=with_inferred_input(kept_back, best.final).runs, late=late, spikes=spikes)
 

@@ -169,3 +169,17 @@ def test_any_rate_of_a_logger_is_looked_at(step: float) -> None:
     assert not found
     np.testing.assert_array_equal(made.signals["speed"], clean.signals["speed"])
     assert len(inspected([clean]).recordings) == 1
+
+
+@pytest.mark.parametrize("rate", [2.5, 5.0])
+def test_beside_a_simulation_it_is_found_under_an_input_of_which_it_is_a_multiple(rate: float) -> None:
+    """What the drive answers is in the simulation; beside the motion itself a line could be its answer."""
+    u = 60.0 * np.sign(np.sin(2.0 * np.pi * rate * (STEP * np.arange(6000) + 1e-4)))
+    w = driven(u)
+    this, hum = with_hum(recorded(u, w, seed=3))
+    assert not without_hum(this)[1]
+    made, (found,) = without_hum(this, simulated={"speed": w})
+    assert "50" in found.words
+    assert np.std(this.signals["speed"] - made.signals["speed"] - hum) < 0.2 * np.std(hum)
+    rubbing = recorded(u, driven(u, friction=10.0), seed=3)
+    assert not without_hum(rubbing, simulated={"speed": w})[1], "what friction makes of such an input is no hum"

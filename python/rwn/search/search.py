@@ -10,7 +10,7 @@ from rwn.faults.data_sheet import confirmed, contradicted, without_declared
 from rwn.faults.delay import shift_instead
 from rwn.faults.fault import Fault, without, without_all
 from rwn.faults.late_enable import LateEnable, late_under, powered
-from rwn.faults.spikes_left import without_spikes_left
+from rwn.faults.sensor_errors import without_sensor_errors
 from rwn.faults.uneven_files import uneven_files
 from rwn.fit.fit import Fit
 from rwn.fit.preparation import prepare
@@ -96,7 +96,7 @@ def search(
     filters: tuple[SensorFilter, ...] = ()
     spikes = list[Finding]()
     for _ in range(ASKED_AGAIN):
-        recordings, spoilt = _without_spikes_left(recordings, faults, ranking)
+        recordings, spoilt = _without_sensor_errors(recordings, faults, ranking)
         spikes += spoilt
         asked = _asked_again(recordings, model, still, again, faults, ranking)
         alike = not spoilt and asked == _Assumptions(still, again, _filters(ranking, again))
@@ -125,13 +125,13 @@ def search(
     )  # fmt: skip
 
 
-def _without_spikes_left(
+def _without_sensor_errors(
     recordings: Sequence[Recording], faults: Sequence[Fault], ranking: Ranking
 ) -> Inspected:  # fmt: skip
     """The recordings without samples that are far off the best explanation; as they are where samples were moved."""
     if any(fault.delay for fault in faults):
         return Inspected(list(recordings), ())
-    return without_spikes_left(recordings, ranking.problem.in_free_run(), ranking.fits[0].fit)
+    return without_sensor_errors(recordings, ranking.problem.in_free_run(), ranking.fits[0].fit)
 
 
 def _asked_again(

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,7 @@ CLOCK = 0.002  # how far a line may lie off, relatively: the mains 0.1 Hz, and a
 LEVEL = 0.001  # chance of hum in a signal without it: 1 % of a diagnosis, of some ten signals
 TAPERS = 7  # of which the odd ones see a line; each line takes a band of (TAPERS + 1) / length
 FINER = 4  # frequencies looked at per 1 / length
+NOTHING: Mapping[str, Array] = MappingProxyType({})
 CYCLES = 25  # fewest of the mains in what is looked at: the band of a line is then a third of its frequency at most
 
 
@@ -40,8 +42,13 @@ class Line:
     amplitude: complex
 
 
-def without_hum(recording: Recording) -> tuple[Recording, list[Finding]]:
-    """The recording without the hum of its sensors, and what was found."""
+def without_hum(
+    recording: Recording, *, simulated: Mapping[str, Array] = NOTHING
+) -> tuple[Recording, list[Finding]]:  # fmt: skip
+    """The recording without the hum of its sensors, and what was found.
+
+    `simulated`: signals (n,) without hum, beside which it is looked for.
+    """
     signals, findings = dict(recording.signals), []
     for signal in (s for s in MEASURED if s in signals):
         x, found = np.array(signals[signal]), list[Line]()
@@ -49,7 +56,8 @@ def without_hum(recording: Recording) -> tuple[Recording, list[Finding]]:
         known = np.flatnonzero(~recording.missing.get(signal, np.zeros(x.size, dtype=bool)))
         for part in (known[p] for p in _parts(known.size)):
             time = recording.time[part] - recording.time[part][:1]
-            lines = _hum(time, x[part], [signals[s][part] for s in signals if s not in MEASURED])
+            beside = simulated[signal][part] if signal in simulated else 0.0
+            lines = _hum(time, x[part] - beside, [signals[s][part] for s in signals if s not in MEASURED])
             x[part] -= _sum(lines, time)
             found += lines
         if found:
@@ -86,9 +94,11 @@ def _hum(time: Array, x: Array, inputs: Sequence[Array]) -> list[Line]:
     seen = {which: f for which, f in asked.items() if band < _alias(f, step) < 0.5 / step - band}
     if not seen:  # rows at a rate that goes into that of the mains show it at rest, or at half their rate
         return []
-    even = [_evenly(time, u, step) for u in inputs]
-    own = [f for u in even for f in _lines_of_its_own(u, step, list(seen.values()), band)]
-    frequencies, chances = _test(_evenly(time, x, step), step, finer=FINER, inputs=even)
+    evenly, even = _evenly(time, x, step), [_evenly(time, u, step) for u in inputs]
+    answers = _lines_of_its_own(evenly, step, list(seen.values()), band)
+    given = [f for u in even for f in _lines_of_its_own(u, step, list(seen.values()), band)]
+    own = [f for f in given if any(_is_multiple(line, [f], band) for line in answers)]
+    frequencies, chances = _test(evenly, step, finer=FINER, inputs=even)
     found: dict[tuple[float, int], Line] = {}
     for which, f in seen.items():
         alias = _alias(f, step)
@@ -194,7 +204,7 @@ def _tapers(count: int) -> Array:
 
 
 def _lines_of_its_own(u: Array, step: float, mains: Sequence[float], band: float) -> list[float]:
-    """Frequencies of the lines of an input (n,), where it is periodic; not of a mains that a controller let through."""
+    """Frequencies of the lines of a signal (n,) that is periodic; not of a mains, which a controller lets through."""
     if np.ptp(np.diff(u)) == 0.0:
         return []
     frequencies, chances = _test(u, step)

@@ -1,4 +1,4 @@
-"""Spikes that the motion hid: single samples far off what the best explanation simulates."""
+"""Errors of sensors that the motion hid, told by what the best explanation leaves: spikes and hum."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.recording.inspection import Finding, Inspected, without_samples
+from rwn.recording.inspection.hum import without_hum
 from rwn.recording.inspection.outliers import BESIDE, most_deviations, outliers
 from rwn.recording.inspection.spikes import SPIKES
 from rwn.recording.noise import PER_MEDIAN
@@ -21,8 +22,8 @@ Flags = NDArray[np.bool_]
 FEWEST = 8  # samples among which one is found
 
 
-def without_spikes_left(recordings: Sequence[Recording], problem: Problem, this: Fit) -> Inspected:
-    """The recordings without samples that are far off a fit, and what was found.
+def without_sensor_errors(recordings: Sequence[Recording], problem: Problem, this: Fit) -> Inspected:
+    """The recordings without samples that are far off a fit and without hum in what it leaves, and what was found.
 
     `problem`: of the same recordings; one that lost or moved samples on the way there is left as it is.
     """
@@ -34,6 +35,10 @@ def without_spikes_left(recordings: Sequence[Recording], problem: Problem, this:
             if flags.any():
                 found.append(SPIKES.found(recording, signal, flags))
                 recording = without_samples(recording, signal, flags)
+        if run.time.size == len(recording):
+            simulated = {signal: run.signal(signal) - error for signal, error in errors.items()}
+            recording, hum = without_hum(recording, simulated=simulated)
+            found += hum
         made.append(recording)
     return Inspected(made, tuple(found))
 

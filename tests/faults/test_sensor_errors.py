@@ -11,12 +11,12 @@ import pytest
 import rwn
 from made_up_files import files_of
 from rwn.faults.fault import SHIFT, Fault
-from rwn.faults.spikes_left import _far_off, without_spikes_left
+from rwn.faults.sensor_errors import _far_off, without_sensor_errors
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.name.forward import rank
-from rwn.search.search import _without_spikes_left, search
+from rwn.search.search import _without_sensor_errors, search
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
@@ -39,7 +39,7 @@ def _recordings(spikes: Mapping[str, Sequence[int]], size: float = 1.5) -> list[
 def _left_out(recordings: Sequence[rwn.Recording], model: Model = MODEL) -> dict[str, list[int]]:
     """The samples of the first recording that the fitted model says are spikes."""
     problem = prepare(recordings, model)
-    found = without_spikes_left(recordings, problem.in_free_run(), fit_nominal(problem))
+    found = without_sensor_errors(recordings, problem.in_free_run(), fit_nominal(problem))
     assert not found.recordings[1].missing
     assert sum(f.count for f in found.findings) == sum(int(m.sum()) for m in found.recordings[0].missing.values())
     return {s: np.flatnonzero(m).tolist() for s, m in found.recordings[0].missing.items()}
@@ -84,5 +84,17 @@ def test_none_are_left_out_where_samples_were_moved() -> None:
     recordings = _recordings({"current": [STEP]}, size=0.5)
     ranking = rank(prepare(recordings, MODEL), progress=lambda *_: None, names=["coulomb-friction"], at_once=1)
     late = Fault(name=SHIFT, signals=("speed",), meaning="", delay=2)
-    assert _without_spikes_left(recordings, [late], ranking).findings == ()
-    assert len(_without_spikes_left(recordings, [], ranking).findings) == 1
+    assert _without_sensor_errors(recordings, [late], ranking).findings == ()
+    assert len(_without_sensor_errors(recordings, [], ranking).findings) == 1
+
+
+def test_hum_that_the_motion_hides_is_taken_off_and_said() -> None:
+    first, second = files_of(MODEL, [], (1.0, 1.0), samples=2400)
+    hum = 0.05 * np.sin(2.0 * np.pi * 50.0 * first.time + 0.4)
+    noisy = replace(first, signals={**first.signals, "current": first.signals["current"] + hum})
+    problem = prepare([noisy, second], MODEL)
+    made = without_sensor_errors([noisy, second], problem.in_free_run(), fit_nominal(problem))
+    (found,) = made.findings
+    assert (found.kind, found.recording, found.signals) == ("hum", "run_0", ("current",))
+    assert np.std(noisy.signals["current"] - made.recordings[0].signals["current"] - hum) < 0.1 * np.std(hum)
+    assert made.recordings[1] is second
