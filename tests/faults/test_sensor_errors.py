@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 import rwn
 from made_up_files import files_of
-from rwn.faults.fault import SHIFT, Fault
+from rwn.faults.fault import SHIFT, UNIT, Fault
 from rwn.faults.sensor_errors import _far_off, without_sensor_errors
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
@@ -80,11 +81,13 @@ def test_the_search_begins_anew_without_them() -> None:
     assert found.ranking.left.at_the_floor
 
 
-def test_none_are_left_out_where_samples_were_moved() -> None:
+@pytest.mark.parametrize("fault", [{"name": SHIFT, "delay": 2}, {"name": UNIT, "factor": 9.55}])
+def test_none_are_left_out_where_a_fault_is_undone(fault: dict[str, Any]) -> None:
+    """The samples of these recordings are not those that the explanation is of."""
     recordings = _recordings({"current": [STEP]}, size=0.5)
     ranking = rank(prepare(recordings, MODEL), progress=lambda *_: None, names=["coulomb-friction"], at_once=1)
-    late = Fault(name=SHIFT, signals=("speed",), meaning="", delay=2)
-    assert _without_sensor_errors(recordings, [late], ranking).findings == ()
+    found = Fault(signals=("speed",), meaning="", **fault)
+    assert _without_sensor_errors(recordings, [found], ranking).findings == ()
     assert len(_without_sensor_errors(recordings, [], ranking).findings) == 1
 
 

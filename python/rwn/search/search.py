@@ -128,8 +128,11 @@ def search(
 def _without_sensor_errors(
     recordings: Sequence[Recording], faults: Sequence[Fault], ranking: Ranking
 ) -> Inspected:  # fmt: skip
-    """The recordings without samples that are far off the best explanation; as they are where samples were moved."""
-    if any(fault.delay for fault in faults):
+    """The recordings without what the best explanation shows of errors of their sensors.
+
+    As they are where it is of recordings with a fault undone, whose samples are others.
+    """
+    if faults:
         return Inspected(list(recordings), ())
     return without_sensor_errors(recordings, ranking.problem.in_free_run(), ranking.fits[0].fit)
 
