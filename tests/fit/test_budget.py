@@ -145,7 +145,7 @@ def test_a_search_by_more_effects_or_under_another_measurement_has_a_budget_of_i
 @pytest.mark.slow
 def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     model = rwn.Model(kind="dc", parameters=MOTOR)
-    wavy = recorded(1, lambda speed, angle: 0.004 * np.sin(3.0 * angle) * np.cos(7.0 * angle) - 1e-7 * speed**3, 1000)
+    wavy = recorded(1, lambda speed, angle: 0.02 * np.sin(3.0 * angle) * np.cos(7.0 * angle) - 1e-7 * speed**3, 1000)
     warnings = [rwn.diagnose([wavy], model).warnings]
     monkeypatch.setattr(budget, "TOTAL", 1e8)
     warnings.append(rwn.diagnose([wavy], model).warnings)
