@@ -102,28 +102,29 @@ class _Unseen:
 
     runs: Sequence[Run]
     late: tuple[LateEnable, ...]
-    spikes: tuple[Finding, ...]
+    sensor_errors: tuple[Finding, ...]
 
     def findings(self, found: SearchResult) -> tuple[Finding, ...]:
-        """What their own motion told: spikes, late enables, an input between rows, levels of their own."""
+        """What their own motion told: errors of sensors, late enables, an input between rows, levels of their own."""
         given = found.model.drive.input
         enabled = (one.as_finding(given) for one in self.late)
         told = (*inferred_input_findings(self.runs, given), *uneven_unseen(found.ranking, self.runs))
-        return (*self.spikes, *enabled, *told)
+        return (*self.sensor_errors, *enabled, *told)
 
 
 def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
     problem, best = found.ranking.problem, found.ranking.fits[0]
-    right = without_all(recordings, found.faults)
+    of_all = [fault for fault in found.faults if not fault.recordings]  # not what some of the fitted files alone have
+    right = without_all(recordings, of_all)
     late = late_beside(right, found.model, problem, best.fit)
     right = powered(right, late, found.model)
 
     def runs(of: Sequence[Recording]) -> tuple[Run, ...]:
         return tuple(measured_alike([judging_run(r, found.model) for r in of], problem.whole))
 
-    right, spikes = without_sensor_errors(right, problem.on(runs(right)), best.fit)
+    right, found_in = without_sensor_errors(right, problem.on(runs(right)), best.fit)
     kept_back = replace(problem.in_free_run(), runs=runs(right))
-    return _Unseen(runs=with_inferred_input(kept_back, best.final).runs, late=late, spikes=spikes)
+    return _Unseen(runs=with_inferred_input(kept_back, best.final).runs, late=late, sensor_errors=found_in)
 
 
 def _check_options(seed: int, jobs: int | None, effort: float, progress: Any) -> None:

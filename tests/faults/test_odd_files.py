@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
@@ -11,19 +12,23 @@ import pytest
 
 import rwn
 from made_up_files import files_of
-from rwn.faults.fault import SIGN, UNIT
+from rwn.faults.fault import SIGN, UNIT, Fault
 from rwn.faults.odd_files import wrong_in_some
 from rwn.faults.plain_faults import plain_faults
 from rwn.faults.scale import wrong_scale
+from rwn.fit.preparation import prepare
 from rwn.model.model import Model
+from rwn.name.forward import rank
 from rwn.recording.columns import Layout
 from rwn.report.next_steps import _mistake
+from rwn.search.search import SearchResult
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
     "viscous_friction": 4e-5,
 }  # fmt: skip
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "resistance": 0.1})
+diagnose = importlib.import_module("rwn.diagnose")  # rwn.diagnose is the function
 RPM = 60.0 / (2.0 * np.pi)
 
 
@@ -47,6 +52,17 @@ def test_the_files_that_have_it_are_named_and_corrected(factor: float, name: str
     assert said.startswith(f"Correct run_0 and run_2: write the speed times {1.0 / factor:.6g}")
 
 
+def test_files_of_one_name_are_told_by_their_folders() -> None:
+    """Without folders, as of tables in Python, nothing tells which of them is meant."""
+    first, second = (replace(r, name="run.csv") for r in files_of(MODEL, [], (1.0, 1.0)))
+    given = [replace(_times(first, RPM), source="a/run.csv"), replace(second, source="b/run.csv")]
+    fault = wrong_in_some(given, MODEL)
+    assert fault is not None
+    assert fault.recordings == ("a/run.csv",)
+    assert fault.undo(given[1]) is given[1]
+    assert wrong_in_some([replace(r, source="") for r in given], MODEL) is None
+
+
 def test_what_all_have_is_a_fault_of_all() -> None:
     given = [_times(r, RPM) for r in files_of(MODEL, [], (1.0, 1.0))]
     assert wrong_in_some(given, MODEL) is None
@@ -66,3 +82,15 @@ def test_files_that_say_nothing_are_no_witness_that_it_is_right() -> None:
 def test_nothing_is_said_of_files_that_agree() -> None:
     assert wrong_in_some(files_of(MODEL, [], (1.0, 1.0)), MODEL) is None
     assert wrong_in_some(files_of(MODEL, [], (1.0,)), MODEL) is None
+
+
+def test_what_some_of_the_fitted_have_is_not_undone_in_what_is_kept_back() -> None:
+    """Tables in Python are all called alike."""
+    fitted, other = files_of(MODEL, [], (1.0, 1.0))
+    kept_back = replace(other, name=fitted.name)
+    ranking = rank(prepare([fitted], MODEL), progress=lambda *_: None, names=["coulomb-friction"], at_once=1)
+    fault = Fault(name=UNIT, signals=("speed",), meaning="", factor=RPM, recordings=(fitted.name,))
+    for faults, divided in (((fault,), 1.0), ((replace(fault, recordings=()),), RPM)):
+        found = SearchResult(model=MODEL, late=(), faults=faults, ranking=ranking)
+        (run,) = diagnose._unseen([kept_back], found).runs
+        np.testing.assert_allclose(run.speed, other.signals["speed"] / divided)

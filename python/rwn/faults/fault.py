@@ -50,14 +50,14 @@ class Fault:
     step: float = 0.0  # sample time [s]
     also: tuple[str, ...] = ()  # other faults that these recordings do not tell from it
     removes: ErrorReduction | None = None  # None: a scale that is plainly wrong
-    recordings: tuple[str, ...] = ()  # names of those that have it; none: all
+    recordings: tuple[str, ...] = ()  # those that have it, by `known_as`; none: all
 
     def undo(self, recording: Recording) -> Recording:
         """The recording as it should have been; where a signal came late, all are cut to what is left.
 
         Where one came early, what it was before its first sample is not known: the run begins where the input does.
         """
-        if self.recordings and recording.name not in self.recordings:
+        if self.recordings and known_as(recording) not in self.recordings:
             return recording
         n = len(recording) - max(self.delay, 0)
         signals = {name: np.array(values[:n]) for name, values in recording.signals.items()}
@@ -102,6 +102,11 @@ class Fault:
             probability=min(SURE, probability) / (1 + len(self.also)),
             meaning=self.meaning, signals=self.signals, recordings=self.recordings,
         )  # fmt: skip
+
+
+def known_as(recording: Recording) -> str:
+    """What tells a recording from others: two files in different folders may have one name."""
+    return recording.source or recording.name
 
 
 def without(recordings: Sequence[Recording], fault: Fault) -> list[Recording]:

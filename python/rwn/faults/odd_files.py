@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rwn.faults.fault import GEAR, Fault
+from rwn.faults.fault import GEAR, Fault, known_as
 from rwn.faults.scale import LEFT, similarity, wrong_scale
 from rwn.model.model import Model
 from rwn.recording.recording import Recording
@@ -17,18 +17,18 @@ def wrong_in_some(recordings: Sequence[Recording], model: Model) -> Fault | None
     One is right where the signals are as large as the model as given simulates them: no physics is another in each
     file of a machine by as much as a unit. A gear is part of the machine.
     """
-    if len(recordings) < 2 or model.drive.coefficients:
+    if len({known_as(r) for r in recordings}) < max(len(recordings), 2) or model.drive.coefficients:
         return None
-    alone = {recording.name: wrong_scale([recording], model) for recording in recordings}
+    alone = {known_as(recording): wrong_scale([recording], model) for recording in recordings}
     fault = next((one for one in alone.values() if one is not None), None)
     if fault is None or fault.name == GEAR:
         return None
-    odd = tuple(name for name, one in alone.items() if _is_same(one, fault))
-    others = [r for r in recordings if r.name not in odd]
-    if not others or not all(alone[r.name] is None and _follows(r, fault, model) for r in others):
+    odd = [r for r in recordings if _is_same(alone[known_as(r)], fault)]
+    others = [r for r in recordings if not _is_same(alone[known_as(r)], fault)]
+    if not others or not all(alone[known_as(r)] is None and _follows(r, fault, model) for r in others):
         return None
-    meaning = f"{fault.meaning}, in {', '.join(odd)} and not in {', '.join(r.name for r in others)}"
-    return replace(fault, recordings=odd, also=(), meaning=meaning)
+    meaning = f"{fault.meaning}, in {', '.join(r.name for r in odd)} and not in {', '.join(r.name for r in others)}"
+    return replace(fault, recordings=tuple(map(known_as, odd)), also=(), meaning=meaning)
 
 
 def _is_same(one: Fault | None, other: Fault) -> bool:

@@ -12,14 +12,12 @@ from rwn.fit.problem import Problem
 from rwn.recording.inspection import Finding, Inspected, without_samples
 from rwn.recording.inspection.hum import without_hum
 from rwn.recording.inspection.outliers import BESIDE, most_deviations, outliers
-from rwn.recording.inspection.spikes import SPIKES
+from rwn.recording.inspection.spikes import FEWEST, SPIKES
 from rwn.recording.noise import PER_MEDIAN
 from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-
-FEWEST = 8  # samples among which one is found
 
 
 def without_sensor_errors(recordings: Sequence[Recording], problem: Problem, this: Fit) -> Inspected:
@@ -30,12 +28,12 @@ def without_sensor_errors(recordings: Sequence[Recording], problem: Problem, thi
     made, found = [], list[Finding]()
     left = problem.residuals(this.vector, this.active)
     for recording, run, errors in zip(recordings, problem.runs, left, strict=True):
-        for signal, error in errors.items() if run.time.size == len(recording) else ():
-            flags = _far_off(run.masked(signal, error), problem.noise[signal].deviation)
-            if flags.any():
-                found.append(SPIKES.found(recording, signal, flags))
-                recording = without_samples(recording, signal, flags)
         if run.time.size == len(recording):
+            for signal, error in errors.items():
+                flags = _far_off(run.masked(signal, error), problem.noise[signal].deviation)
+                if flags.any():
+                    found.append(SPIKES.found(recording, signal, flags))
+                    recording = without_samples(recording, signal, flags)
             simulated = {signal: run.signal(signal) - error for signal, error in errors.items()}
             recording, hum = without_hum(recording, simulated=simulated)
             found += hum

@@ -23,9 +23,9 @@ from rwn.simulate.simulator import RAN_AWAY
 Array = NDArray[np.float64]
 
 LEVEL = 0.01  # of the test whether what is left has structure, and whether one simulation is worse than another
-NONE: Mapping[str, int] = MappingProxyType({})
+NO_DIFFERENCES: Mapping[str, int] = MappingProxyType({})
 CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations (`loss_gained`) that a test at LEVEL asks for
-SLIGHT = 1.05  # variance in units of the noise below which no structure counts: noise is known to that
+NEGLIGIBLE = 1.05  # variance in units of the noise below which no structure counts: noise is known to that
 MISSPECIFIED = 50.0  # most independent samples that a residual counts for which is all misfit
 MOST_SAMPLES = 1000.0  # most independent samples that noise counts for: a simulation is exact to 0.1 % of its square
 
@@ -42,7 +42,7 @@ class Statistics:
     @property
     def at_the_floor(self) -> bool:
         """Whether the residual may be measurement noise alone: it has no structure, or little is left."""
-        return not self.structured or self.variance < SLIGHT
+        return not self.structured or self.variance < NEGLIGIBLE
 
     @property
     def effective(self) -> float:
@@ -102,7 +102,7 @@ def _errs_as_disturbed(problem: Problem, this: Fit, residuals: Sequence[Mapping[
     return max(found) < _most_distant(len(found))
 
 
-def structured_of(joined: Mapping[str, Array], *, differences: Mapping[str, int] = NONE) -> tuple[str, ...]:
+def structured_of(joined: Mapping[str, Array], *, differences: Mapping[str, int] = NO_DIFFERENCES) -> tuple[str, ...]:
     """The signals whose errors are not white: Bartlett's test of the cumulative periodogram at LEVEL, over all of them.
 
     White noise is found to have structure in one case of 1 / LEVEL, whatever the number of samples (n,). The noise of

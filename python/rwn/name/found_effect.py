@@ -28,7 +28,7 @@ class FoundEffect:
     formula: str = ""  # as in the effect table: "T sign(w)"
     meaning: str = ""  # one sentence for people: "dry friction that does not depend on speed"
     signals: tuple[str, ...] = ()  # of a fault of the recordings: those that it is in
-    recordings: tuple[str, ...] = ()  # of a fault of some of the recordings: their names
+    recordings: tuple[str, ...] = ()  # of a fault of some of the recordings: their files, or names
 
 
 def found_effects(

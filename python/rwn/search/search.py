@@ -40,13 +40,13 @@ class SearchResult:
     late: tuple[LateEnable, ...]
     faults: tuple[Fault, ...]
     ranking: Ranking
-    spikes: tuple[Finding, ...] = ()  # that the motion hid
+    sensor_errors: tuple[Finding, ...] = ()  # that the motion hid
 
     @property
     def findings(self) -> tuple[Finding, ...]:
         """How the input acted and the motion began, as a check of recordings says it."""
         given = self.model.drive.input
-        found = [*self.spikes, *(late.as_finding(given) for late in self.late)]
+        found = [*self.sensor_errors, *(late.as_finding(given) for late in self.late)]
         found += [
             Finding(
                 kind="in-motion", recording=run.name, signals=(), count=0, words="it starts in motion",
@@ -94,10 +94,10 @@ def search(
     as_acted = _as_acted(on, again)
     faults, ranking = beneath_faults(as_acted, again, say=say, effort=effort)
     filters: tuple[SensorFilter, ...] = ()
-    spikes = list[Finding]()
+    sensor_errors = list[Finding]()
     for _ in range(ASKED_AGAIN):
         recordings, spoilt = _without_sensor_errors(recordings, faults, ranking)
-        spikes += spoilt
+        sensor_errors += spoilt
         asked = _asked_again(recordings, model, still, again, faults, ranking)
         alike = not spoilt and asked == _Assumptions(still, again, _filters(ranking, again))
         if alike and (faults or ranking.left.at_the_floor):
@@ -121,8 +121,8 @@ def search(
             break
     again = stating_filters(again, ranking.problem.filters)
     return SearchResult(
-        model=again, late=still, faults=tuple(faults), ranking=ranking, spikes=tuple(spikes)
-    )  # fmt: skip
+        model=again, late=still, faults=tuple(faults), ranking=ranking, sensor_errors=tuple(sensor_errors)
+    )
 
 
 def _without_sensor_errors(

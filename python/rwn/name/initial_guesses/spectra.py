@@ -38,7 +38,8 @@ def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess]
     if flux and all(r.current.size for r in problem.runs):
         found = orders_of(flux_spectrum(problem, base.vector, grid), grid, count)
         wanted: tuple[tuple[bool, int], ...] = ((True, 1),)  # with the current or without, and how many orders
-    else:  # a current that was not recorded is known badly
+    else:
+        # a current that was not recorded is known badly: with it and without
         wanted = ((True, count), (False, count)) if flux else ((False, count),)
         if not (flux and by_speed):
             found = orders_of(torque_spectrum(problem, base.vector, base.active, grid), grid, count)

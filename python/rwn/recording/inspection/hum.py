@@ -30,7 +30,7 @@ CLOCK = 0.002  # how far a line may lie off, relatively: the mains 0.1 Hz, and a
 LEVEL = 0.001  # chance of hum in a signal without it: 1 % of a diagnosis, of some ten signals
 TAPERS = 7  # of which the odd ones see a line; each line takes a band of (TAPERS + 1) / length
 FINER = 4  # frequencies looked at per 1 / length
-NOTHING: Mapping[str, Array] = MappingProxyType({})
+NOT_SIMULATED: Mapping[str, Array] = MappingProxyType({})
 CYCLES = 25  # fewest of the mains in what is looked at: the band of a line is then a third of its frequency at most
 
 
@@ -43,7 +43,7 @@ class Line:
 
 
 def without_hum(
-    recording: Recording, *, simulated: Mapping[str, Array] = NOTHING
+    recording: Recording, *, simulated: Mapping[str, Array] = NOT_SIMULATED
 ) -> tuple[Recording, list[Finding]]:  # fmt: skip
     """The recording without the hum of its sensors, and what was found.
 

@@ -25,10 +25,10 @@ class Interpolated(NamedTuple):
 
 
 def interpolated(x: Array, inputs: Sequence[Array]) -> Interpolated:
-    """The samples x (n,) against what those within `REACH` and the inputs (n,) there make of them: two states' worth.
+    """The samples x (n,) against what those within `REACH` and the inputs (n,) there make of them.
 
-    Linear, with the coefficients that the whole signal shows (Huber's M-estimate, so that a few samples that are far
-    off do not decide).
+    Linear, as the answer of a drive of two states is, with the coefficients that the whole signal shows (Huber's
+    M-estimate, so that a few samples that are far off do not decide).
     """
     if x.size < 8 * (2 * REACH + 1):
         return Interpolated(np.zeros(x.size), np.zeros(2 * REACH + 1))
