@@ -182,15 +182,18 @@ def test_units_are_seen_through_physics_that_slows_the_motor(
     assert (found.name, found.signals, found.factor) == ("wrong-unit", names, pytest.approx(factor))
 
 
-@pytest.mark.slow
-def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model, friction: rwn.Recording) -> None:
-    """A delay and one effect explain nearly as much of it as a lag and that effect, but not as much."""
+def _filtered(friction: rwn.Recording) -> rwn.Recording:
     time, speed = friction.time, np.array(friction.signals["speed"])
     share = 1.0 - np.exp(-float(time[1] - time[0]) / 4e-3)
     for k in range(1, time.size):
         speed[k] = speed[k - 1] + share * (speed[k] - speed[k - 1])
-    filtered = replace(friction, signals={**friction.signals, "speed": speed})
-    faults, ranking = beneath_faults([filtered], model, say=silent)
+    return replace(friction, signals={**friction.signals, "speed": speed})
+
+
+@pytest.mark.slow
+def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model, friction: rwn.Recording) -> None:
+    """A delay and one effect explain nearly as much of it as a lag and that effect, but not as much."""
+    faults, ranking = beneath_faults([_filtered(friction)], model, say=silent)
     assert faults == []
     best = ranking.fits[0]
     assert set(best.added) - {"speed-sensor-lag"} == {"coulomb-friction"}
@@ -198,6 +201,13 @@ def test_a_filtered_speed_above_dry_friction_is_not_called_late(model: rwn.Model
     rest = best.final.values_of("speed-sensor-lag")["time_constant"] if "speed-sensor-lag" in best.added else 0.0
     assert by_noise == pytest.approx(4e-3, rel=0.1)
     assert by_noise + rest == pytest.approx(4e-3, rel=0.03), "what its noise says wrongly the motion puts right"
+
+
+@pytest.mark.slow
+@pytest.mark.xfail(strict=True, reason="what the noise tells of a filter (3.67 of 4 ms) is not refitted by the motion")
+def test_what_the_noise_tells_of_a_filter_leaves_no_second_one(model: rwn.Model, friction: rwn.Recording) -> None:
+    _, ranking = beneath_faults([_filtered(friction)], model, say=silent)
+    assert ranking.fits[0].added == ("coulomb-friction",)
 
 
 def test_only_what_looks_like_a_mistake_is_suspected(model: rwn.Model, right: rwn.Recording) -> None:
