@@ -19,7 +19,7 @@ from rwn.fit.problem import Problem
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.name import forward
-from rwn.name.forward import _grown
+from rwn.name.forward import _grown, rank
 from rwn.name.measurement import CHANGES, Measurement
 from rwn.name.ranking import NO_EXTENSIONS, Fits
 from rwn.recording.filters import as_filtered
@@ -110,3 +110,12 @@ def test_nothing_is_built_on_what_another_measurement_shows(
     grown = _grown(alone, [single], [], known, at_once=4, begun=0, progress=lambda *_: None, otherwise=otherwise)
     assert grown.measured is another
     assert (asked, grown.complete, grown.paired) == ([single], False, False)
+
+
+def test_what_is_known_of_the_recordings_goes_along_when_a_ranking_is_gone_on_with(recorded: Problem) -> None:
+    """Else the filter would count as unknown where it is undone already, and never be asked again."""
+    names = ["coulomb-friction"]
+    alone = rank(recorded, progress=lambda *_: None, names=names, at_once=1)
+    further = rank(recorded, progress=lambda *_: None, names=names, after=alone)
+    assert [f.signal for f in alone.measurement.filters] == ["speed"]
+    assert further.measurement == alone.measurement

@@ -58,7 +58,7 @@ def rank(
     not. `after`: a ranking of the same recordings by fewer effects, or by some of them, to go on from. `filters`: of
     the sensors, that are known; the problem is without them.
     """
-    made = Measurement(as_prepared=problem, filters=tuple(filters))
+    made = after.measurement if after else Measurement(as_prepared=problem, filters=tuple(filters))
     return _ranked(made, progress=progress, names=names, at_once=at_once, after=after)
 
 
@@ -103,6 +103,7 @@ def _ranked(
     ranked = [r if r.added else replace(r, final=nominal) for r in ranked]
     return Ranking(
         problem=problem,
+        measurement=made,
         nominal=nominal,
         fits=tuple(ranked),
         left=left,

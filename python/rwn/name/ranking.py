@@ -9,6 +9,7 @@ from typing import NamedTuple
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics
+from rwn.name.measurement import Measurement
 from rwn.name.weights import RankedFit
 
 
@@ -37,6 +38,7 @@ class Ranking:
     """Every explanation with its probability, best first."""
 
     problem: Problem  # with the noise of the best
+    measurement: Measurement  # under which the recordings were explained
     nominal: Fit
     fits: tuple[RankedFit, ...]
     left: Statistics  # residual of the best
