@@ -2,13 +2,42 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from rwn.fit.residual_noise import CLOCK, noise_of
+import rwn
+from made_up_motor import SMALL
+from rwn.fit.fit import fit_nominal
+from rwn.fit.preparation import prepare
+from rwn.fit.residual_noise import CLOCK, noise_of, with_noise_of
+from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.known_filters import filtered
+from rwn.measurement.noise_spectrum import NoiseColour
+from rwn.model.model import Model
+from rwn.recording.filters import as_filtered
 from rwn.recording.noise import Noise, noise_from_differences
 from rwn.recording.speed_measurement import BACKWARD, CENTRAL, SpeedMeasurement, difference
 from rwn.simulate.run import Run
+
+MODEL = Model(kind="dc", parameters=SMALL, uncertainty={"inertia": 0.1})
+
+@pytest.mark.parametrize("time_constant", [2e-3, 5e-3])
+def test_noise_went_through_the_filter_that_the_motion_shows(time_constant: float) -> None:
+    """Whatever the noise was taken for, when the filter was found in it."""
+    time, rng = 1e-3 * np.arange(3000), np.random.default_rng(3)
+    voltage = np.repeat(24.0 * rng.uniform(-1.0, 1.0, 60), 50)
+    lag = {"speed-sensor-lag": {"time_constant": time_constant}}
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    noise = as_filtered(time, rng.standard_normal(time.size), time_constant)
+    speed = rwn.simulate(replace(MODEL, effects=lag), run).signals["speed"] + noise
+    problem = prepare([replace(run, signals={**run.signals, "speed": speed})], MODEL)
+    seen = NoiseColour(share=0.5, deviation=0.3, evidence=1.0, filtered=1.0)
+    told = SensorFilter(signal="speed", share=0.5, time_constant=-1e-3 / np.log(0.5), noise=seen)
+    beside = filtered(problem, [told])
+    noise_then = with_noise_of(beside, fit_nominal(beside)).noise["speed"]
+    assert noise_then.reflection == pytest.approx([np.exp(-1e-3 / time_constant)], rel=0.02)
 
 
 def test_no_position_is_better_known_than_the_clock() -> None:

@@ -51,6 +51,11 @@ class Problem:
         """Of all recorded signals."""
         return sum(r.signal(s).size for r in self.runs for s in r.recorded)
 
+    def share_kept(self, signal: str, time_constant: float) -> float:
+        """phi of a first-order filter of a signal: of what it showed a sample ago, how much it shows still."""
+        step = float(np.median([r.sample_time for r in self.runs if r.signal(signal).size]))
+        return float(np.exp(-step / time_constant))
+
     def metered(self) -> Problem:
         """The same problem with a meter of its own."""
         return replace(self, simulator=replace(self.simulator, work=_core.Work()))

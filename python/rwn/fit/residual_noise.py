@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import join
+from rwn.model.vocabulary import analog_filters
 from rwn.recording.noise import LEAST, STABLE, Noise, noise_from_differences
 from rwn.simulate.run import Run
 
@@ -50,7 +51,8 @@ def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> d
 def with_noise_of(problem: Problem, this: Fit) -> Problem:
     """`problem` weighted by the noise that a fit leaves."""
     residuals = problem.residuals(this.vector, this.active)
-    noise = _coloured(problem, noise_of(problem.runs, residuals), residuals)
+    before = {**problem.noise, **_filtered_noise(problem, this)}
+    noise = _coloured(problem, before, noise_of(problem.runs, residuals), residuals)
     excess = _excess(problem, noise, residuals)
     if excess > 1.0:
         noise["position"] = noise["position"].scaled(excess**0.5)
@@ -91,11 +93,24 @@ def _random_walk(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> 
     return walk.scaled(max(float(np.median(levels)), LEAST))
 
 
+def _filtered_noise(problem: Problem, this: Fit) -> dict[str, Noise]:
+    """The noise of signals whose filter is fitted as part of the measurement: the motion and it went through one."""
+    pairs = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
+    fitted = {u.name: float(value) for u, value in pairs if u.nuisance}
+    noise = {}
+    for signal, lag in analog_filters(this.hypothesis.table).items():
+        time_constant = fitted.get(f"{lag.name}.{lag.parameters[0].name}")
+        if time_constant is not None and signal in problem.noise:
+            share = problem.share_kept(signal, time_constant)
+            noise[signal] = replace(problem.noise[signal], reflection=(share,))
+    return noise
+
+
 def _coloured(
-    problem: Problem, noise: dict[str, Noise], residuals: Sequence[Mapping[str, Array]]
+    problem: Problem, known: Mapping[str, Noise], noise: dict[str, Noise], residuals: Sequence[Mapping[str, Array]]
 ) -> dict[str, Noise]:
-    """The same levels of what is new in a sample, where the problem knows how the noise of a signal is coloured."""
-    for signal, before in problem.noise.items():
+    """The same levels of what is new in a sample, where it is known how the noise of a signal is coloured."""
+    for signal, before in known.items():
         if before.reflection and signal in noise:
             unit = Noise(level=1.0, reflection=before.reflection)
             found = [

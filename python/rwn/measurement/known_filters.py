@@ -34,7 +34,7 @@ def known_filters(problem: Problem) -> tuple[SensorFilter, ...]:
     fitted = {n.effect: next(iter(n.values.values())) for n in problem.prior.nuisance}
     lags = {s: fitted[lag.name] for s, lag in analog_filters(problem.prior.table).items() if lag.name in fitted}
     return tuple(
-        SensorFilter(signal=s, share=share_kept(problem, s, time), time_constant=time, digital=digital)
+        SensorFilter(signal=s, share=problem.share_kept(s, time), time_constant=time, digital=digital)
         for times, digital in ((problem.filters, True), (lags, False))
         for s, time in times.items()
     )
@@ -45,7 +45,7 @@ def noise_before_filters(problem: Problem, noise: Mapping[str, Noise]) -> dict[s
     before = dict(noise)
     for signal, time_constant in problem.filters.items():
         if signal in before:
-            share = share_kept(problem, signal, time_constant)
+            share = problem.share_kept(signal, time_constant)
             mixed = share_before(share, _ticks_per_row(problem))
             before[signal] = before[signal].scaled(float(np.sqrt((1.0 + share) / (1.0 - share))) / (1.0 - mixed))
             if mixed:
@@ -82,7 +82,7 @@ def log_density(problem: Problem) -> float:
     """
     found = 0.0
     for signal, time_constant in problem.filters.items():
-        share = share_kept(problem, signal, time_constant)
+        share = problem.share_kept(signal, time_constant)
         new = (1.0 - share) * (1.0 - share_before(share, _ticks_per_row(problem)))
         found += sum(r.signal(signal).size for r in problem.runs) * float(np.log(new))
     return found
@@ -90,9 +90,3 @@ def log_density(problem: Problem) -> float:
 
 def _ticks_per_row(problem: Problem) -> int:
     return max(r.ticks_per_row for r in problem.runs)
-
-
-def share_kept(problem: Problem, signal: str, time_constant: float) -> float:
-    """phi of a filter."""
-    step = float(np.median([r.sample_time for r in problem.runs if r.signal(signal).size]))
-    return float(np.exp(-step / time_constant))

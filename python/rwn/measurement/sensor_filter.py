@@ -21,7 +21,7 @@ from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, losses, statistics
 from rwn.fit.screening_part import screening_part
 from rwn.measurement.filter_colour import SLOWEST, SensorFilter, certain, coloured_signals, is_noise_alone
-from rwn.measurement.known_filters import filtered, log_density, share_kept
+from rwn.measurement.known_filters import filtered, log_density
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior
 from rwn.measurement.noise_spectrum import FASTEST, NoiseColour
 from rwn.parallel import side_by_side
@@ -159,7 +159,7 @@ def _together(
 
 
 def _of_time(problem: Problem, f: SensorFilter, time_constant: float) -> SensorFilter:
-    return replace(f, time_constant=time_constant, share=share_kept(problem, f.signal, time_constant))
+    return replace(f, time_constant=time_constant, share=problem.share_kept(f.signal, time_constant))
 
 
 def _likelihood(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) -> float:
