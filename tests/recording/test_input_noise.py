@@ -54,6 +54,16 @@ def test_a_sensors_noise_is_taken_off(name: str) -> None:
     assert np.array_equal(found.signals["speed"], true.signals["speed"])
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_the_bends_of_ramps_are_no_noise(seed: int) -> None:
+    """Smoothed over, the voltage would be off at each of them, where the current bends too."""
+    rng = np.random.default_rng(seed)
+    corners = np.cumsum(rng.integers(20, 90, 80))
+    ramps = np.interp(np.arange(TIME.size), corners, 5.0 * rng.uniform(-1.0, 1.0, 80))
+    recorded = replace(run := _run(ramps), signals={**run.signals, "voltage": _noisy(ramps)})
+    assert [said.kind for said in without_input_noise(recorded)[1]] == ["input-noise"]
+
+
 @pytest.mark.parametrize("name", INPUTS)
 def test_noise_that_drives_a_current_stays(name: str) -> None:
     recorded = _run(_noisy(INPUTS[name]))

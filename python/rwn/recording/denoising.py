@@ -1,4 +1,4 @@
-"""An input without the noise of what recorded it: steady between its steps, or as smooth as its noise leaves it."""
+"""An input without the noise of what recorded it: steady between its steps, or smooth between these and its bends."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rwn.recording.noise import noise_of_differences
 from rwn.recording.quantisation import quantum
-from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
+from rwn.recording.smoothing import LENGTHS, ORDER, smooth, smoothing_length
 
 Array = NDArray[np.float64]
 
@@ -18,6 +18,7 @@ ALIKE = 8.0  # over sqrt(n): relative difference of two estimates of white noise
 RETURNS = 8.0  # over sqrt(m): excess of m squares of means over their noise, whose deviation is sqrt(2)
 STEADY = 3.0  # deviations of the sum of squares of noise, beyond which a stretch is not steady
 STEP = 6.0  # deviations of the noise beyond which a change from row to row is a step: one in 5e8 by chance
+LEVEL = 0.01  # chance that values which bend nowhere are taken to
 NOWHERE: NDArray[np.intp] = np.empty(0, dtype=np.intp)
 
 
@@ -32,7 +33,8 @@ def denoised(values: Array) -> Array | None:
     # of what is smooth, higher differences show less than of what is white
     if noise <= least or abs(other / noise - 1.0) > ALIKE / np.sqrt(values.size):
         return None
-    stretches = np.split(values, _steps(values, noise))
+    between = np.split(values, _steps(values, noise))
+    stretches = [part for x in between for part in ([x] if _is_steady(x, noise) else np.split(x, _bends(x, noise)))]
     steady = [_is_steady(x, noise) for x in stretches]
     levels = iter(_levels([x for x, is_steady in zip(stretches, steady, strict=True) if is_steady], noise))
     without = [
@@ -45,6 +47,29 @@ def denoised(values: Array) -> Array | None:
 def _steps(values: Array, noise: float) -> NDArray[np.intp]:
     """The first samples after steps of values (n,)."""
     return np.flatnonzero(np.abs(np.diff(values)) > STEP * np.sqrt(2.0) * noise) + 1
+
+
+def _bends(values: Array, noise: float) -> NDArray[np.intp]:
+    """Where values (n,) bend, as a ramp that begins: beside a bend a cubic leaves much, and with it noise alone."""
+    from scipy.signal import find_peaks  # late: the command line starts without it
+    from scipy.special import ndtri
+
+    deviations, scaled = np.zeros(values.size), (values - np.mean(values)) / noise
+    for length in (n for n in LENGTHS if n <= values.size):
+        place = np.linspace(-1.0, 1.0, length)
+        smooth_part = np.linalg.qr(np.vander(place, ORDER + 1))[0]
+        bend = np.abs(place) - smooth_part @ (smooth_part.T @ np.abs(place))
+        bend /= np.linalg.norm(bend)
+        found = np.correlate(scaled, bend)
+        explained = sum(np.correlate(scaled, column) ** 2 for column in smooth_part.T) + found**2
+        free = length - ORDER - 2
+        left = np.convolve(scaled**2, np.ones(length), "valid") - explained
+        known = left <= free + STEADY * np.sqrt(2.0 * free)
+        middle = deviations[length // 2 : values.size - length // 2]
+        np.maximum(middle, np.abs(found) * known, out=middle)
+    by_chance = -float(ndtri(0.5 * LEVEL / values.size))
+    bends: NDArray[np.intp] = find_peaks(deviations, height=by_chance, distance=LENGTHS[-1] // 2 + 1)[0]
+    return bends
 
 
 def _noise(values: Array, order: int, steps: NDArray[np.intp] = NOWHERE) -> float:
