@@ -16,11 +16,11 @@ from rwn.fit.nominal import nominal_of
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import loss_gained, statistics
 from rwn.measurement import likeliest_law
+from rwn.measurement.beside_filters import losses_beside
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
 from rwn.measurement.likeliest_law import likeliest, likeliest_with_filters, stating, with_intersample, without_unknown
 from rwn.measurement.likelihood import DECISIVE, log_likelihood
-from rwn.measurement.sensor_filter import losses_beside
 from rwn.measurement.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
 from rwn.recording.columns import Layout

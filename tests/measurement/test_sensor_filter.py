@@ -9,7 +9,7 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.fit.fit import fit, fit_nominal
+from rwn.fit.fit import Fit, fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
@@ -19,7 +19,7 @@ from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.unknown import prior_cost
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, known_filters
-from rwn.measurement.sensor_filter import filters_again, sensor_filters
+from rwn.measurement.sensor_filter import _all_at_once, _bases, filters_again, sensor_filters
 from rwn.model.model import Model
 from rwn.recording.filters import as_filtered
 
@@ -206,3 +206,38 @@ def test_filters_of_two_signals_are_told_beside_a_late_input_and_a_start_from_re
     assert not undone.runs[0].in_motion
     again = fit(undone, hypothesis(undone.prior, tuple(start), undone.scales, start, nominal.motor))
     assert again.values_of("input-delay")["delay"] == pytest.approx(3.1 * STEP, rel=0.01)
+
+
+@pytest.fixture(scope="module")
+def twice_filtered() -> tuple[Problem, Fit]:
+    """A drive with friction whose speed and current went through filters of 4 and 2 ms, and the friction."""
+    rng, time = np.random.default_rng(1), 2e-3 * np.arange(2500)
+    voltage = np.repeat(3.0 * rng.uniform(-1.0, 1.0, 50), 50)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    friction = {"coulomb-friction": {"coulomb_torque": 4e-3}}
+    signals = rwn.simulate(replace(MODEL, effects=friction), run).signals
+    shown = {
+        s: as_filtered(time, signals[s] + level * rng.standard_normal(time.size), tau)
+        for s, level, tau in (("speed", 0.2, 4e-3), ("current", 0.01, 2e-3))
+    }
+    problem, nominal = weighted_by_nominal(prepare([replace(run, signals={"voltage": voltage, **shown})], MODEL))
+    return problem, fit(problem, hypothesis(problem.prior, tuple(friction), problem.scales, friction, nominal.motor))
+
+
+def test_filters_that_hide_each_other_are_told_together(twice_filtered: tuple[Problem, Fit]) -> None:
+    """Beside a filter of the speed that is too short the current seems to have none."""
+    problem, this = twice_filtered
+    short, of_current = (
+        SensorFilter(signal=s, share=np.exp(-2e-3 / tau), time_constant=tau, digital=True)
+        for s, tau in (("speed", 2.6e-3), ("current", 1.5e-3))
+    )
+    found = _all_at_once(problem, this, {"speed": short}, [short, of_current], {})
+    assert {f.signal: f.time_constant for f in found} == pytest.approx({"speed": 4e-3, "current": 2e-3}, rel=0.03)
+    assert _all_at_once(problem, this, {"speed": short}, [short], {}) == (short,)
+
+
+def test_only_what_comes_late_may_stand_in_for_a_filter(twice_filtered: tuple[Problem, Fit]) -> None:
+    problem, _ = twice_filtered
+    added = ("coulomb-friction", "voltage-saturation", "input-delay", "current-sensor-lag")
+    whole = fit(problem, hypothesis(problem.prior, added, problem.scales), share=1e-3)
+    assert [base.added for base in _bases(problem, whole)] == [added, added[:2]]

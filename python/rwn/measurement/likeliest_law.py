@@ -14,10 +14,11 @@ from rwn.fit.nominal import nominal_of
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import under_own_noise
 from rwn.fit.residuals import CERTAINLY, loss_gained, statistics
+from rwn.measurement.beside_filters import losses_beside, losses_of
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, log_density
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
-from rwn.measurement.sensor_filter import filters_and_likelihood, losses_beside, losses_of
+from rwn.measurement.sensor_filter import filters_and_likelihood
 from rwn.measurement.unrecorded_input import ROUNDS, has_unknown_input, with_inferred_input
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
@@ -105,7 +106,7 @@ def _with_filters(problem: Problem, explanation: Fit, known: Sequence[SensorFilt
     for _ in range(ROUNDS):
         told, this = under_own_noise(explanation, _input_inferred(problem, explanation, filters))
         counted = {(f.signal, f.digital) for f in filters}
-        filters, likelihood = filters_and_likelihood(told, this, filters)
+        filters, likelihood = filters_and_likelihood(told, explanation if filters else this, filters)
         if not has_unknown_input(problem) or counted == {(f.signal, f.digital) for f in filters}:
             break
     return _Filtered(problem=told, fit=this, filters=filters, likelihood=likelihood)

@@ -12,27 +12,30 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.fit.budget import first_stage, one_stage
-from rwn.fit.fit import NEAR_ITS_END, Fit, fit
+from rwn.fit.budget import one_stage
+from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
-from rwn.fit.refitting import under_own_noise
-from rwn.fit.residuals import loss_gained, losses, statistics
+from rwn.fit.refitting import refitted_beside
+from rwn.fit.residual_noise import with_noise_of
+from rwn.fit.residuals import loss_gained, statistics
 from rwn.fit.screening_part import screening_part
+from rwn.measurement.beside_filters import (
+    SPACING,
+    likelihood_beside,
+    losses_beside,
+    refitted,
+    shown_through,
+)
 from rwn.measurement.filter_colour import SLOWEST, SensorFilter, certain, coloured_signals, is_noise_alone
-from rwn.measurement.known_filters import filtered, log_density
-from rwn.measurement.likelihood import DECISIVE, is_decisive, log_posterior
+from rwn.measurement.known_filters import filtered
+from rwn.measurement.likelihood import DECISIVE, is_decisive
 from rwn.measurement.noise_spectrum import FASTEST, NoiseColour
 from rwn.parallel import side_by_side
-from rwn.recording.filters import share_before
 
 Array = NDArray[np.float64]
 
-SPACING = 0.035  # of the values of phi that are compared: at few rows a time constant it is told to a few per cent
 LIKELY = 4.0  # standard deviations from what the noise tells, within which they lie
-# Fits that a filter is found by at most, as many refine it as scan phi; they may cost a stage together.
-COMPARED = 2 * (round((SLOWEST - FASTEST) / SPACING) + 1)
 DIPS = 3  # lowest values of the likelihood over phi, around which it is refined
 LOG_TOLERANCE = 0.01  # tolerance of the logarithm of a time constant: its standard deviation at N = 10 000
 SIMPLEX = 0.2  # step of the logarithms of time constants, from which those of several filters are fitted together
@@ -52,8 +55,8 @@ def shown_in_noise(problem: Problem, this: Fit) -> bool:
 
 def filters_again(problem: Problem, explanation: Fit, known: Sequence[SensorFilter]) -> tuple[SensorFilter, ...]:
     """The filters beside an explanation that was found under those that are `known`, which the problem is without."""
-    bare, this = under_own_noise(explanation, problem)
-    return filters_and_likelihood(bare, this, known)[0]
+    (this,) = refitted_beside([explanation], filtered(problem, known))
+    return filters_and_likelihood(with_noise_of(problem, this), this, known)[0]
 
 
 def filters_and_likelihood(
@@ -61,22 +64,26 @@ def filters_and_likelihood(
 ) -> tuple[tuple[SensorFilter, ...], float]:
     """The filters that the errors of a fit show, and how likely the recordings are with these (log, BIC).
 
-    `known`: filters under which the explanation was found; they stay unless others are decisively likelier.
+    `known`: filters under which the fit was found; they stay unless others are decisively likelier. Without them it
+    would lose itself in what they did to the motion.
     """
-    residuals = problem.residuals(this.vector, this.active)
+    beside = filtered(problem, known)
+    if known:
+        (this,) = refitted_beside([this], beside)
+    residuals = shown_through(known, beside, beside.residuals(this.vector, this.active))
     seen = coloured_signals(problem, residuals)
     if not certain(seen) and statistics(problem, this).at_the_floor:  # else what is missing may hide it
         seen = []
     told = {one.signal: one.noise for one in seen}
     seen = [*seen, *(replace(f, digital=False) for f in known if f.signal not in told)]
     if not seen:
-        return (), _likelihood(problem, this, ())
-    found = [_filters_beside(problem, base, seen, residuals, told) for base in _bases(problem, this)]
+        return (), likelihood_beside(problem, this, ())
+    found = [_filters_beside(problem, base, seen, residuals, told) for base in _bases(beside, this)]
     filters, score, likelihood = max(found, key=lambda one: one[1])
     if known:
-        stays = _likelihood(problem, this, known)
+        stays = likelihood_beside(problem, this, known)
         on = filtered(problem, filters)
-        if not is_decisive(score - stays - _by_noise(told, known), statistics(on, _refitted(this, on))):
+        if not is_decisive(score - stays - _by_noise(told, known), statistics(on, refitted(this, on))):
             return tuple(known), stays
     return filters, likelihood
 
@@ -102,7 +109,7 @@ def _filters_beside(
                 continue
             asked[one.signal] = others
             on = filtered(problem, others)
-            best = _likeliest_kind(on, _refitted(base, on), found.get(one.signal, one), told)
+            best = _likeliest_kind(on, refitted(base, on), found.get(one.signal, one), told)
             if best is None and is_noise_alone(problem, residuals, one):
                 best = one
             found = {f.signal: f for f in (*others, best) if f is not None}
@@ -111,9 +118,29 @@ def _filters_beside(
         told = {**told, **{one.signal: one.noise for one in uncovered}}
         if len(known) == 1:
             break
-    filters = _together(problem, base, tuple(found.values()), told)
-    likelihood = _likelihood(problem, base, filters)
-    return filters, likelihood + _by_noise(told, filters), likelihood
+    one_by_one = _together(problem, base, tuple(found.values()), told)
+    at_once = _all_at_once(problem, base, found, known, told)
+    likelihoods = {filters: likelihood_beside(problem, base, filters) for filters in {one_by_one, at_once}}
+    filters = max(likelihoods, key=lambda f: likelihoods[f] + _by_noise(told, f))
+    return filters, likelihoods[filters] + _by_noise(told, filters), likelihoods[filters]
+
+
+def _all_at_once(
+    problem: Problem, base: Fit, found: Mapping[str, SensorFilter], known: Sequence[SensorFilter],
+    told: Mapping[str, NoiseColour],
+) -> tuple[SensorFilter, ...]:  # fmt: skip
+    """Digital filters of all signals that may have one; those that were found one by one, if together they err more.
+
+    While one signal's filter is not undone the other's seems shorter, by as much as the first lags behind it, and
+    beside that the first seems to have none.
+    """
+    together = tuple(found.get(f.signal, replace(f, digital=True)) for f in {f.signal: f for f in known}.values())
+    alone = tuple(found.values())
+    if len(together) == len(alone) or not all(f.digital for f in together):
+        return alone
+    filters = _together(problem, base, together, told)
+    lost = loss_gained(losses_beside(problem, base, alone), losses_beside(problem, base, filters))
+    return filters if lost < 0.0 else alone
 
 
 def _uncovered(
@@ -123,7 +150,7 @@ def _uncovered(
     if not found:
         return []
     on = filtered(problem, found)
-    this = _refitted(base, on)
+    this = refitted(base, on)
     seen = coloured_signals(on, on.residuals(this.vector, this.active))
     new = [one for one in seen if one.signal not in {k.signal for k in known} and one.share < SLOWEST]
     return new if certain(seen) else []
@@ -149,7 +176,7 @@ def _together(
     def negative_likelihood(logarithms: Array) -> float:
         filters = at(logarithms)
         inside = all(FASTEST <= f.share <= SLOWEST for f in filters)
-        return -_likelihood(problem, base, filters) - _by_noise(told, filters) if inside else np.inf
+        return -likelihood_beside(problem, base, filters) - _by_noise(told, filters) if inside else np.inf
 
     start = np.log([f.time_constant for f in digital])
     simplex = np.vstack([start, start + SIMPLEX * np.eye(start.size)])
@@ -162,32 +189,15 @@ def _of_time(problem: Problem, f: SensorFilter, time_constant: float) -> SensorF
     return replace(f, time_constant=time_constant, share=problem.share_kept(f.signal, time_constant))
 
 
-def _likelihood(problem: Problem, base: Fit, filters: Sequence[SensorFilter]) -> float:
-    """How likely an explanation and filters beside it are (log, BIC)."""
-    on = filtered(problem, filters)
-    this = _refitted(base, on)
-    unknowns = len(this.hypothesis.unknowns) + len(on.filters)
-    return log_posterior(on, this) - log_density(on) - 0.5 * unknowns * float(np.log(problem.samples))
-
 
 def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
     """An explanation, and the same without lags and delays: any of them may stand in for a filter."""
     yield this
-    kept = tuple(name for name in this.added if not problem.prior.table[name].at_an_end)
+    kept = tuple(name for name in this.added if not problem.prior.table[name].retards)
     if kept != this.added:
         begun = hypothesis(problem.prior, kept, problem.scales, this.starts(kept), this.motor)
         yield fit(problem, begun, share=one_stage(problem.work))
 
-
-def _refitted(this: Fit, problem: Problem) -> Fit:
-    """The same explanation fitted to a problem that may hold other filters.
-
-    A motor that has left what is declared of it may have done so in place of a filter: it begins anew.
-    """
-    starts = {name: this.values_of(name) for name in this.added}
-    motor = this.motor if this.farthest_move < BELIEVABLE else None
-    begun = hypothesis(problem.prior, this.added, problem.scales, starts, motor)
-    return fit(problem, begun, max_iterations=NEAR_ITS_END, share=first_stage() / COMPARED)
 
 
 def _likeliest_kind(
@@ -204,14 +214,14 @@ def _likeliest_kind(
     analog, digital = replace(seen, digital=False), _digital(problem, this, seen, told)
 
     def score(filters: Sequence[SensorFilter]) -> float:
-        return _likelihood(problem, this, filters) + _by_noise(told, filters)
+        return likelihood_beside(problem, this, filters) + _by_noise(told, filters)
 
     scores = {f: score([f]) for f in (analog, digital) if _accuracy_lost(problem, this, f) < 0.0}
     without = score([])
     likely = {f: found for f, found in scores.items() if found > without}
     if len(likely) == 2:
         on = filtered(problem, [digital])
-        left = statistics(on, _refitted(this, on))
+        left = statistics(on, refitted(this, on))
         gained = (likely[digital] - likely[analog]) * left.effective / max(left.count, 1)
         return digital if gained > DECISIVE else analog
     return next(iter(likely), None)
@@ -219,38 +229,11 @@ def _likeliest_kind(
 
 def _accuracy_lost(problem: Problem, this: Fit, f: SensorFilter) -> float:
     """How much worse an explanation simulates the signals as they were recorded with a filter, in deviations."""
-    return loss_gained(losses_of(problem, this), losses_beside(problem, this, [f]))
+    return loss_gained(losses_beside(problem, this, ()), losses_beside(problem, this, [f]))
 
 
-def losses_beside(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) -> Array:
-    """`losses` (n,) of an explanation refitted beside filters, of the rows as they were recorded."""
-    on = filtered(problem, filters)
-    return losses(problem, _as_recorded(on, _refitted(this, on), filters))
 
 
-def losses_of(problem: Problem, this: Fit) -> Array:
-    """`losses` (n,) of an explanation as it was fitted, of the rows as they were recorded."""
-    return losses(problem, _as_recorded(problem, this, ()))
-
-
-def _as_recorded(problem: Problem, this: Fit, filters: Sequence[SensorFilter]) -> list[dict[str, Array]]:
-    """Errors (n,) of each run, by signal, as a filter and the lines between samples show those that they are made of.
-
-    What was found of samples from such rows, or from before a filter, has the noise of these amplified; an input that
-    was inferred from the errors has taken some of it.
-    """
-    from scipy.signal import lfilter  # late: the command line starts without it
-
-    left = [dict(of_a_run) for of_a_run in problem.residuals(this.vector, this.active)]
-    for run, of_a_run in zip(problem.runs, left, strict=True):
-        for f in (f for f in filters if f.digital and f.signal in of_a_run):
-            before = share_before(f.share, run.ticks_per_row)
-            taken_in = (1.0 - f.share) * np.array([1.0 - before, before])
-            of_a_run[f.signal] = lfilter(taken_in, [1.0, -f.share], np.nan_to_num(of_a_run[f.signal]))
-        if run.interpolated is not None:
-            of_a_run.update({s: run.interpolated.shown(x) for s, x in of_a_run.items()})
-        of_a_run.update({s: x / run.noise_left(s) for s, x in of_a_run.items()})
-    return left
 
 
 def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, NoiseColour]) -> SensorFilter:
@@ -259,7 +242,7 @@ def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str,
 
     def negative_score(problem: Problem, logarithm: float) -> float:
         f = _of_time(problem, replace(seen, digital=True), float(np.exp(logarithm)))
-        return -_likelihood(problem, this, [f]) - _by_noise(told, [f])
+        return -likelihood_beside(problem, this, [f]) - _by_noise(told, [f])
 
     def refined(between: Array) -> tuple[float, float]:
         best = minimize_scalar(

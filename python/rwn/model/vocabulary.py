@@ -97,6 +97,11 @@ class Effect:
         return self.site == "sensor" and any(p.unit == "s" for p in self.parameters)
 
     @property
+    def retards(self) -> bool:
+        """Whether it is a lag or a delay, of the input or of a sensor."""
+        return self.delays or self.takes_time
+
+    @property
     def at_an_end(self) -> bool:
         """Whether it belongs to what drives or what is read, not to the motor."""
         return self.site in ("actuator", "sensor")
