@@ -45,6 +45,24 @@ def test_a_speed_that_a_sensor_rectifies_has_none_where_it_turns() -> None:
     assert not SPIKES.flags(run, "speed").any()
 
 
+@pytest.mark.parametrize("frequency", [210.0, 230.0])
+def test_pairs_of_samples_at_the_tops_of_a_fast_ripple_are_none(frequency: float) -> None:
+    """Of less than five samples a period, at one speed of the run: some are beyond all single tops, by little."""
+    for seed in range(5):
+        noise = 0.2 * np.random.default_rng(seed).standard_normal(TIME.size)
+        at_this_speed = np.abs(TIME - 2.0) < 0.2
+        ripple = 15.0 * at_this_speed * np.cos(2.0 * np.pi * frequency * (TIME - 2.0005))
+        assert not SPIKES.flags(_recording(speed=ripple + noise), "speed").any()
+
+
+@pytest.mark.parametrize("speeds", [[26.6, 16.9, 8.9, 0.0, 7.1, 16.6, 10.0], [-0.31, -0.31, 0.21, 0.0, 5.3, 9.1, 14.0]])
+def test_a_speed_that_turns_or_begins_at_0_has_dropped_no_sample(speeds: list[float]) -> None:
+    rng = np.random.default_rng(1)
+    speed = np.repeat([30.0, -25.0, 20.0, 4.0], 1000) + 0.25 * rng.standard_normal(TIME.size)
+    speed[1500:1507] = speeds
+    assert not SPIKES.flags(replace(_recording(speed=speed), signals={"speed": speed}), "speed")[1503]
+
+
 def test_spikes_among_such_peaks_are_found() -> None:
     at = [150, 151, 600, 900, 1801, 3000]
     current = _peaks(0.02)

@@ -61,11 +61,11 @@ def _among(x: Array, after_steps: Flags) -> Flags:
     """The spikes among measured samples x (n,) of a signal; `after_steps` (n,): shortly after a step of the input."""
     found = np.zeros(x.size, dtype=bool)
     bridged = x
-    must_be_beyond = np.pad(after_steps, 1, constant_values=True)
-    must_be_beyond[[1, -2]] = True  # a run from rest may begin with a step
+    may_swing = np.pad(after_steps, 1, constant_values=True)
+    may_swing[[1, -2]] = True  # a run from rest may begin with a step
     for together in TOGETHER:
         mirrored = np.pad(bridged, 1, mode="reflect")  # the first sample has none before it, the last none behind it
-        found |= _alone(mirrored, must_be_beyond, together)[1:-1]
+        found |= _alone(mirrored, may_swing, together)[1:-1]
         known = np.flatnonzero(~found)
         bridged = np.interp(np.arange(x.size), known, x[known])
     return found | _alike(x, found)
@@ -108,13 +108,13 @@ def _alike(x: Array, found: Flags) -> Flags:
     return np.asarray((spikes >= 0.5 * np.bincount(of, minlength=values.size))[of], dtype=np.bool_)
 
 
-def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
+def _alone(x: Array, may_swing: Flags, together: int) -> Flags:
     """So many samples off both neighbours by more than noise, in a signal that rests beside them; dropouts to 0.
 
     It rests where the neighbours differ little from each other, and on one side at least from the next: a current that
     peaks, or a rectified speed that turns, moves on both. Both sides need not, since the next may be another spike.
-    Several together, and those that `must_be_beyond`, are spikes beyond all others alone: a motor may well swing within
-    a few samples.
+    A motor may well swing within a few samples: several together, and those where it `may_swing`, are spikes beyond all
+    others alone, and off by much more than these. A 0 to which those before it or after it lead is no dropout.
     """
     noise = max(noise_from_differences(x), quantum(x))
     if noise == 0.0:
@@ -122,17 +122,21 @@ def _alone(x: Array, must_be_beyond: Flags, together: int) -> Flags:
     limit = most_deviations(x.size) * noise * np.sqrt(1.5)  # a sample against the mean of two
     before, after = x[: -together - 1], x[together + 1 :]
     here = np.stack([x[1 + k : x.size - together + k] for k in range(together)])
-    jump = np.min(np.abs(here - 0.5 * (before + after)), axis=0)
+    jump = np.min(np.minimum(np.abs(here - before), np.abs(here - after)), axis=0)
     off = np.all((here - before) * (here - after) > 0.0, axis=0) & (jump > limit)
-    leads, follows = np.abs(np.diff(before, prepend=np.inf)), np.abs(np.diff(after, append=np.inf))
-    smooth = np.maximum(np.abs(after - before), np.minimum(leads, follows)) < BESIDE * jump
+    leads, follows = np.diff(before, prepend=np.inf), np.diff(after, append=np.inf)
+    smooth = np.maximum(np.abs(after - before), np.minimum(np.abs(leads), np.abs(follows))) < BESIDE * jump
+    swings = may_swing[1:-together] | (together > 1)
     others = ~_in_all(off, together)
     others[[0, -1]] = False  # these are mirrored
-    beyond = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[others]), initial=0.0))
-    dropped = np.all(here == 0.0, axis=0)
+    largest = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[others]), initial=0.0))
+    rest = -np.sort(-jump[off & swings & ~largest])  # few of which may be spikes too, within the range of the motion
+    usual = rest[few] if rest.size > (few := int(RARE * np.count_nonzero(swings))) else 0.0
+    beyond = smooth & largest & (BESIDE * jump > usual)
+    led_to = np.minimum(np.abs(here[0] - before - leads), np.abs(here[-1] - after + follows)) < BESIDE * jump
+    dropped = np.all(here == 0.0, axis=0) & ~led_to
     dropped[[0, -1]] = False  # a run begins and ends at rest
-    may = beyond | (~must_be_beyond[1:-together] & (together == 1))
-    return _in_all(off & (dropped | (smooth & may)), together)
+    return _in_all(off & (dropped | (smooth & ~swings) | beyond), together)
 
 
 def _in_all(first: Flags, together: int) -> Flags:
