@@ -23,6 +23,9 @@ from rwn.unnamed_law.places import range_of, states_of, unit_of_state, unit_of_w
 
 Array = NDArray[np.float64]
 
+LEVEL = 0.01  # chance that a spectrum of noise is drawn
+WORTH_SEEING = 0.05  # of the residual, that the highest line explains
+
 
 def plots(
     ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], unknown: Sequence[UnknownInputs],
@@ -100,13 +103,21 @@ def _spectrum(ranking: Ranking, linear: bool) -> Plot | None:
     grid = spectra.order_grid(problem)
     residuals = problem.residuals(nominal.vector, nominal.active)
     share = spectra.angle_spectrum(problem, nominal.vector, residuals, grid)
-    if share.max() < 0.05:
+    highest = int(np.argmax(share))
+    if share[highest] < max(WORTH_SEEING, _by_chance(share)):
         return None
+    unit = "1/m" if linear else "per rev"
     return Plot(
         slot="spectrum", title="Residual explained by a torque periodic in angle", x_label="order",
-        x_unit="1/m" if linear else "per rev", y_label="share of the residual", y_unit="1",
+        x_unit=unit, y_label="share of the residual", y_unit="1",
         traces=(Trace(name="refitted nominal", role="measured", x=grid, y=share),),
+        note=f"Highest at {grid[highest]:.4g} {unit}: {share[highest]:.0%}.",
     )  # fmt: skip
+
+
+def _by_chance(spectrum: Array) -> float:
+    """What the highest line of noise with this median exceeds once in 1 / LEVEL times: lines are exponential."""
+    return float(np.median(spectrum) / np.log(2.0) * np.log(spectrum.size / LEVEL))
 
 
 def network_over_its_state(made: NetworkCorrection) -> Plot:
