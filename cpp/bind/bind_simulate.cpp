@@ -132,17 +132,17 @@ struct Simulated {
 
 Simulated run(const Task& task, const Array& parameters, const std::vector<int>& active, const std::vector<int>& by,
               std::optional<Work*> work) {
-  const auto n = task.time.size();
+  const auto n = static_cast<py::ssize_t>(task.fixed.time.size());
   const auto p = static_cast<py::ssize_t>(by.size());
   std::vector<Array> out;
   for (int k = 0; k < 3; ++k) out.emplace_back(n);
   for (int k = 0; k < 3; ++k) out.emplace_back(std::vector<py::ssize_t>{n, p});
   const SimulationTask what = task.with(parameters, active, by, work.value_or(nullptr));
-  if (!has_current(task.drive)) {  // untouched zeros
+  if (!has_current(what.drive)) {  // untouched zeros
     std::fill_n(out[0].mutable_data(), out[0].size(), 0.0);
     std::fill_n(out[3].mutable_data(), out[3].size(), 0.0);
   }
-  const bool electrical = has_current(task.drive);
+  const bool electrical = has_current(what.drive);
   const SimulationOutput output{electrical ? view(out[0]) : std::span<double>{}, view(out[1]), view(out[2]),
                                 electrical ? view(out[3]) : std::span<double>{}, view(out[4]), view(out[5])};
   SimulationStatus status;

@@ -12,7 +12,7 @@ struct LeftOver {
 
 LeftOver left_over(const Task& task, const Array& parameters, const std::vector<int>& active, const Array& speed,
                    const Array& position, const Array& acceleration, const Array& current, const Array& current_slope) {
-  Array torque(task.time.size()), voltage(current.size());
+  Array torque(static_cast<py::ssize_t>(task.fixed.time.size())), voltage(current.size());
   unknown_inputs(task.with(parameters, active, {}, nullptr),
                  {.current = view(current),
                   .current_slope = view(current_slope),

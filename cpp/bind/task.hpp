@@ -1,7 +1,6 @@
 // What is simulated, as Python holds it: the arrays of one run and the equations that it obeys.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "bind.hpp"
@@ -9,36 +8,22 @@
 
 namespace rwn::bind {
 
-/// The part of a SimulationTask that stays while its parameters are tried; keeps its arrays.
+/// The part of a SimulationTask that stays while its parameters are tried, and what its spans view.
 struct Task {
-  int drive = 0;
-  Array time, input, input_time, angle, restart_speed, restart_position;
-  double angle_per_position = 1.0, input_before = 0.0;
-  bool angle_from_speed = false, angle_from_start = false;
-  int restart_every = 0, order = 0;
+  SimulationTask fixed;
+  std::vector<Array> arrays;
   std::vector<OwnEffect> own;
 
   /// With parameters, the effects `active`, and derivatives by the parameters `by`; all of these outlive the call.
   SimulationTask with(const Array& parameters, const std::vector<int>& active, const std::vector<int>& by,
                       Work* work) const {
-    return {.drive = drive,
-            .time = view(time),
-            .input = view(input),
-            .input_time = view(input_time),
-            .parameters = view(parameters),
-            .active = active,
-            .by = by,
-            .angle_per_position = angle_per_position,
-            .input_before = input_before,
-            .angle = view(angle),
-            .angle_from_speed = angle_from_speed,
-            .angle_from_start = angle_from_start,
-            .restart_every = restart_every,
-            .restart_speed = view(restart_speed),
-            .restart_position = view(restart_position),
-            .order = order,
-            .own = own,
-            .work = work};
+    SimulationTask task = fixed;
+    task.own = own;
+    task.parameters = view(parameters);
+    task.active = active;
+    task.by = by;
+    task.work = work;
+    return task;
   }
 };
 

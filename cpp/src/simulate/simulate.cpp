@@ -162,7 +162,8 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
   const auto programs = programs_of(task.own);
   bool formula_failed = false;
   long work = 0;
-  SimulationSlice slice{.time = task.time.data(),
+  SimulationSlice slice{.settings = static_cast<const RunSettings&>(task),
+                        .time = task.time.data(),
                         .input = task.input.data(),
                         .input_time = task.input_time.empty() ? task.time.data() : task.input_time.data(),
                         .inputs = static_cast<int>(task.input.size()),
@@ -173,12 +174,7 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         .first_parameter = offsets().data(),
                         .column_of = column_of.data(),
                         .column = 0,
-                        .angle_per_position = task.angle_per_position,
-                        .input_before = task.input_before,
                         .angle = task.angle.empty() ? nullptr : task.angle.data(),
-                        .angle_from_speed = task.angle_from_speed,
-                        .angle_from_start = task.angle_from_start,
-                        .restart_every = task.restart_every,
                         .restart_speed = task.restart_speed.data(),
                         .restart_position = task.restart_position.data(),
                         .current = pointer(output.current),
@@ -189,7 +185,6 @@ SimulationStatus simulate(const SimulationTask& task, const SimulationOutput& ou
                         .d_position = pointer(output.d_position),
                         .columns = columns,
                         .masses = 1 + joint_count(task.active),
-                        .order = task.order,
                         .first_coefficient = first_coefficient(),
                         .own = programs.data(),
                         .first_own = first_own_parameter(),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,12 +81,17 @@ class Simulator:
     def task(self, run: Run) -> _core.Task:
         """A run under these equations, as the core takes it."""
         given = (run.input, ()) if run.applied_input is None else (run.applied_input.values, run.applied_input.instants)
-        return _core.Task(
-            self.kind, time=run.time, input=given[0], input_time=given[1], angle_per_position=self.angle_per_position,
-            input_before=run.input_before, angle=run.followed, angle_from_speed=run.angle_from_speed,
-            angle_from_start=run.angle_from_start,
+        return self.given_input(
+            run.time, given[0], input_time=given[1], input_before=run.input_before, angle=run.followed,
+            angle_from_speed=run.angle_from_speed, angle_from_start=run.angle_from_start,
             restart_every=run.restart_every, restart_speed=run.restart_speed, restart_position=run.restart_position,
-            order=self.order, own=list(self.own),
+        )  # fmt: skip
+
+    def given_input(self, time: Array, values: Array, **of_a_run: Any) -> _core.Task:
+        """These equations over `time` (n,) under the `values` of an input; `of_a_run`: what else `_core.Task` takes."""
+        return _core.Task(
+            self.kind, time=time, input=values, angle_per_position=self.angle_per_position, order=self.order,
+            own=list(self.own), **of_a_run,
         )  # fmt: skip
 
     def simulate(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int] = ()) -> Output:

@@ -84,10 +84,7 @@ def along_motion(
     An empty `current` is at rest with the speed, and the voltage is empty then.
     """
     slope = np.gradient(current, time) if current.size else current
-    task = _core.Task(
-        simulator.kind, time=np.ascontiguousarray(time), input=np.ascontiguousarray(driven),
-        angle_per_position=simulator.angle_per_position, own=list(simulator.own),
-    )  # fmt: skip
+    task = simulator.given_input(np.ascontiguousarray(time), np.ascontiguousarray(driven))
     motion = {"speed": speed, "position": position, "acceleration": acceleration, "current": current}
     arrays = {name: np.ascontiguousarray(x) for name, x in (motion | {"current_slope": slope}).items()}
     parameters = vector[: _core.parameter_count()]  # no start of a run counts here

@@ -9,6 +9,7 @@
 #include "rwn/model/drives.hpp"
 #include "rwn/model/effects.hpp"
 #include "rwn/model/own_effect.hpp"
+#include "rwn/simulate/run_settings.hpp"
 #include "rwn/simulate/work.hpp"
 
 namespace rwn {
@@ -36,8 +37,9 @@ int drive_of(std::string_view name);
 /// How many of the effects bring a second mass.
 int joint_count(std::span<const int> active);
 
-/// What to simulate; spans must outlive the call.
-struct SimulationTask {
+/// What to simulate; spans must outlive the call. A new field stands here, or in RunSettings where it is one number, and
+/// in the list of keyword arguments in cpp/bind/bind_task.cpp; an array has its pointer in SimulationSlice.
+struct SimulationTask : RunSettings {
   int drive = 0;                       // place in the table of drives
   std::span<const double> time;        // (n) [s], increasing
   std::span<const double> input;       // (m) voltage [V] or torque [N m], held from its instant to the next
@@ -45,17 +47,11 @@ struct SimulationTask {
   std::span<const double> parameters;  // (parameter_count()) SI
   std::span<const int> active;         // effects switched on, by index in the table; own effects count on behind it
   std::span<const int> by;             // (p) parameters to differentiate by
-  double angle_per_position = 1.0;     // 2 pi for a linear axis
-  double input_before = 0.0;           // input before the first row (matters with an input delay)
   std::span<const double> angle;       // (n) recorded position that angle-dependent effects follow instead of the
                                        // simulated one, which drifts; empty: free run
-  bool angle_from_speed = false;       // that is the integral of a recorded speed, with what its sensor adds
-  bool angle_from_start = false;       // that is counted from the initial position
-  int restart_every = 0;               // samples of a window, after which the motion restarts from the recorded one
   std::span<const double> restart_speed, restart_position;  // (n) recorded motion; not read where restart_every is 0
-  int order = 0;                                             // of a transfer function (drive lti)
-  std::span<const OwnEffect> own;  // users' effects, by slot; none for drive lti
-  Work* work = nullptr;            // what the run costs is added here
+  std::span<const OwnEffect> own;      // users' effects, by slot; none for drive lti
+  Work* work = nullptr;                // what the run costs is added here
 };
 
 /// Signals at the rows' times, before the new input acts; derivatives are (n, p) row-major. Empty spans are not

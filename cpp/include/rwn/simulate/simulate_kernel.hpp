@@ -54,7 +54,7 @@ class Simulation {
     State state = initial(integrator);
     integrator.settle(state);
     prepare(state);
-    if (slice_.angle_from_start) first_angle_ = state.position;
+    if (slice_.settings.angle_from_start) first_angle_ = state.position;
     if constexpr (!Drive::coefficients) {
       if (integrator.plain() && is_plain()) {
         const auto show = [this](int k, const auto& s) {
@@ -67,11 +67,10 @@ class Simulation {
       }
     }
     for (int k = 0; k < slice_.samples; ++k) {
-      if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position)))
-        return k;
+      if (!std::isfinite(value_of(state.x[w])) || !std::isfinite(value_of(state.position))) return k;
       write(k, state);
       if (has_own_ && *slice_.formula_failed) return k;
-      if (slice_.restart_every > 0 && k > 0 && k % slice_.restart_every == 0) {
+      if (slice_.settings.restart_every > 0 && k > 0 && k % slice_.settings.restart_every == 0) {
         state.x[w] = S(slice_.restart_speed[k]);
         jumped_ += slice_.restart_position[k] - state.position;
         state.position = S(slice_.restart_position[k]);
@@ -86,14 +85,14 @@ class Simulation {
   /// Whether every row is a command that acts until the next, and no more is asked than what that does.
   bool is_plain() const {
     return !delayed_ && break_count_ == 0 && slice_.input_time == slice_.time && !actuates_ && !senses_ && !has_own_ &&
-           slice_.restart_every == 0;
+           slice_.settings.restart_every == 0;
   }
 
   Plant plant() const {
     if constexpr (Drive::coefficients) {
-      return {coefficients_.data(), slice_.order, effects_.data(), slice_.active_count};
+      return {coefficients_.data(), slice_.settings.order, effects_.data(), slice_.active_count};
     } else {
-      return {motor_, effects_.data(), slice_.active_count, slice_.angle_per_position};
+      return {motor_, effects_.data(), slice_.active_count, slice_.settings.angle_per_position};
     }
   }
 
@@ -135,7 +134,7 @@ class Simulation {
                   (e.own != nullptr && e.own->term() == Term::input);
       senses_ = senses_ || e.call.sense != nullptr || (e.own != nullptr && is_sensor(e.own->term()));
       Reading<S> first = reading(s);
-      first.input = S(slice_.input_before);
+      first.input = S(slice_.settings.input_before);
       if (e.call.begin != nullptr) e.call.begin(e.p, first, s.memory.data() + e.memory);
     }
   }
@@ -164,9 +163,9 @@ class Simulation {
     const Reading<S> y = reading(s);
     x.current = y.current;
     x.speed = y.speed;
-    const bool recorded = slice_.angle != nullptr && !slice_.angle_from_speed;
-    x.angle = slice_.angle_per_position * (recorded ? slice_.angle[k] + first_angle_ : y.position + offset_);
-    x.angle_per_position = slice_.angle_per_position;
+    const bool recorded = slice_.angle != nullptr && !slice_.settings.angle_from_speed;
+    x.angle = slice_.settings.angle_per_position * (recorded ? slice_.angle[k] + first_angle_ : y.position + offset_);
+    x.angle_per_position = slice_.settings.angle_per_position;
     x.drive_torque = drive_torque(s, input);
     if constexpr (!Drive::coefficients) x.direction = s.direction;
     return x;
@@ -180,7 +179,7 @@ class Simulation {
     }
   }
 
-  double command(int index) const { return index < 0 ? slice_.input_before : slice_.input[index]; }
+  double command(int index) const { return index < 0 ? slice_.settings.input_before : slice_.input[index]; }
 
   void advance(Plant& integrator, State& s, int k) {
     const double begin = slice_.time[k];
@@ -242,7 +241,7 @@ class Simulation {
   void write(int k, const State& s) {
     Reading<S> y = reading(s);
     if (senses_) sense(k, s, y);
-    if (slice_.angle_from_speed) integrate(k, y.speed);
+    if (slice_.settings.angle_from_speed) integrate(k, y.speed);
     store(k, y.current, slice_.current, slice_.d_current);
     store(k, y.speed, slice_.speed, slice_.d_speed);
     store(k, y.position, slice_.position, slice_.d_position);
@@ -266,7 +265,8 @@ class Simulation {
   /// What angle-dependent effects follow minus the simulated position. An integrated speed turns with its sensor's
   /// errors; the simulated reading, integrated likewise, takes them out. The initial position is the angle it starts at.
   S offset(int k, const S& position) const {
-    return slice_.angle_from_speed ? slice_.angle[k] - turned_ - jumped_ : slice_.angle[k] + first_angle_ - position;
+    const double given = slice_.angle[k];
+    return slice_.settings.angle_from_speed ? given - turned_ - jumped_ : given + first_angle_ - position;
   }
 
   void store(int k, const S& y, double* values, double* slopes) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rwn/model/own_effect.hpp"
+#include "rwn/simulate/run_settings.hpp"
 
 namespace rwn {
 
@@ -11,6 +12,7 @@ inline constexpr int width_of_two_masses = 8;
 /// As SimulationTask, in plain pointers (files of cpp/kernels use no std containers); derivatives by columns
 /// [column, column + N) of `by`.
 struct SimulationSlice {
+  RunSettings settings;
   const double* time;
   const double* input;
   const double* input_time;  // instants from which the inputs are held
@@ -22,18 +24,12 @@ struct SimulationSlice {
   const int* first_parameter;  // per effect of the table
   const int* column_of;        // per parameter: its column, or -1
   int column;
-  double angle_per_position;
-  double input_before;
   const double* angle;  // recorded position, or null
-  bool angle_from_speed;
-  bool angle_from_start;
-  int restart_every;  // 0: never
   const double* restart_speed;
   const double* restart_position;
   double *current, *speed, *position, *d_current, *d_speed, *d_position;
   int columns;             // row length of the derivative arrays
   int masses;              // 1, or 2 where an effect brings a joint
-  int order;               // of a transfer function
   int first_coefficient;   // place of its coefficients among the parameters
   const OwnProgram* own;   // by slot
   int first_own;           // place of the parameters of slot 0
