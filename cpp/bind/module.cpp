@@ -5,6 +5,7 @@
 namespace rwn::bind {
 void bind_own_effect(py::module_& m);
 void bind_work(py::module_& m);
+void bind_winding(py::module_& m);
 void bind_task(py::module_& m);
 void bind_unknown_inputs(py::module_& m);
 void bind_normal_equations(py::module_& m);
@@ -28,6 +29,7 @@ PYBIND11_MODULE(_core, m, pybind11::mod_gil_not_used()) {
   m.def("isa", [] { return std::string(rwn::to_string(rwn::isa())); }, "Instruction set in use.");
   bind_own_effect(m);
   bind_work(m);
+  bind_winding(m);
   bind_task(m);
   bind_unknown_inputs(m);
   bind_normal_equations(m);

@@ -29,6 +29,24 @@ class Work:
         """
         So far; one unit is about a nanosecond of a 4 GHz core.
         """
+class Winding:
+    """
+    A winding under a current [A], a speed [rad/s] and an input [V]: numbers or arrays.
+    """
+    def __init__(self, *, resistance: typing.SupportsFloat | typing.SupportsIndex, inductance: typing.SupportsFloat | typing.SupportsIndex, torque_constant: typing.SupportsFloat | typing.SupportsIndex, back_emf_constant: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def back_emf(self, speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        ...
+    def braking_rate(self, inertia: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        ...
+    def heat(self, square: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        ...
+    def resting_current(self, speed: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], input: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        ...
+    def resting_voltage(self, current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        ...
+    def torque(self, current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        ...
 class Task:
     """
     What is simulated: a drive, the input of one run, and what its effects follow.

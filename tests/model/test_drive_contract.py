@@ -21,6 +21,7 @@ struct Spring {
   class Electrics {
    public:
     explicit Electrics(const Motor<S>&) {}
+    static const Winding<S>& winding() { return no_winding<S>; }
     void begin(auto&) const {}
     static S current(const auto&) { return S(0.0); }
     S TORQUE(const auto&, const S&, const S& input) const { return input; }
@@ -49,7 +50,7 @@ def test_a_drive_compiles(tmp_path: Path) -> None:
         ({"WIDTHS": "3"}, "are multiples of 4, ascending"),
         ({"FORCED": "false"}, "a drive has electrical `states`, or its input is a torque (`forced`), and not both"),
         ({"STATES": "1"}, "a drive has electrical `states`, or its input is a torque (`forced`), and not both"),
-        ({"TORQUE": "force"}, "`Electrics` of a drive has begin, current and torque"),
+        ({"TORQUE": "force"}, "`Electrics` of a drive has winding, begin, current and torque"),
         ({"STATES": "1", "FORCED": "false"}, "`Electrics` of a drive with states lacks a member"),
     ],
 )

@@ -34,7 +34,7 @@ def test_a_current_that_was_not_recorded_is_the_one_at_rest_with_the_speed() -> 
     (_, model) = MODELS
     rng = np.random.default_rng(1)
     speed, voltage = rng.uniform(-100.0, 100.0, (2, 50))
-    resting = DC.resting_current({"resistance": 6.0, "back_emf_constant": 0.05}, speed, voltage)
+    resting = DC.resting_current(WINDING, speed, voltage)
     torques = [
         along_motion(
             Simulator.of(model), model.vector, [], time=STEP * np.arange(50.0), driven=voltage, position=np.zeros(50),

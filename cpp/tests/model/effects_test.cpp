@@ -22,6 +22,8 @@ double friction_of() {
   for (std::size_t k = 0; k < p.size(); ++k) p[k] = E::parameters[k].start;
   Motion<double> x;
   x.current = x.speed = x.position = x.angle = x.drive_torque = 0.5;
+  const Winding<double> winding{.resistance = 1.0, .inductance = 1.0, .torque_constant = 1.0, .back_emf_constant = 1.0};
+  x.winding = &winding;
   std::array<double, max_memories> memory{};
   x.memory = memory.data();
   Terms<double> t;

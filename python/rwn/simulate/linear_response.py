@@ -1,4 +1,4 @@
-"""The drive's linear answer to a torque: J dr/dt + (B + D) r = T for a speed r, D what the drive itself brakes by."""
+"""The drive's linear answer to a torque: J dr/dt + (B + D) r = T for a speed r, D its `speed_damping`."""
 
 from __future__ import annotations
 

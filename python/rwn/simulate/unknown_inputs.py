@@ -43,9 +43,9 @@ def unknown_inputs(
 ) -> UnknownInputs:
     """Inverse dynamics along the recorded motion (n,), under the effects that are `active`.
 
-    torque = J dw/dt + B w + friction - Kt i (or minus the driving torque); voltage = v - R i - L di/dt - Ke w. With
-    voltage and speed alone the current is at rest with the speed, so both carry the mismatch. A transfer function has
-    no torque: its place is taken by the error of the output; `vector` then holds the state at the start of the run.
+    They are what the equations of cpp/include/rwn/model/motor.hpp lack on their right sides. With voltage and speed
+    alone the current is at rest with the speed, so both carry the mismatch. A transfer function has no torque: its
+    place is taken by the error of the output; `vector` then holds the state at the start of the run.
     """
     speed, acceleration = run.motion
     none = np.zeros(speed.size)

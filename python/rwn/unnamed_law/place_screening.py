@@ -1,8 +1,8 @@
 """The places at which a wavelet network promises most: what each explains of a residual to first order.
 
-A torque drives the speed as the linear drive does, J dr/dt + (B + D) r = T, D what the drive itself brakes by; a
-voltage lost in the winding is a current at standstill, and the torque of that. Each wavelet or harmonic goes through
-that filter as a regressor; one simulation serves all places.
+A torque drives the speed as the linear drive does (`rwn.simulate.linear_response`); a voltage lost in the winding is a
+current at standstill, and the torque of that. Each wavelet or harmonic goes through that filter as a regressor; one
+simulation serves all places.
 """
 
 from __future__ import annotations

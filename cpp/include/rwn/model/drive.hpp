@@ -32,6 +32,7 @@ struct AnyMotion {
 
 template <class E>
 concept BeforeTheShaft = requires(const E& e, AnyState& x, const double& input) {
+  { e.winding() } -> std::same_as<const Winding<double>&>;
   { e.begin(x) };
   { E::current(x) } -> std::convertible_to<double>;
   { e.torque(x, input, input) } -> std::convertible_to<double>;
@@ -72,7 +73,7 @@ consteval bool is_drive() {
     static_assert(D::forced == (D::states == 0),
                   "a drive has electrical `states`, or its input is a torque (`forced`), and not both");
     static_assert(detail::BeforeTheShaft<typename D::template Electrics<double>>,
-                  "`Electrics` of a drive has begin, current and torque");
+                  "`Electrics` of a drive has winding, begin, current and torque");
     if constexpr (D::states > 0) {
       static_assert(detail::WithStates<typename D::template Electrics<double>>,
                     "`Electrics` of a drive with states lacks a member: see drives/dc.hpp");

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "rwn/model/parameter.hpp"
+#include "rwn/model/winding.hpp"
 #include "rwn/numerics/dual.hpp"
 
 namespace rwn {
@@ -64,6 +65,7 @@ struct Motion {
   double angle_per_position = 1.0;  // rad/rad, or 2 pi rad/m
   S drive_torque{};                 // Kt i, or the driving torque of an axis [N m]
   S travel{};                       // position minus position at the start of the step
+  const Winding<S>* winding = &no_winding<S>;  // what drives the current, where the drive has such
   const S* memory = nullptr;        // this effect's own memory, as of the start of the step
 };
 
@@ -80,12 +82,6 @@ struct Terms {
   S inertia_slope{0.0};  // dJ2/dtheta
   double drop_slope = 0.0;  // d drop / d i: keeps the integrator stable [ohm]
 };
-
-/// Rate at which the back-EMF brakes a motor whose winding follows at once [1/s].
-template <class S>
-double damping_of_back_emf(const Motor<S>& m) {
-  return value_of(m[torque_constant]) * value_of(m[back_emf_constant]) / (value_of(m[resistance]) * value_of(m[inertia]));
-}
 
 /// What the sensors say of one sample.
 template <class S>

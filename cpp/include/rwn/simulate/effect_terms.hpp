@@ -95,6 +95,7 @@ class EffectTerms {
             .angle_per_position = angle_per_position_,
             .drive_torque = drive_torque(s),
             .travel = s.position - start,
+            .winding = &electrics_.winding(),
             .memory = nullptr};
   }
 

@@ -5,35 +5,28 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from rwn import _core
 from rwn.model.drives.axis import AXIS
-from rwn.model.drives.drive import MECHANICAL_TERMS, MECHANICS, USUAL_VOLTAGE, Drive, Numbers, OneNumber, nominal
+from rwn.model.drives.drive import MECHANICAL_TERMS, MECHANICS, OneNumber, nominal
+from rwn.model.drives.winding import WindingDrive
 
 NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
 
 
 @dataclass(frozen=True, kw_only=True)
-class Winding(Drive):
-    """A voltage drives a current, and that the shaft."""
+class DcMotor(WindingDrive):
+    """Its winding is that of its terminals, and of a field that does not change."""
 
-    def driving_torque(self, motor: Mapping[str, float], current: Numbers, given: Numbers) -> Numbers:  # noqa: ARG002
-        """Kt i, of numbers or (n,)."""
-        return motor["torque_constant"] * current
+    def winding_of(self, motor: Mapping[str, float]) -> _core.Winding:
+        """Of R, L, Kt and Ke."""
+        return _core.Winding(
+            resistance=motor["resistance"], inductance=motor["inductance"],
+            torque_constant=motor["torque_constant"], back_emf_constant=motor["back_emf_constant"],
+        )  # fmt: skip
 
     def torque_spread(self, uncertainty: Mapping[str, float]) -> float:
         """That of Kt."""
         return float(uncertainty.get("torque_constant", 0.0))
-
-    def resting_current(self, motor: Mapping[str, float], speed: Numbers, given: Numbers) -> Numbers:
-        """Without inductance, of numbers or (n,): as that of the core's drive (drives/dc.hpp) without effects."""
-        return (given - motor["back_emf_constant"] * speed) / motor["resistance"]
-
-    def resting_voltage(self, motor: Mapping[str, float], current: Numbers) -> Numbers:
-        """R i."""
-        return motor["resistance"] * current
-
-    def back_emf(self, motor: Mapping[str, float], speed: Numbers) -> Numbers:
-        """Ke w."""
-        return motor["back_emf_constant"] * speed
 
     def halves(self, motor: Mapping[str, float]) -> str:
         """The shaft alone, driven by the recorded current."""
@@ -43,19 +36,6 @@ class Winding(Drive):
             'current: `kind = "axis"` with inertia and friction, and '
             f'`columns.torque = {{ source = "<the column of the current>", unit = "A", scale = "{scale}" }}`.'
         )
-
-    def usual_input(self, motor: Mapping[str, float]) -> float:  # noqa: ARG002
-        """A voltage [V], to a factor of some hundred."""
-        return USUAL_VOLTAGE
-
-    def heat(self, motor: Mapping[str, float], square: float) -> float:
-        """R i^2."""
-        return motor["resistance"] * square
-
-    def speed_damping(self, motor: Mapping[str, float]) -> float:
-        """Kt Ke / R, where the current is at rest with the speed."""
-        coupling = motor["torque_constant"] * motor["back_emf_constant"]
-        return coupling / motor["resistance"]
 
     def speed_spread(self, uncertainty: Mapping[str, float]) -> float:
         """Relative standard deviation of the speed: that of Ke, as a motor runs as fast as its back-EMF is large."""
@@ -67,7 +47,7 @@ class Winding(Drive):
         return {**motor, "inductance": NO_TRANSIENT * motor["resistance"]} if none else dict(motor)
 
 
-DC = Winding(
+DC = DcMotor(
     kind="dc",
     input="voltage",
     outputs=("speed", "position", "current"),
@@ -85,6 +65,5 @@ DC = Winding(
         "back_emf_constant": ("drop", "speed"),
     },
     one_numbers=(OneNumber(name="torque_constant", like="back_emf_constant", spread=0.02),),  # with a constant field
-    winding=True,
     mechanics=AXIS,
 )

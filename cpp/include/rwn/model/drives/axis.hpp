@@ -20,6 +20,7 @@ struct AxisDrive {
    public:
     explicit Electrics(const Motor<S>&) {}
 
+    static const Winding<S>& winding() { return no_winding<S>; }
     void begin(auto&) const {}
     static S current(const auto&) { return S(0.0); }
     S torque(const auto&, const S& flux, const S& input) const { return input * flux; }

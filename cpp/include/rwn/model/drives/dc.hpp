@@ -19,20 +19,28 @@ struct DcDrive {
   template <class S>
   class Electrics {
    public:
-    explicit Electrics(const Motor<S>& motor) : motor_(motor), inverse_inductance_(1.0 / motor[inductance]) {}
+    explicit Electrics(const Motor<S>& motor)
+        : winding_{.resistance = motor[resistance],
+                   .inductance = motor[inductance],
+                   .torque_constant = motor[torque_constant],
+                   .back_emf_constant = motor[back_emf_constant]},
+          initial_current_(motor[initial_current]),
+          inverse_inductance_(1.0 / winding_.inductance) {}
 
-    void begin(auto& x) const { x[0] = motor_[initial_current]; }
+    const Winding<S>& winding() const { return winding_; }
+
+    void begin(auto& x) const { x[0] = initial_current_; }
     static S current(const auto& x) { return x[0]; }
 
     /// Torque on the shaft: its linear part, and as the flux has it.
-    S linear_torque(const auto& x) const { return motor_[torque_constant] * x[0]; }
-    S torque(const auto& x, const S& flux, const S&) const { return motor_[torque_constant] * flux * x[0]; }
+    S linear_torque(const auto& x) const { return winding_.torque(x[0]); }
+    S torque(const auto& x, const S& flux, const S&) const { return winding_.torque_constant * flux * x[0]; }
 
     /// Its part of A (n by n), the speed in row `w`; the resistance counts 2^level times.
     void couple(auto& a, std::size_t n, std::size_t w, double resistances, const S& inverse_inertia, bool stick) const {
-      a[0] = -(resistances * motor_[resistance] * inverse_inductance_);
-      a[w] = -(motor_[back_emf_constant] * inverse_inductance_);
-      if (!stick) a[w * n] = motor_[torque_constant] * inverse_inertia;
+      a[0] = -(resistances * winding_.resistance * inverse_inductance_);
+      a[w] = -(winding_.back_emf_constant * inverse_inductance_);
+      if (!stick) a[w * n] = winding_.torque_constant * inverse_inertia;
     }
 
     /// dx/dt that the linear part leaves where no effect changes the winding.
@@ -40,21 +48,21 @@ struct DcDrive {
 
     /// The same in general.
     void remainder(auto& f, const auto& x, const S& speed, const Terms<S>& t, const S& input, double resistances) const {
-      const S back_emf = motor_[back_emf_constant] * speed;
+      const S back_emf = winding_.back_emf(speed);
       S rate = voltage_left(x, back_emf, t, input);
       rate *= inverse_inductance_;
       if (value_of(t.inductance) != 1.0) rate /= t.inductance;
-      f[0] = rate + (resistances * motor_[resistance] * x[0] + back_emf) * inverse_inductance_;
+      f[0] = rate + (resistances * winding_.resistance * x[0] + back_emf) * inverse_inductance_;
     }
 
     /// Voltage that the equation leaves over along a motion whose current changes by `slope` [A/s].
     S unknown_voltage(const auto& x, const S& speed, const Terms<S>& t, const S& input, double slope) const {
-      return voltage_left(x, motor_[back_emf_constant] * speed, t, input) - motor_[inductance] * t.inductance * slope;
+      return voltage_left(x, winding_.back_emf(speed), t, input) - winding_.inductance * t.inductance * slope;
     }
 
     /// Current in equilibrium with a speed: what a current that was not recorded is taken for.
     S resting_current(const S& speed, const S& input) const {
-      return (input - motor_[back_emf_constant] * speed) / motor_[resistance];
+      return winding_.resting_current(speed, input);
     }
 
     /// A state with the electrical part at rest.
@@ -64,30 +72,32 @@ struct DcDrive {
     }
 
     /// Rate of its transient [1/s].
-    double rate(const Terms<S>& t) const { return value_of(motor_[resistance]) / value_of(motor_[inductance] * t.inductance); }
+    double rate(const Terms<S>& t) const {
+      return value_of(winding_.resistance) / value_of(winding_.inductance * t.inductance);
+    }
 
     /// Whether the current is about where it would settle, where `f` is what the linear part leaves of dx/dt. A step
     /// counts the current of its start for a sixth.
     bool is_settled(const auto& x, const auto& f, const Terms<S>& t) const {
-      const double drop = value_of(motor_[resistance] * x[0] + motor_[back_emf_constant] * x[states]);
+      const double drop = value_of(winding_.resting_voltage(x[0]) + winding_.back_emf(x[states]));
       const double slope = value_of(f[0]) - drop * value_of(inverse_inductance_);
       return std::abs(slope) < settled_within * rate(t) * std::abs(value_of(x[0]));
     }
 
     /// How much faster it is than R/L; `slope`: of the voltage drops over the current [ohm].
     double speed_up(const Terms<S>& t, double slope) const {
-      return (value_of(t.resistance) + slope / value_of(motor_[resistance])) / value_of(t.inductance);
+      return (value_of(t.resistance) + slope / value_of(winding_.resistance)) / value_of(t.inductance);
     }
 
    private:
     static constexpr double settled_within = 0.001;  // of a current: a step's torque is then off by 2e-4 at most
 
     S voltage_left(const auto& x, const S& back_emf, const Terms<S>& t, const S& input) const {
-      return input - motor_[resistance] * t.resistance * x[0] - back_emf * t.flux - t.drop;
+      return input - winding_.resistance * t.resistance * x[0] - back_emf * t.flux - t.drop;
     }
 
-    const Motor<S>& motor_;
-    S inverse_inductance_;
+    Winding<S> winding_;
+    S initial_current_, inverse_inductance_;
   };
 };
 

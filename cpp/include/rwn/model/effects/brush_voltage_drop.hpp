@@ -40,14 +40,15 @@ struct BrushVoltageDrop {
   }
   /// The drop changes sign within a step where the current does: how often it passes the transition then.
   template <class S>
-  static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double, double) {
+  static double rate(const S* p, const Motor<S>&, const Motion<S>& x, double, double) {
+    const Winding<S>& winding = *x.winding;
     const double transition = value_of(p[1]), i = value_of(x.current);
-    const double drive = value_of(x.input) - value_of(m[back_emf_constant]) * value_of(x.speed);
+    const double drive = value_of(winding.driving_voltage(x.speed, x.input));
     const double drop = value_of(p[0]) * std::tanh(i / transition);
-    const double settled = (drive - drop) / value_of(m[resistance]);
+    const double settled = (drive - drop) / value_of(winding.resistance);
     const double reach = 4.0 * transition;
     if (std::min(i, settled) > reach || std::max(i, settled) < -reach) return 0.0;
-    return std::abs(drive - drop - value_of(m[resistance]) * i) / (value_of(m[inductance]) * transition);
+    return std::abs(drive - drop - value_of(winding.resistance) * i) / (value_of(winding.inductance) * transition);
   }
 };
 

@@ -30,16 +30,16 @@ struct CoastingBridge {
   static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate};
 
   template <class S>
-  static void apply(const S* p, const Motor<S>& motor, const Motion<S>& x, Terms<S>& t) {
+  static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
     using std::abs;
     const S off = 1.0 - abs(x.input) / p[1];  // share of a period without a pulse
-    if (value_of(off) > 0.0) t.drop -= p[0] * off * motor[back_emf_constant] * x.speed;
+    if (value_of(off) > 0.0) t.drop -= p[0] * off * x.winding->back_emf_constant * x.speed;
   }
   /// It takes a part of the back-EMF out of the equations, and of its damping.
   template <class S>
   static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double, double) {
     const double off = 1.0 - std::abs(value_of(x.input)) / value_of(p[1]);
-    return off > 0.0 ? value_of(p[0]) * off * damping_of_back_emf(m) : 0.0;
+    return off > 0.0 ? value_of(p[0]) * off * x.winding->braking_rate(value_of(m[inertia])) : 0.0;
   }
 };
 

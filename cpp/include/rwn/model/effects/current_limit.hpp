@@ -30,32 +30,34 @@ struct CurrentLimit {
 
   /// A current that is on its way to the limit is linearised as it will be there: a step may end where it limits.
   template <class S>
-  static void apply(const S* p, const Motor<S>& motor, const Motion<S>& x, Terms<S>& t) {
-    const double sign = driven(motor, x) < 0.0 ? -1.0 : 1.0;
-    if (std::abs(driven(motor, x)) <= value_of(motor[resistance] * p[0])) return;
-    const S left = x.input - motor[back_emf_constant] * x.speed - motor[resistance] * x.current;
-    const S excess = left - p[1] * motor[resistance] * (sign * p[0] - x.current);
+  static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
+    const Winding<S>& winding = *x.winding;
+    const double sign = driven(x) < 0.0 ? -1.0 : 1.0;
+    if (std::abs(driven(x)) <= value_of(winding.resting_voltage(p[0]))) return;
+    const S left = winding.driving_voltage(x.speed, x.input) - winding.resting_voltage(x.current);
+    const S excess = left - p[1] * winding.resistance * (sign * p[0] - x.current);
     if (sign * value_of(excess) > 0.0) t.drop += excess;
-    t.drop_slope += (value_of(p[1]) - 1.0) * value_of(motor[resistance]);
+    t.drop_slope += (value_of(p[1]) - 1.0) * value_of(winding.resistance);
   }
   /// Where it limits throughout, it takes the back-EMF out of the equations, and its damping with it. Where it may begin
   /// or end to limit within a step: how fast the current then settles.
   template <class S>
   static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
-    const double r = value_of(m[resistance]), limit = value_of(p[0]), c = value_of(p[1]), drive = driven(m, x);
-    const double changes = value_of(m[back_emf_constant]) * acceleration * h;
+    const Winding<S>& winding = *x.winding;
+    const double r = value_of(winding.resistance), limit = value_of(p[0]), c = value_of(p[1]), drive = driven(x);
+    const double changes = value_of(winding.back_emf_constant) * acceleration * h;
     if (std::abs(drive) + changes <= r * limit) return 0.0;
     const double sign = drive < 0.0 ? -1.0 : 1.0, i = sign * value_of(x.current);
     const bool limits = std::abs(drive) - r * i > c * r * (limit - i);
-    if (limits && std::abs(drive) - changes > r * limit) return damping_of_back_emf(m);
-    return c * r / value_of(m[inductance]);
+    if (limits && std::abs(drive) - changes > r * limit) return winding.braking_rate(value_of(m[inertia]));
+    return c * r / value_of(winding.inductance);
   }
 
  private:
   /// What drives a current [V].
   template <class S>
-  static double driven(const Motor<S>& m, const Motion<S>& x) {
-    return value_of(x.input) - value_of(m[back_emf_constant]) * value_of(x.speed);
+  static double driven(const Motion<S>& x) {
+    return value_of(x.winding->driving_voltage(x.speed, x.input));
   }
 };
 

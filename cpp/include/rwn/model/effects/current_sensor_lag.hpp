@@ -30,11 +30,12 @@ struct CurrentSensorLag {
   /// Exact for the current of R and L under a voltage that is constant over the step, whatever takes a part of it, and
   /// a speed that is quadratic: i = c0 + c1 s + c2 s^2 + h exp(-f s), s from 0 to 1.
   template <class S>
-  static void finish(const S* p, const Motor<S>& m, const S& h, const Motion<S>& before, const Motion<S>& after,
+  static void finish(const S* p, const Motor<S>&, const S& h, const Motion<S>& before, const Motion<S>& after,
                      S* memory) {
     using std::exp;
     using std::expm1;
-    const S f = h * m[resistance] / m[inductance], g = h / p[0];
+    const Winding<S>& winding = *before.winding;
+    const S f = h * winding.resistance / winding.inductance, g = h / p[0];
     const S gone = -expm1(-g);  // what is kept of 1, s, s^2 and exp(-f s)
     const S rise = 1.0 - gone / g, square = 1.0 - 2.0 * rise / g;
     const S change = after.current - before.current;
@@ -42,7 +43,7 @@ struct CurrentSensorLag {
       memory[0] += gone * (before.current - memory[0]) + rise * change;
       return;
     }
-    const S emf = m[back_emf_constant] / m[resistance];
+    const S emf = winding.back_emf_constant / winding.resistance;
     const S bow = 6.0 * (after.travel / h) - 3.0 * (before.speed + after.speed);
     const S c2 = emf * bow;
     const S c1 = -emf * (after.speed - before.speed + bow) - 2.0 * c2 / f;

@@ -39,12 +39,13 @@ struct ResistanceHeating {
   static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::finish, .memories = 2};
   /// Mean of i^2 over a step: the current goes exponentially to where it settles, which the speed moves meanwhile.
   template <class S>
-  static S mean_square(const Motor<S>& m, const S& h, const Motion<S>& before, const Motion<S>& after) {
+  static S mean_square(const S& h, const Motion<S>& before, const Motion<S>& after) {
     using std::exp;
-    const S a = before.current, b = after.current, rate = h * m[resistance] / m[inductance];
+    const Winding<S>& winding = *before.winding;
+    const S a = before.current, b = after.current, rate = h * winding.resistance / winding.inductance;
     if (value_of(rate) < 0.05) return (a * a + a * b + b * b) / 3.0;
     const S left = exp(-rate), mean = (1.0 - left) / rate;  // of the decaying part
-    const S ramp = -m[back_emf_constant] * (after.speed - before.speed) / m[resistance];
+    const S ramp = -winding.back_emf(after.speed - before.speed) / winding.resistance;
     const S gap = (a - b + ramp) / (1.0 - left), settled = a - gap;
     return settled * settled + settled * ramp + ramp * ramp / 3.0 +
            2.0 * gap * (settled * mean + ramp * (mean - left) / rate) +
@@ -56,10 +57,10 @@ struct ResistanceHeating {
     t.resistance += p[2] * x.memory[1];
   }
   template <class S>
-  static void finish(const S* p, const Motor<S>& m, const S& h, const Motion<S>& before, const Motion<S>& after,
+  static void finish(const S* p, const Motor<S>&, const S& h, const Motion<S>& before, const Motion<S>& after,
                      S* memory) {
     using std::exp;
-    const S power = m[resistance] * (1.0 + p[2] * memory[1]) * mean_square(m, h, before, after);
+    const S power = before.winding->resistance * (1.0 + p[2] * memory[1]) * mean_square(h, before, after);
     const S settled = p[0] * power, half = exp(-(h / (2.0 * p[0] * p[1])));
     memory[0] = settled + (memory[0] - settled) * half * half;
     memory[1] = settled + (memory[0] - settled) * half;
