@@ -67,13 +67,14 @@ py::dict describe_effect() {
   d["parameters"] = describe_all(E::parameters);
   d["turns"] = E::traits.turns;
   d["one_sided"] = E::traits.one_sided;
-  d["offset"] = E::traits.offset;
+  d["steady"] = is_steady_torque<E>();
   d["holds"] = E::traits.holds;
-  d["rectifies"] = E::traits.rectifies;
+  d["rectifies"] = rectifies<E>();
+  d["jumps"] = jumps<E>();
   d["filters"] = std::string(E::traits.filters);
   d["delays"] = has(E::traits.hooks, Hook::delay);
   d["second_mass"] = has(E::traits.hooks, Hook::joint);
-  d["guess"] = std::string(to_string(E::traits.guess));
+  d["guess"] = std::string(to_string(guess_of<E>()));
   d["special_case"] = std::string(E::traits.special_case);
   return d;
 }

@@ -60,7 +60,7 @@ def test_an_effect_compiles(tmp_path: Path) -> None:
         ({"TRAITS": ".hooks = Hook::apply, .memories = 99"}, "an effect has at most max_memories"),
         (
             {"TRAITS": '.hooks = Hook::apply, .filters = "speed"', "PARAMETERS": ", ".join([PARAMETER] * 2)},
-            "a filter of a sensor and an offset have one parameter",
+            "a filter of a sensor and a steady torque have one parameter",
         ),
         ({"PARAMETERS": ", ".join([PARAMETER] * 9)}, "an effect has one to max_effect_parameters parameters"),
         ({"PARAMETERS": PARAMETER.replace('"k"', '"q"')}, "a parameter of an effect has a `symbol`"),

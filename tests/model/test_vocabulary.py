@@ -36,7 +36,7 @@ def test_the_table_says_what_the_stages_treat_by_itself() -> None:
     """By a trait: no stage knows an effect by name (tests/test_walls.py)."""
     effects = table()
     having = {
-        "offset": {"constant-load"},
+        "steady": {"constant-load"},
         "holds": {"coulomb-friction", "stribeck-friction", "actuator-deadzone"},
         "rectifies": {"sensor-rectification"},
         "delays": {"input-delay"},

@@ -44,6 +44,19 @@ TEST(Effects, EveryFrictionLevelIsIntegratedAsDryFriction) {
   }(std::make_index_sequence<effect_count>{});
 }
 
+TEST(Effects, WhatASensorShowsTellsWhetherItRectifiesOrJumps) {
+  EXPECT_TRUE(rectifies<SensorRectification>() && !jumps<SensorRectification>());
+  EXPECT_TRUE(jumps<SensorQuantization>() && !rectifies<SensorQuantization>());
+  EXPECT_FALSE(rectifies<SensorGain>() || jumps<SensorGain>() || rectifies<SensorBias>() || jumps<SensorBias>());
+  EXPECT_FALSE(rectifies<SpeedSensorLag>() || jumps<SpeedSensorLag>() || rectifies<CoulombFriction>());
+}
+
+TEST(Effects, ATorqueThatChangesWithNothingIsSteady) {
+  EXPECT_TRUE(is_steady_torque<ConstantLoad>());
+  EXPECT_FALSE(is_steady_torque<CoulombFriction>() || is_steady_torque<LoadDisturbance>());
+  EXPECT_FALSE(is_steady_torque<ViscousFriction>() || is_steady_torque<InputDelay>());
+}
+
 TEST(Effects, PowerLawDragOfPowerTwoIsItsSpecialCase) {
   const double general[] = {0.02, 2.0, 50.0};
   double special[1];

@@ -77,12 +77,10 @@ void check_slopes(int effect, bool follow) {
     for (double t : c.time) c.angle.push_back(30.0 * t + 5.0 * std::sin(20.0 * t));
   }
   for (int k = 0; k <= rwn::viscous_friction; ++k) c.by.push_back(k);
-  bool staircase = false;
-  for (std::size_t k = 0; k < E::parameters.size(); ++k) {
-    staircase = staircase || E::traits.guess == rwn::Guess::values;
-    if (E::traits.guess != rwn::Guess::values) c.by.push_back(rwn::first_parameter(effect) + static_cast<int>(k));
+  for (std::size_t k = 0; k < E::parameters.size() && !rwn::jumps<E>(); ++k) {
+    c.by.push_back(rwn::first_parameter(effect) + static_cast<int>(k));
   }
-  if (staircase) {
+  if (rwn::jumps<E>()) {
     std::vector<double> speed(c.time.size()), slopes(c.time.size() * c.by.size());
     EXPECT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}}), rwn::SimulationStatus::ok);
   } else {

@@ -72,7 +72,7 @@ def shaft_of(this: Fit, problem: Problem, model: Model) -> Half | None:
     recordings = [_driven(run, given, torque) for run, torque in zip(whole.runs, torques, strict=True)]
     shaft, signal = _shaft(model, this), _motion_of(whole.runs)
     beside = [name for name in this.added if table[name].mismatch == EQUATION or table[name].takes_time]
-    offset = [name for name, effect in table.items() if effect.offset]  # as which one of the current shows
+    offset = [name for name, effect in table.items() if effect.steady]  # as which one of the current shows
 
     def squares_of(without: str, known: Mapping[str, Mapping[str, float]]) -> Array:
         prepared = prepare(recordings, replace(shaft, effects={**shaft.effects, **known})).in_free_run()

@@ -76,20 +76,16 @@ class Effect:
     first: int  # position of its first parameter in the parameter vector
     turns: bool = False  # whether it depends on the angle
     one_sided: bool = False  # whether it tells a direction from the other, or an angle from its opposite
-    offset: bool = False  # whether it is a torque that never changes, which a machine axis has more likely than not
+    steady: bool = False  # whether it is a torque that never changes, which a machine axis has more likely than not
     holds: bool = False  # whether nothing moves under it while the input is small
-    rectifies: bool = False  # whether what it shows is never negative
+    rectifies: bool = False  # whether it is a sensor that shows the same of a speed and of its opposite
+    jumps: bool = False  # whether a signal jumps from value to value under it, so that it has no slope to fit by
     filters: str = ""  # the signal of which it is the first-order filter
     delays: bool = False  # whether the input acts later under it
     second_mass: bool = False  # whether it brings one; there is room for one
     guess: str = "scan"  # where first guesses come from, besides what its parameters scan (effect.hpp)
     special_case: str = ""  # the simpler effect that it is at one value of a parameter
     own: bool = False  # defined by the user
-
-    @property
-    def jumps(self) -> bool:
-        """Whether a signal jumps from value to value under it, so that it has no slope to fit by."""
-        return self.guess == "values"
 
     @property
     def takes_time(self) -> bool:

@@ -212,11 +212,11 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
 
 
 def _made_of(this: Fit, wanted: Sequence[str]) -> bool:
-    return all(name in wanted or this.hypothesis.table[name].offset for name in this.added)
+    return all(name in wanted or this.hypothesis.table[name].steady for name in this.added)
 
 
 def _offsets(problem: Problem) -> list[str]:
-    return [name for name, effect in problem.prior.table.items() if effect.offset]
+    return [name for name, effect in problem.prior.table.items() if effect.steady]
 
 
 def _under_own_noise(problem: Problem, nominal: Fit, fits: list[Fit]) -> Fits:

@@ -17,7 +17,7 @@ def observable(name: str, problem: Problem) -> bool:
         return False
     if effect.rectifies and not _may_be_rectified(problem):
         return False
-    if effect.guess in ("values", "declared"):
+    if effect.guess == "none":
         return False  # read off the values, or known beforehand
     if effect.turns and any(p.cyclic for p in effect.parameters) and not any(p.order for p in effect.parameters):
         turns = not problem.drive.linear

@@ -66,13 +66,12 @@ enum class Hook : unsigned {
 constexpr Hook operator|(Hook a, Hook b) { return Hook{static_cast<unsigned>(a) | static_cast<unsigned>(b)}; }
 constexpr bool has(Hook all, Hook one) { return (static_cast<unsigned>(all) & static_cast<unsigned>(one)) != 0; }
 
-/// Where first guesses come from: what the parameters scan; a spectrum over the angle; a change of the residual in time;
-/// a resonance of it; the recorded values themselves, so that nothing is fitted; or the model that declares the effect, so
-/// that nothing is sought.
-enum class Guess { scan, spectrum, window, resonance, values, declared };
+/// Where first guesses come from: what the parameters scan; a spectrum over the angle; a change of the residual in time,
+/// as of every effect with `breaks`; a resonance of the residual; or nowhere, as no residual is searched for the effect.
+enum class Guess { scan, spectrum, window, resonance, none };
 
 constexpr std::string_view to_string(Guess guess) {
-  constexpr std::string_view names[] = {"scan", "spectrum", "window", "resonance", "values", "declared"};
+  constexpr std::string_view names[] = {"scan", "spectrum", "window", "resonance", "none"};
   return names[static_cast<int>(guess)];
 }
 
@@ -83,9 +82,7 @@ struct EffectTraits {
   bool turns = false;            // depends on the angle
   bool loaded = false;           // depends on the torque that the drive transmits
   bool one_sided = false;        // tells a direction from the other, or an angle from its opposite
-  bool offset = false;           // a torque that never changes: usual on a machine axis, rare on a bench
   bool holds = false;            // nothing moves under it while the input is small
-  bool rectifies = false;        // what it shows is never negative
   std::string_view filters{};    // the signal of which it is the first-order filter, of one time constant
   int memories = 0;              // numbers that it remembers from step to step
   Guess guess = Guess::scan;
@@ -124,6 +121,13 @@ consteval bool is_written_in_symbols() {
   return true;
 }
 
+/// Whether it is a torque that never changes: usual on a machine axis, rare on a bench.
+template <class E>
+consteval bool is_steady_torque() {
+  return E::traits.hooks == Hook::apply && !E::traits.varies && !E::traits.dry &&
+         equation_of(E::info.site) == "mechanical";
+}
+
 /// Refuses, with a sentence, what would compile and do nothing.
 template <class E>
 consteval bool is_effect() {
@@ -133,8 +137,9 @@ consteval bool is_effect() {
   static_assert(E::parameters.size() >= 1 && E::parameters.size() <= max_effect_parameters,
                 "an effect has one to max_effect_parameters parameters");
   static_assert(is_written_in_symbols<E>(), "a parameter of an effect has a `symbol`, as its equation writes it");
-  static_assert((E::traits.filters.empty() && !E::traits.offset) || E::parameters.size() == 1,
-                "a filter of a sensor and an offset have one parameter");
+  static_assert((E::traits.filters.empty() && !is_steady_torque<E>()) || E::parameters.size() == 1,
+                "a filter of a sensor and a steady torque have one parameter");
+  static_assert(E::traits.guess != Guess::window, "an effect with `breaks` is sought in time without saying so");
   static_assert(!has(hooks, Hook::delay) || E::parameters.size() == 1, "a delay has one parameter");
   static_assert(E::traits.memories >= 0 && E::traits.memories <= max_memories, "an effect has at most max_memories");
   static_assert(static_cast<unsigned>(hooks) != 0, "an effect does something: it lists at least one hook");
@@ -169,5 +174,36 @@ consteval bool is_effect() {
 
 template <class E>
 concept Effect = is_effect<E>();
+
+template <Effect E>
+constexpr Guess guess_of() {
+  return has(E::traits.hooks, Hook::breaks) ? Guess::window : E::traits.guess;
+}
+
+/// The speed that a sensor shows of a true one, where it shows it at once, with its parameters at `start`.
+template <Effect E>
+double shown_speed(double speed) {
+  std::array<double, E::parameters.size()> p{};
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] = E::parameters[k].start;
+  Reading<double> y{.speed = speed};
+  if constexpr (has(E::traits.hooks, Hook::sense) && E::traits.memories == 0) {
+    E::template sense<double>(p.data(), y, nullptr);
+  }
+  return y.speed;
+}
+
+inline constexpr double some_speed = 1.37;  // between the steps that a sensor may show
+
+/// Whether a sensor shows the same of a speed and of its opposite.
+template <Effect E>
+bool rectifies() {
+  return shown_speed<E>(some_speed) == shown_speed<E>(-some_speed);
+}
+
+/// Whether what a sensor shows jumps from value to value, so that it has no slope to fit by.
+template <Effect E>
+bool jumps() {
+  return shown_speed<E>(some_speed) == shown_speed<E>(some_speed * (1.0 + 1e-9));
+}
 
 }  // namespace rwn

@@ -17,7 +17,7 @@ struct ConstantLoad {
                                                    .start = 0.01,
                                                    .scale = scale::torque,
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply, .varies = false, .one_sided = true, .offset = true};
+  static constexpr EffectTraits traits{.hooks = Hook::apply, .varies = false, .one_sided = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>&, Terms<S>& t) {

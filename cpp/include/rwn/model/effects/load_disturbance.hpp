@@ -32,10 +32,7 @@ struct LoadDisturbance {
                                                    .upper = 1.0,
                                                    .start = 0.6,
                                                    .scale = scale::duration}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::breaks,
-                                       .varies = false,
-                                       .one_sided = true,
-                                       .guess = Guess::window};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::breaks, .varies = false, .one_sided = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {

@@ -21,8 +21,8 @@ struct SensorGain {
                                                    .lower = 0.5,
                                                    .upper = 2.0,
                                                    .start = 1.0}};
-  /// Acts only where a model declares it: the parameters of the motor stand for a scale nearly as well.
-  static constexpr EffectTraits traits{.hooks = Hook::sense, .guess = Guess::declared};
+  /// Never sought, as the parameters of the motor stand for a scale nearly as well: it acts where a model declares it.
+  static constexpr EffectTraits traits{.hooks = Hook::sense, .guess = Guess::none};
 
   template <class S>
   static void sense(const S* p, Reading<S>& y, const S*) {

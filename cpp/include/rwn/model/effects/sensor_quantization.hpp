@@ -16,7 +16,8 @@ struct SensorQuantization {
                                                    .start = 0.01,
                                                    .scale = scale::speed,
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::sense, .guess = Guess::values};
+  /// Never sought: its step is read off the recorded values.
+  static constexpr EffectTraits traits{.hooks = Hook::sense, .guess = Guess::none};
 
   template <class S>
   static void sense(const S* p, Reading<S>& y, const S*) {

@@ -26,7 +26,7 @@ struct SensorRectification {
                                                    .start = 1.0,
                                                    .scale = scale::speed,
                                                    .fixed = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::sense, .one_sided = true, .rectifies = true};
+  static constexpr EffectTraits traits{.hooks = Hook::sense, .one_sided = true};
 
   template <class S>
   static void sense(const S* p, Reading<S>& y, const S*) {
