@@ -81,7 +81,7 @@ def diagnose(
     with thread_pool(jobs or os.cpu_count() or 1):
         late = late_enables(fitted, model)
         found = search(fitted, model, late=late, say=say, effort=effort)
-        check_it_runs(found.ranking.problem, found.ranking.nominal)
+        check_it_runs(found.ranking.problem, found.ranking.nominal_fit)
         say("proving it on data that were not fitted", AFTER_SEARCH)
         unseen = _unseen(judged, found)
         decision = decide(found.ranking, unseen.runs, found.model, seed=seed)

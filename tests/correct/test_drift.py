@@ -63,7 +63,7 @@ def test_parameters_of_what_is_stated_follow_no_drift() -> None:
     assert again.account.stated == decision.account.stated, "what is stated was decided before"
     assert again.chosen.added == decision.chosen.added == ("quadratic-drag",)
     assert _off(again.chosen.final) < 0.5 * _off(decision.chosen.final)
-    assert again.ranking.nominal is again.ranking.nothing_missing.final
+    assert again.ranking.nominal_fit is again.ranking.nothing_missing.final
     assert again.account.leading in again.ranking.fits
     assert _error(again) < _error(decision)
 

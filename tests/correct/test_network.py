@@ -109,7 +109,7 @@ def test_a_network_over_the_angle() -> None:
     assert made is not None
     assert made.place.words == "a torque over angle"
     assert made.cost < 1.1 * ranking.left.count, "nothing but noise is left"
-    assert ranking.nominal.cost > 2.0 * ranking.left.count
+    assert ranking.nominal_fit.cost > 2.0 * ranking.left.count
 
 
 def test_what_the_nominal_term_can_do_is_not_left_to_the_network() -> None:

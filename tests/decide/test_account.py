@@ -51,7 +51,7 @@ def test_a_curve_in_the_place_of_a_law_says_no_more_of_its_state(ranking: Rankin
     friction = next(r for r in ranking.fits if r.added == ("coulomb-friction",)).fit
     problem = ranking.problem
     mimic = fit(problem, hypothesis(problem.prior, ("quadratic-drag",), problem.scales))
-    nominal = ranking.nominal
+    nominal = ranking.nominal_fit
     assert curve_instead(ranking.problem, friction, nominal, MODEL) > 0.99
     assert curve_instead(ranking.problem, mimic, nominal, MODEL) < 0.5
 

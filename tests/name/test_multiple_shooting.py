@@ -59,7 +59,7 @@ def test_effects_are_found_though_the_free_run_of_each_has_lost_the_motion(ranki
 
 
 def test_what_is_known_of_windows_is_not_fitted_there_again(ranking: Ranking) -> None:
-    problem, nominal = ranking.alone.problem, ranking.alone.nominal
+    problem, nominal = ranking.alone.problem, ranking.alone.nominal_fit
     singles = fitted_in_windows(problem, nominal, ["stribeck-friction", "constant-load"], 1)
     pairs = fitted_in_windows(problem, nominal, ["cogging-torque"], 2, singles)
     assert {f.added for f in singles} == {("stribeck-friction",), ("constant-load",)}
@@ -69,7 +69,7 @@ def test_what_is_known_of_windows_is_not_fitted_there_again(ranking: Ranking) ->
 
 def test_each_number_of_effects_has_its_best_fitted_to_the_free_run(ranking: Ranking) -> None:
     problem, singles = ranking.alone.problem, ranking.alone.windowed
-    pairs = fitted_in_windows(problem, ranking.alone.nominal, ["cogging-torque"], 2, singles)
+    pairs = fitted_in_windows(problem, ranking.alone.nominal_fit, ["cogging-torque"], 2, singles)
     again = fitted_to_free_run([*singles, *pairs], problem)
     assert {len(f.added) for f in again} == {1, 2}
     for this in again:
@@ -78,5 +78,5 @@ def test_each_number_of_effects_has_its_best_fitted_to_the_free_run(ranking: Ran
 
 
 def test_windows_are_not_judged_by_whether_they_lose_the_motion(problem: Problem, ranking: Ranking) -> None:
-    assert is_far_off(problem, ranking.nominal)
-    assert not is_far_off(problem.in_windows(), ranking.nominal)
+    assert is_far_off(problem, ranking.nominal_fit)
+    assert not is_far_off(problem.in_windows(), ranking.nominal_fit)

@@ -98,7 +98,7 @@ def test_fra233_dry_friction_does_not_bend_the_motor_beyond_belief(shared: Path)
     ranking = rank(problem, progress=lambda *_: None, names=names)
     first = ranking.fits[0].fit
     assert "coulomb-friction" in first.added
-    assert first.minimum.chi2 < 0.3 * ranking.nominal.minimum.chi2
+    assert first.minimum.chi2 < 0.3 * ranking.nominal_fit.minimum.chi2
     assert first.farthest_move < BELIEVABLE
     assert 0.4 < first.value("coulomb-friction.coulomb_torque") * 3.40 / 0.048 < 0.9, "volts"
 

@@ -93,7 +93,7 @@ def simulation(data: bytes) -> None:
 
     numbers = np.frombuffer(data[1 : 1 + (len(data) - 1) // 8 * 8])
     effect = list(table().values())[data[0] % len(table())] if data else None
-    motor = [p.name for p in KINDS["dc"].nominal(0)]
+    motor = [p.name for p in KINDS["dc"].nominal_parameters(0)]
     of_effect = [p.name for p in effect.parameters] if effect else []
     if effect is None or numbers.size <= len(motor) + len(of_effect):
         return

@@ -74,7 +74,7 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
         return Correction(decision=decision, model=fitted_model(kept.final, model), final=kept.final, warnings=warnings)
     final, rows = moved.explanation.final, moved.rows
     if heldout:
-        rows = compared(decision.ranking, decision.ranking.nominal, final, heldout, seed=seed)
+        rows = compared(decision.ranking, decision.ranking.nominal_fit, final, heldout, seed=seed)
     return Correction(
         decision=replace(decision, rows=rows), model=fitted_model(final, model), final=final,
         by_free_run=moved.explanation, warnings=(*warnings, BY_FREE_RUN.format(" + ".join(final.added))),

@@ -45,8 +45,8 @@ def free_of_drift(decision: Decision, heldout: Sequence[Run], *, seed: int) -> D
     if _log_change(weighted, heldout, decision.chosen.final, chosen.final) > 0.0:
         return decision
     ranking = replace(
-        ranking, nominal=moved(ranking.nothing_missing).final, fits=tuple(map(moved, ranking.fits)), weighted=weighted,
-        counted=statistics(weighted, moved(leading).final),
+        ranking, nominal_fit=moved(ranking.nothing_missing).final, fits=tuple(map(moved, ranking.fits)),
+        weighted=weighted, counted=statistics(weighted, moved(leading).final),
     )  # fmt: skip
     account = replace(decision.account, leading=moved(leading))
     found = proved(ranking, chosen, heldout, seed=seed)

@@ -90,7 +90,7 @@ def _predicted(decision: Decision, this: RankedFit, *, by_motion: bool, seed: in
         fitted = refit(this.final, part)
         if by_motion:
             fitted = fitted_to_motion(problem.in_free_run(), known, fitted, _leading_effect(decision, this))
-        rows += compared(ranking, refit(ranking.nominal, part), fitted, [unseen], seed=seed)
+        rows += compared(ranking, refit(ranking.nominal_fit, part), fitted, [unseen], seed=seed)
     return tuple(rows)
 
 

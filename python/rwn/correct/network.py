@@ -60,8 +60,8 @@ def network_correction(ranking: Ranking, model: Model, *, at: Place | None = Non
     if not has_room(model, parts):
         return None
     problem = ranking.problem
-    part = screening_part(problem, ranking.nominal)
-    tried = [at] if at else most_promising(part, ranking.nominal, places(problem, model), FEW)
+    part = screening_part(problem, ranking.nominal_fit)
+    tried = [at] if at else most_promising(part, ranking.nominal_fit, places(problem, model), FEW)
     if not tried:
         return None
     networks = side_by_side(lambda place: _fit(part, ranking, model, place, FEW, 5), tried)
@@ -72,7 +72,7 @@ def network_correction(ranking: Ranking, model: Model, *, at: Place | None = Non
         lambda orthogonal: _kept(ranking, model, networks[0], orthogonal=orthogonal), (False, True)
     )
     best = apart if apart.cost <= FREE * whole.cost else whole
-    return best if best.cost < WORTH * ranking.nominal.cost else None
+    return best if best.cost < WORTH * ranking.nominal_fit.cost else None
 
 
 def proved_network(
@@ -114,7 +114,7 @@ def _kept(ranking: Ranking, model: Model, network: _Network, *, orthogonal: bool
     problem = ranking.problem
     share = nominal_share(problem, model, place, weights) if orthogonal else 0.0
     if share:
-        motor = {**motor, place.nominal: motor[place.nominal] + place.sign * share}
+        motor = {**motor, place.parameter: motor[place.parameter] + place.sign * share}
     effect = as_effect(problem, model, place, weights, share=share)
     known = replace(model, own_effects=(*model.own_effects, effect))
     problem = knowing(problem, known)
@@ -130,8 +130,8 @@ def _refitted_to(
     problem: Problem, ranking: Ranking, model: Model, place: Place
 ) -> NetworkCorrection | None:
     """The network at `place` learned anew from other recordings, the nominal model fitted to these as well."""
-    nominal = refit(ranking.nominal, problem)
-    return network_correction(replace(ranking, problem=problem, nominal=nominal), model, at=place)
+    nominal = refit(ranking.nominal_fit, problem)
+    return network_correction(replace(ranking, problem=problem, nominal_fit=nominal), model, at=place)
 
 
 def _fit(
@@ -139,7 +139,7 @@ def _fit(
     start: _Network | None = None,
 ) -> _Network:  # fmt: skip
     """Weights of `count` wavelets beside the nominal parameters, from nothing or from those of a smaller network."""
-    motor = (start.fit if start else ranking.nominal).motor
+    motor = (start.fit if start else ranking.nominal_fit).motor
     weights = start.weights if start else {}
     on, this = with_network(problem, model, place, count, motor=motor, weights=weights)
     return _Network(place=place, fit=fit(on, this, max_iterations=iterations))

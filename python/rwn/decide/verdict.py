@@ -31,5 +31,5 @@ def verdict_of(ranking: Ranking, found: Account, left: Remainder) -> Verdict:
 
 
 def _nothing_learned(ranking: Ranking) -> bool:
-    this = ranking.nominal
+    this = ranking.nominal_fit
     return excitation.learns_nothing(this.hypothesis, deviations(this, ranking.before), this.minimum.values)

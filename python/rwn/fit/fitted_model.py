@@ -22,7 +22,7 @@ def fitted_model(this: Fit, model: Model) -> Model:
         vector[u.index] = u.within_a_turn(float(vector[u.index]))
     active, known = this.hypothesis.effects, this.hypothesis.table
     replaced = {p.replaces for name in active for p in known[name].parameters}
-    names = model.parameters or [p.name for p in model.nominal]  # a transfer function without values: all are fitted
+    names = model.parameters or [p.name for p in model.nominal_parameters]  # of a transfer function without values: all
     parameters = {
         name: model.parameters[name]
         if name in model.parameters and name not in model.uncertainty

@@ -53,7 +53,7 @@ class _Error:
     value: Array  # (n,)
     answer: Callable[[Array], Array]  # torque columns (n, k) to what they do to the error
     regressors: Array  # (n, 5) torques of the nominal parameters
-    nominal: Array  # (n, 5) their answers
+    answers: Array  # (n, 5) what these do to the error
 
     def beyond_nominal(self, torque: Array) -> Array:
         """What no change of the nominal parameters makes of a torque (n,)."""
@@ -101,7 +101,7 @@ def _error(problem: Problem, this: Fit, unknown: Sequence[UnknownInputs]) -> _Er
         current = np.concatenate([_means(i, thin) for i in simulated])
     speed = states["speed"]
     regressors = np.stack([speed, np.sign(speed), states["acceleration"], current, np.ones(speed.size)], axis=1)
-    return _Error(states=states, value=value, answer=answer, regressors=regressors, nominal=answer(regressors))
+    return _Error(states=states, value=value, answer=answer, regressors=regressors, answers=answer(regressors))
 
 
 def _means(values: Array, count: int) -> Array:
@@ -164,7 +164,7 @@ def _wavelets(x: Array) -> Array:
 
 def _fitted(basis: Array, error: _Error) -> tuple[float, Array]:
     """Share explained by a fit to every other block, on the blocks between; weights of the fit to all."""
-    value, nominal = error.value, error.nominal
+    value, nominal = error.value, error.answers
     blocks = (np.arange(value.size) * 20 // value.size) % 2 == 0
     left = energy = 0.0
     for part in (blocks, ~blocks):

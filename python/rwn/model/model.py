@@ -115,15 +115,16 @@ class Model(Shown):
         motor, doubt = f"{where}, [motor]", f"{where}, [uncertainty]"
         table = self.effect_table if self.effects else {}
         places = {name: f"{where}, [effects.{name}]" for name in self.effects}
-        _require(self.parameters, "parameter", [p.name for p in self.nominal], where=motor)
+        _require(self.parameters, "parameter", [p.name for p in self.nominal_parameters], where=motor)
         _require(self.effects, "effect", table, where=f"{where}, [effects]")
         for name, values in self.effects.items():
             _require(values, "parameter", [p.name for p in table[name].parameters], where=places[name])
-        _require(self.uncertainty, "parameter", [*(p.name for p in self.nominal), *self.effect_values], where=doubt)
+        known = [*(p.name for p in self.nominal_parameters), *self.effect_values]
+        _require(self.uncertainty, "parameter", known, where=doubt)
         _require(self.load, "load", LOADS, where=f"{where}, [load]")
 
         check_numbers(self.parameters, where=motor, largest=LARGEST_COEFFICIENT if self.drive.coefficients else LARGEST)
-        check_nominal(self.parameters, self.nominal, linear=self.linear, where=motor)
+        check_nominal(self.parameters, self.nominal_parameters, linear=self.linear, where=motor)
         for name, values in self.effects.items():
             check_numbers(values, where=places[name])
             check_effect(table[name], values, where=places[name])
@@ -168,9 +169,9 @@ class Model(Shown):
         return drive.on_a_line if self.linear and drive.on_a_line else drive
 
     @property
-    def nominal(self) -> tuple[NominalParameter, ...]:
+    def nominal_parameters(self) -> tuple[NominalParameter, ...]:
         """The nominal parameters that this model can have."""
-        return self.drive.nominal(self.order)
+        return self.drive.nominal_parameters(self.order)
 
     @cached_property
     def motor(self) -> Mapping[str, float]:
@@ -203,7 +204,7 @@ class Model(Shown):
         """SI unit of a nominal parameter, or of one of an effect as "effect.parameter"."""
         if parameter in self.effect_values:
             return self.drive.unit_of(self.effect_table[parameter.split(".")[0]], self.effect_values[parameter][0].unit)
-        entry = next(p for p in self.nominal if p.name == parameter)
+        entry = next(p for p in self.nominal_parameters if p.name == parameter)
         return (entry.linear_unit if self.linear else entry.unit) or entry.unit
 
 

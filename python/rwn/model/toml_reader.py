@@ -32,7 +32,7 @@ def parse_model(text: str, *, where: str) -> Model:
     drive, linear = _drive(file.motor, place)
     motor = {key: value for key, value in file.motor.items() if key not in ("kind", "linear")}
     given, order = drive.read(motor, where=place)
-    parameters = _values(given, drive.nominal(order), linear=linear, where=place)
+    parameters = _values(given, drive.nominal_parameters(order), linear=linear, where=place)
     uncertainty = _uncertainty(file, f"{where}, [uncertainty]")
     for name, other in _told_by_another(parameters, drive):
         parameters[name] = parameters[other]

@@ -74,7 +74,7 @@ def _ranked(
     begun = problem.work.done
     wanted = [n for n in names or problem.prior.table if observable(n, problem)]
     alone = after.alone if after else _each_alone(problem, wanted, progress)
-    problem, nominal, fits = alone.problem, alone.nominal, [f for f in alone.fits if _made_of(f, wanted)]
+    problem, nominal, fits = alone.problem, alone.nominal_fit, [f for f in alone.fits if _made_of(f, wanted)]
     before = statistics(problem, nominal)
     extensions = after.extensions if after else NO_EXTENSIONS
     in_noise = partial(made.in_noise, problem) if names is None and not after else None
@@ -104,7 +104,7 @@ def _ranked(
     return Ranking(
         problem=problem,
         measurement=made,
-        nominal=nominal,
+        nominal_fit=nominal,
         fits=tuple(ranked),
         left=left,
         before=before,
@@ -130,7 +130,7 @@ def _grown(
     another measurement than theirs.
     """
     problem = alone.problem
-    best, left = _best_of(problem, [alone.nominal, *fits])
+    best, left = _best_of(problem, [alone.nominal_fit, *fits])
     bases, windowed = _diverse([f for f in fits if adds(f, problem)]), alone.windowed
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     measured = None
@@ -168,11 +168,11 @@ def _beside_and_in_windows(
     problem, more = alone.problem, list[Fit]()
     lost = has_lost_the_motion(problem, best)
     if lost:
-        more = fitted_in_windows(problem, alone.nominal, wanted, size, windowed)
+        more = fitted_in_windows(problem, alone.nominal_fit, wanted, size, windowed)
     found = _beside(problem, bases, wanted, fits, known)
     closest = min([best, *found.fits], key=lambda f: f.cost)
     if not lost and affords_more(problem.work) and is_far_off(problem, closest):
-        more = fitted_in_windows(problem, alone.nominal, wanted, size, windowed)
+        more = fitted_in_windows(problem, alone.nominal_fit, wanted, size, windowed)
     return found._replace(fits=distinct([*found.fits, *fitted_to_free_run(more, problem)])), [*windowed, *more]
 
 

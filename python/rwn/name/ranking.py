@@ -17,7 +17,7 @@ class Fits(NamedTuple):
     """The nominal model and explanations, fitted to one problem: under the same noise."""
 
     problem: Problem
-    nominal: Fit
+    nominal_fit: Fit
     fits: list[Fit]
     windowed: Sequence[Fit] = ()  # as fitted in short windows, where a free run has lost the motion
 
@@ -39,7 +39,7 @@ class Ranking:
 
     problem: Problem  # with the noise of the best
     measurement: Measurement  # under which the recordings were explained
-    nominal: Fit
+    nominal_fit: Fit
     fits: tuple[RankedFit, ...]
     left: Statistics  # residual of the best
     before: Statistics  # residual of the refitted nominal

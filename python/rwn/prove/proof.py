@@ -38,7 +38,7 @@ def proved(
     nothing is proved where it finds none.
     """
     if heldout:
-        return compared(ranking, ranking.nominal, chosen.final, heldout, seed=seed)
+        return compared(ranking, ranking.nominal_fit, chosen.final, heldout, seed=seed)
 
     def fold(case: Fold) -> tuple[HeldoutRow, ...] | None:
         problem, run, first = case
@@ -46,8 +46,8 @@ def proved(
             other = again(problem)
             if other is None:
                 return None
-            return compared(other[0], other[0].nominal, other[1], [run], seed=seed, first=first)
-        nominal = refit(ranking.nominal, problem)
+            return compared(other[0], other[0].nominal_fit, other[1], [run], seed=seed, first=first)
+        nominal = refit(ranking.nominal_fit, problem)
         weighted = replace(ranking.weighted, runs=problem.runs)
         fitted = refit(chosen.final, weighted) if chosen.added else chosen.final
         return compared(ranking, nominal, fitted, [run], seed=seed, first=first)

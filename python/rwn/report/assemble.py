@@ -49,7 +49,7 @@ def assemble(
     decision = correction.decision
     ranking, chosen, rows, said = decision.ranking, decision.chosen, decision.rows, statement(decision, faults)
     model = correction.network.model if correction.network else model
-    problem, nominal = ranking.problem.in_free_run(), ranking.nominal
+    problem, nominal = ranking.problem.in_free_run(), ranking.nominal_fit
     named = decision.verdict == "missing-physics"
     stated, widening = decision.account.stated, _widening(decision)
     sure = {e.name: e.probability for e in stated}
@@ -58,11 +58,11 @@ def assemble(
     alternatives = _alternatives(ranking, chosen)
     equation = effects[0].equation if effects else ""
     winding = decision.shaft is not None and decision.shaft.moves_as_recorded
-    unknown = [replace(u, lacking="voltage" if winding else "torque") for u in _unknown_to(nominal, problem)]
-    where = regions(unknown, linear=model.linear)
+    inputs = [replace(u, lacking="voltage" if winding else "torque") for u in _unknown_inputs(nominal, problem)]
+    where = regions(inputs, linear=model.linear)
     # a transfer function has none, and what the winding lacks is no torque
     torque_unknown = said.verdict != "adequate" and not model.drive.coefficients and not winding
-    depends = laws(problem, nominal, unknown, linear=model.linear) if torque_unknown else ()
+    depends = laws(problem, nominal, inputs, linear=model.linear) if torque_unknown else ()
     motion = not model.drive.coefficients
     place, briefly = (
         in_words(where, depends, linear=model.linear, motion=motion, shaft=decision.shaft)

@@ -97,7 +97,7 @@ def _mean_curve(x: Array, y: Array) -> Trace:
 
 def _spectrum(ranking: Ranking, linear: bool) -> Plot | None:
     """Share of the residual that a torque periodic in angle would explain, where it matters."""
-    problem, nominal = ranking.problem, ranking.nominal
+    problem, nominal = ranking.problem, ranking.nominal_fit
     if not all(r.angle.size and r.speed.size for r in problem.runs):
         return None
     grid = spectra.order_grid(problem)

@@ -66,7 +66,7 @@ class NominalFit:
 
 def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, widening: Widening = NO_WIDENING) -> NominalFit:
     """Nominal parameters: as given, refitted alone, and together with the found effects, with intervals."""
-    alone = estimates(ranking.nominal, ranking.before)
+    alone = estimates(ranking.nominal_fit, ranking.before)
     together = estimates(chosen.final, ranking.counted, widening=widening) if chosen.added else {}
     rows = {}
     given = dict(model.parameters) or dict(ranking.problem.prior.free)
@@ -82,7 +82,7 @@ def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, widening: 
             refitted=replace(alone[name], unit=unit) if name in alone else Estimate(value=value, unit=unit),
             corrected=replace(together[name], unit=unit) if name in together else None,
         )
-    status = ranking.nominal.minimum.status
+    status = ranking.nominal_fit.minimum.status
     return NominalFit(parameters=rows, status=status.name.lower().replace("_", "-"), advice=status.value)
 
 

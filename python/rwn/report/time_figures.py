@@ -71,7 +71,7 @@ def over_time(ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], *, li
 
 
 def _models(given: Hypothesis, ranking: Ranking, chosen: RankedFit) -> list[_Model]:
-    refitted = ranking.nominal
+    refitted = ranking.nominal_fit
     models = [
         _Model(name="nominal as given", role="nominal", vector=given.vector, active=given.active),
         _Model(

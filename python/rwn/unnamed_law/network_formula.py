@@ -105,7 +105,7 @@ def nominal_share(problem: Problem, model: Model, place: Place, weights: Array) 
 
     `weights`: (wavelets,).
     """
-    if model.uncertainty.get(place.nominal, 0.0) == 0.0:
+    if model.uncertainty.get(place.parameter, 0.0) == 0.0:
         return 0.0
     states = states_of(problem, place)
     return float(_curve(problem, place, weights, states) @ states / max(float(states @ states), 1e-300))

@@ -38,13 +38,13 @@ class Place:
     state: str  # a key of VARIABLES
     factor: str = ""  # another; a torque times the speed is a friction coefficient that is no constant
     periods: int = 0  # per revolution, of a position
-    nominal: str = ""  # parameter of the nominal term that is linear in the same state
+    parameter: str = ""  # of the nominal model: that of the nominal term that is linear in the same state
     linear: bool = False  # on a linear axis
 
     @property
     def sign(self) -> float:
         """Of the nominal term: viscous friction brakes."""
-        return -1.0 if self.nominal == "viscous_friction" else 1.0
+        return -1.0 if self.parameter == "viscous_friction" else 1.0
 
     @property
     def kind(self) -> str:
@@ -118,8 +118,8 @@ def _states(problem: Problem, model: Model) -> tuple[str, ...]:
 def _place(term: str, state: str, factor: str, model: Model) -> Place:
     """`state`: a key of VARIABLES, or TURN."""
     state, periods = ("position", 1) if state == TURN else (state, 0)
-    nominal = "" if factor else _linear_terms(model).get((term, state), "")
-    return Place(term=term, state=state, factor=factor, periods=periods, nominal=nominal, linear=model.linear)
+    parameter = "" if factor else _linear_terms(model).get((term, state), "")
+    return Place(term=term, state=state, factor=factor, periods=periods, parameter=parameter, linear=model.linear)
 
 
 def _linear_terms(model: Model) -> dict[tuple[str, str], str]:

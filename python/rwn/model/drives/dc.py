@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rwn import _core
 from rwn.model.drives.axis import AXIS
-from rwn.model.drives.drive import MECHANICAL_TERMS, MECHANICS, OneNumber, nominal
+from rwn.model.drives.drive import MECHANICAL_TERMS, MECHANICS, OneNumber, nominal_parameter
 from rwn.model.drives.winding import WindingDrive
 
 NO_TRANSIENT = 1e-6  # time constant of a winding without inductance [s]: shorter than any sample
@@ -52,10 +52,10 @@ DC = DcMotor(
     input="voltage",
     outputs=("speed", "position", "current"),
     parameters=(
-        nominal("resistance", positive=True),
-        nominal("inductance"),
-        nominal("torque_constant", positive=True),
-        nominal("back_emf_constant", positive=True),
+        nominal_parameter("resistance", positive=True),
+        nominal_parameter("inductance"),
+        nominal_parameter("torque_constant", positive=True),
+        nominal_parameter("back_emf_constant", positive=True),
         *MECHANICS,
     ),
     terms={

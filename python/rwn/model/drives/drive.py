@@ -68,7 +68,7 @@ class Drive:
     on_a_line: Drive | None = None  # the same moving along a line, where there is such
     mechanics: Drive | None = None  # what its shaft is by itself, driven by the torque of a recorded current
 
-    def nominal(self, order: int) -> tuple[NominalParameter, ...]:  # noqa: ARG002
+    def nominal_parameters(self, order: int) -> tuple[NominalParameter, ...]:  # noqa: ARG002
         """The nominal parameters that a model of this kind can have; `order`: of a transfer function."""
         return self.parameters
 
@@ -160,7 +160,7 @@ class Drive:
 _TABLE = {row["name"]: row for row in _core.motor_parameter_table()}
 
 
-def nominal(
+def nominal_parameter(
     name: str, *, linear_unit: str = "", positive: bool = False, required: bool = True
 ) -> NominalParameter:
     """A parameter of the motor, with unit and meaning as the core states them (motor.hpp)."""
@@ -173,9 +173,9 @@ def nominal(
 
 FRICTION = ("viscous_friction", "coulomb_friction")
 MECHANICS = (
-    nominal("inertia", linear_unit="kg", positive=True),
-    nominal("viscous_friction", linear_unit="N s/m"),
-    nominal("coulomb_friction", linear_unit="N", required=False),
+    nominal_parameter("inertia", linear_unit="kg", positive=True),
+    nominal_parameter("viscous_friction", linear_unit="N s/m"),
+    nominal_parameter("coulomb_friction", linear_unit="N", required=False),
 )
 
 

@@ -17,7 +17,7 @@ MOST_ORDER = 20
 class TransferFunction(Drive):
     """Parameters b0, b1, .. and a0, .. are the coefficients of s^0, s^1, .., monic in the denominator."""
 
-    def nominal(self, order: int) -> tuple[NominalParameter, ...]:
+    def nominal_parameters(self, order: int) -> tuple[NominalParameter, ...]:
         """The coefficients of a transfer function of `order`."""
         return (
             *(_coefficient(f"b{k}", order - k, "rad/(V s)", f"numerator, s^{k}") for k in range(order)),
