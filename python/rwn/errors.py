@@ -48,7 +48,7 @@ def closest(name: str, names: Iterable[str]) -> str | None:
     return plain[found[0]] if found else None
 
 
-def unknown(kind: str, name: str, names: Iterable[str], *, where: object) -> InputError:
+def unrecognised(kind: str, name: str, names: Iterable[str], *, where: object) -> InputError:
     """The error for a `name` that is none of `names`, with the one that was probably meant."""
     known = list(names)
     meant = closest(name, known)

@@ -64,23 +64,23 @@ class _Error:
 
 
 def laws(
-    problem: Problem, this: Fit, unknown: Sequence[UnknownInputs], *, linear: bool = False
+    problem: Problem, this: Fit, inputs: Sequence[UnknownInputs], *, linear: bool = False
 ) -> tuple[Law, ...]:
     """The dependence on each state, the one that explains most first; states that explain nothing are left out."""
-    error = _error(problem, this, unknown)
+    error = _error(problem, this, inputs)
     found = [_over(name, error, linear) for name in COORDINATES if np.ptp(error.states[name]) > 0.0]
     if np.ptp(error.states["angle"]) > 2.0 * np.pi:
         found.append(_over_angle(error))
     return tuple(sorted((law for law in found if law.share > 0.02), key=lambda law: -law.share))
 
 
-def _error(problem: Problem, this: Fit, unknown: Sequence[UnknownInputs]) -> _Error:
+def _error(problem: Problem, this: Fit, inputs: Sequence[UnknownInputs]) -> _Error:
     from scipy.signal import lfilter  # late: the command line starts without it
 
-    thin = 1 + sum(u.time.size for u in unknown) // DRAWN
+    thin = 1 + sum(u.time.size for u in inputs) // DRAWN
     names = (*COORDINATES, "angle", "torque")
-    states = {name: np.concatenate([_means(getattr(u, name), thin) for u in unknown]) for name in names}
-    ends = np.cumsum([u.time.size // thin for u in unknown])[:-1]
+    states = {name: np.concatenate([_means(getattr(u, name), thin) for u in inputs]) for name in names}
+    ends = np.cumsum([u.time.size // thin for u in inputs])[:-1]
     by_filter = problem.drive.winding and all(r.speed.size for r in problem.runs)
 
     def answer(columns: Array) -> Array:

@@ -29,13 +29,13 @@ class Region:
     name: str = ""  # "low speed", "reversals"
 
 
-def regions(unknown: Sequence[UnknownInputs], *, linear: bool = False) -> tuple[Region, ...]:
+def regions(inputs: Sequence[UnknownInputs], *, linear: bool = False) -> tuple[Region, ...]:
     """For each coordinate the stretch that holds most of the mismatch's energy for its share of samples, best first."""
     joined = {
-        name: np.concatenate([getattr(u, name) for u in unknown])
+        name: np.concatenate([getattr(u, name) for u in inputs])
         for name in ("speed", "acceleration", "current", "angle", "time")
     }
-    energy = np.concatenate([u.mismatch for u in unknown]) ** 2
+    energy = np.concatenate([u.mismatch for u in inputs]) ** 2
     energy = np.minimum(energy, np.percentile(energy, 99.9))
     speed = joined["speed"]
     length = "m" if linear else "rad"

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from rwn import _core
-from rwn.errors import InputError, closest, unknown
+from rwn.errors import InputError, closest, unrecognised
 from rwn.recording import units
 
 MAX_LENGTH = 2000
@@ -151,7 +151,7 @@ def _name(name: str, names: Mapping[str, str], where: object) -> Instruction:
     if name in _CONSTANTS:
         return Instruction("number", number=_CONSTANTS[name])
     if name not in names:
-        raise unknown("name", name, names, where=where)
+        raise unrecognised("name", name, names, where=where)
     return Instruction("name", name=name)
 
 
@@ -159,7 +159,7 @@ def _call(
     name: str, arguments: list[ast.expr], names: Mapping[str, str], where: object
 ) -> Iterator[Instruction]:
     if name not in FUNCTIONS:
-        raise unknown("function", name, FUNCTIONS, where=where)
+        raise unrecognised("function", name, FUNCTIONS, where=where)
     count = FUNCTIONS[name][0]
     if len(arguments) != count:
         raise _refused(f"{name} has {len(arguments)} arguments", where, f"{count}")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, unrecognised
 from rwn.model import drives, vocabulary
 from rwn.model.checks import (
     LARGEST,
@@ -87,7 +87,7 @@ class Model(Shown):
 
     def __post_init__(self) -> None:
         if self.kind not in drives.KINDS:
-            raise unknown("kind", self.kind, drives.KINDS, where=self.source or "model")
+            raise unrecognised("kind", self.kind, drives.KINDS, where=self.source or "model")
         most = drives.MOST_ORDER if drives.KINDS[self.kind].coefficients else 0
         if isinstance(self.order, bool) or not isinstance(self.order, int) or not min(most, 1) <= self.order <= most:
             raise InputError(
@@ -220,4 +220,4 @@ def _require(names: Iterable[str], kind: str, known: Iterable[str], *, where: st
     known = list(known)
     for name in names:
         if name not in known:
-            raise unknown(kind, name, known, where=where)
+            raise unrecognised(kind, name, known, where=where)

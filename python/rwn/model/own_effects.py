@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from rwn import _core
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, unrecognised
 from rwn.model import formula as expression
 from rwn.model.drives.dc import DC
 from rwn.model.drives.drive import Drive
@@ -90,7 +90,7 @@ class OwnEffect:
                 "the name is not usable", where=where, expected="small letters and hyphens", fix="rename it"
             )
         if self.term not in TERMS:
-            raise unknown("term", self.term, TERMS, where=where)
+            raise unrecognised("term", self.term, TERMS, where=where)
         if len(self.parameters) > _core.max_own_parameters:
             raise InputError(
                 f"{len(self.parameters)} parameters",

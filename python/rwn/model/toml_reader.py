@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from rwn.errors import InputError, plain, unknown
+from rwn.errors import InputError, plain, unrecognised
 from rwn.model import vocabulary
 from rwn.model.checks import LARGEST, check_numbers
 from rwn.model.drives import KINDS
@@ -71,7 +71,7 @@ def _drive(motor: Mapping[str, Any], where: str) -> tuple[Drive, bool]:
             fix='add kind = "dc" for a motor fed with a voltage',
         )
     if kind not in KINDS:
-        raise unknown("kind", kind, KINDS, where=where)
+        raise unrecognised("kind", kind, KINDS, where=where)
     on_a_line = KINDS[kind].on_a_line
     if not isinstance(linear, bool) or (linear and on_a_line is None):
         raise refused_linear(linear, where, [k for k, drive in KINDS.items() if drive.on_a_line])
@@ -84,7 +84,7 @@ def _values(
     entries = {entry.name: entry for entry in table}
     for key in given:
         if key not in entries:
-            raise unknown("key", key, entries, where=where)
+            raise unrecognised("key", key, entries, where=where)
     values: dict[str, float] = {}
     for name, entry in entries.items():
         unit = (entry.linear_unit if linear else entry.unit) or entry.unit
@@ -144,14 +144,14 @@ def _effects(
     for name, values in given.items():
         place = f"{where}, [effects.{name}]"
         if name not in known and name not in own:
-            raise unknown("effect", name, [*known, *own], where=f"{where}, [effects]")
+            raise unrecognised("effect", name, [*known, *own], where=f"{where}, [effects]")
         if name in own:
             entries = {p.name: p.unit for p in own[name].parameters}  # as the user has written them
         else:
             entries = {p.name: drive.unit_of(known[name], p.unit) for p in known[name].parameters}
         for key in values:
             if key not in entries:
-                raise unknown("parameter", key, entries, where=place)
+                raise unrecognised("parameter", key, entries, where=place)
         found[name] = {k: _number(v, _si(entries[k]), f"{place} {k}") for k, v in values.items()}
     second = [name for name in found if name in known and known[name].second_mass]
     if len(second) > 1:
@@ -230,7 +230,7 @@ def _by_signal(given: dict[str, Number], where: str) -> dict[str, float]:
     """Times [s] by measured signal."""
     unknown_ones = [name for name in given if name not in MEASURED]
     if unknown_ones:
-        raise unknown("measured signal", unknown_ones[0], MEASURED, where=where)
+        raise unrecognised("measured signal", unknown_ones[0], MEASURED, where=where)
     return {name: _number(time, TIME.unit, f"{where}.{name}") for name, time in given.items()}
 
 
@@ -259,7 +259,7 @@ def _seconds(value: Number, where: str) -> float:
 
 def _column(name: str, given: ColumnEntry, where: str) -> Column:
     if name not in COLUMNS:
-        raise unknown("signal", name, COLUMNS, where=where)
+        raise unrecognised("signal", name, COLUMNS, where=where)
     scale, unit = (
         (given.scale, "") if isinstance(given.scale, float | int) else units.split(given.scale, where=where)
     )

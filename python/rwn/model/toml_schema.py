@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from rwn.errors import InputError, closest, unknown
+from rwn.errors import InputError, closest, unrecognised
 from rwn.model.toml_own_effects import OwnEffectEntry, ParameterEntry
 from rwn.recording.columns import Initial
 from rwn.recording.intersample import AUTO
@@ -117,7 +117,7 @@ def _worded(message: str, where: str) -> InputError:
     place = f"{where}, [{'.'.join(keys)}]" if keys else where
     found = re.search(r"unknown field `(.+)`", what)
     if found:
-        return unknown("key", found[1], _table_at(keys).__struct_encode_fields__, where=place)
+        return unrecognised("key", found[1], _table_at(keys).__struct_encode_fields__, where=place)
     wrong = re.search(r"[Ee]xpected `(.+?)`, got `(.+?)`", what)
     if wrong:
         return InputError(

@@ -77,9 +77,9 @@ def coarse_speed(ranking: Ranking) -> FoundEffect | None:
     )  # fmt: skip
 
 
-def _unit(unknown: str, unit: str, drive: Drive, known: Mapping[str, Effect]) -> str:
-    """The unit of an unknown on this drive, where the tables have `unit`."""
-    owner = known.get(unknown.split(".")[0])
+def _unit(parameter: str, unit: str, drive: Drive, known: Mapping[str, Effect]) -> str:
+    """The unit of a parameter of a model on this drive, where the tables have `unit`."""
+    owner = known.get(parameter.split(".")[0])
     if owner is not None:
         return drive.unit_of(owner, unit)
     return linear_unit(unit) if drive.linear else unit

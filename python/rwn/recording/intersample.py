@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.errors import unknown
+from rwn.errors import unrecognised
 from rwn.recording.clock import CLEAR, Clock, clock_beside, clock_of
 from rwn.recording.interpolated import InterpolatedRows, between_ticks, rounded, stamped
 from rwn.recording.noise import noise_from_differences
@@ -75,7 +75,7 @@ class IntersampleLaw:
 def known_law(name: str, *, where: str) -> str:
     """The name of a law, or "auto". Raises InputError where there is none of that name."""
     if name not in (AUTO, *INTERSAMPLE):
-        raise unknown("law between rows", name, (AUTO, *INTERSAMPLE), where=where)
+        raise unrecognised("law between rows", name, (AUTO, *INTERSAMPLE), where=where)
     return name
 
 

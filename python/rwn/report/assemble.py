@@ -37,7 +37,15 @@ from rwn.report.diagnosis_data import Alternative, Beneath, Location
 from rwn.report.fitted_filter import FittedFilter, fitted_filters
 from rwn.report.next_steps import NEAR
 from rwn.report.nominal_fit import nominal_fit
-from rwn.report.text import listing, located, located_briefly, plain_name, shaft_in_words, times_given, unknown_name
+from rwn.report.text import (
+    listing,
+    located,
+    located_briefly,
+    parameter_in_words,
+    plain_name,
+    shaft_in_words,
+    times_given,
+)
 from rwn.simulate.run import Run
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
@@ -71,7 +79,7 @@ def assemble(
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
     filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
     shown = correction.by_free_run or chosen
-    drawn = figures.plots(ranking, shown, heldout, unknown, depends, correction.network, linear=model.linear)
+    drawn = figures.plots(ranking, shown, heldout, inputs, depends, correction.network, linear=model.linear)
     return Diagnosis(
         verdict=said.verdict,
         equation=equation,
@@ -102,7 +110,7 @@ def assemble(
     )
 
 
-def _unknown_to(this: Fit, problem: Problem) -> list[UnknownInputs]:
+def _unknown_inputs(this: Fit, problem: Problem) -> list[UnknownInputs]:
     """What the equations of a fit leave over along each recording."""
     return [
         unknown_inputs(problem.drive, problem.simulator, r, problem.started(r, this.vector, this.active), this.active)
@@ -197,7 +205,7 @@ def _warnings(
             "tried; --effort 3, or recordings of fewer samples, leave room for the others"
         )
     for f in ranking.at_a_limit[:1]:
-        met = [unknown_name(name) for name in f.limits_met]
+        met = [parameter_in_words(name) for name in f.limits_met]
         texts.append(
             f"{' + '.join(map(plain_name, f.added))} fits better, but {listing(met)} ran into a "
             "limit: there the law bends towards one that it is not, and it is not named"
@@ -228,6 +236,6 @@ def _contradictions(chosen: RankedFit, model: Model) -> Iterator[str]:
         if u.prior is not None and u.prior > 0.0 and 0.0 < declared < np.inf:
             off = abs(np.log(value / u.prior)) / declared if value > 0.0 else np.inf
             if off > BELIEVABLE:
-                said = f"data sheet and recordings contradict each other in {unknown_name(u.name)}"
+                said = f"data sheet and recordings contradict each other in {parameter_in_words(u.name)}"
                 far = f", {off:.1f} declared deviations" if np.isfinite(off) else ""
                 yield f"{said}: it moved to {times_given(value / u.prior)}{far}"

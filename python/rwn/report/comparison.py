@@ -59,7 +59,7 @@ def _rows(first: DiagnosisData, second: DiagnosisData) -> Iterator[list[str]]:
     for name in dict.fromkeys((*fits[0], *fits[1])):
         if name not in told or all(name in parameters for parameters in fits):
             best = [_best(parameters, name) for parameters in fits]
-            yield [escape(words.capital(words.unknown_name(name))), *map(_value, best), _apart(*best)]
+            yield [escape(words.capital(words.parameter_in_words(name))), *map(_value, best), _apart(*best)]
 
 
 def _effect(

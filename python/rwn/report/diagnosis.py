@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, unrecognised
 from rwn.input_file import input_file, path_of
 from rwn.model.files import read_model, write_model
 from rwn.report.diagnosis_data import DiagnosisData
@@ -125,7 +125,7 @@ class Diagnosis(DiagnosisData):
                              fix="load the folder that rwn diagnose wrote, or diagnose again")  # fmt: skip
         wanted = next(iter(known)) if name is None else name
         if wanted not in known:
-            raise unknown("figure", str(wanted), known, where="plot")
+            raise unrecognised("figure", str(wanted), known, where="plot")
         return drawn(panels(self.curves, known[wanted]), wanted)
 
     def write(self, folder: str | Path) -> None:

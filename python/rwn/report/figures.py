@@ -28,7 +28,7 @@ WORTH_SEEING = 0.05  # of the residual, that the highest line explains
 
 
 def plots(
-    ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], unknown: Sequence[UnknownInputs],
+    ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], inputs: Sequence[UnknownInputs],
     laws: Sequence[Law], network: NetworkCorrection | None, *, linear: bool,
 ) -> tuple[Plot, ...]:  # fmt: skip
     """Each recording over time, what is unknown over speed, the laws of effects or of what is unnamed, the spectrum."""
@@ -43,20 +43,20 @@ def plots(
     if network is not None:
         drawn = (*drawn, network_over_its_state(network))
     spectrum = _spectrum(ranking, linear)
-    where = unknown_over_speed(names, unknown, linear=linear)
+    where = unknown_over_speed(names, inputs, linear=linear)
     return (*made, where, *([spectrum] if spectrum else []), *drawn)
 
 
-def unknown_over_speed(names: Sequence[str], unknown: Sequence[UnknownInputs], *, linear: bool) -> Plot:
+def unknown_over_speed(names: Sequence[str], inputs: Sequence[UnknownInputs], *, linear: bool) -> Plot:
     """What the equations of the refitted nominal model leave over, of recordings called `names`, over their speed."""
     what, unit = ("force", "N") if linear else ("torque", "N m")
-    if unknown[0].lacking == "voltage":
+    if inputs[0].lacking == "voltage":
         what, unit = "voltage", "V"
-    mismatch = np.concatenate([u.mismatch for u in unknown])
-    mean = _mean_curve(np.concatenate([u.speed for u in unknown]), mismatch)
+    mismatch = np.concatenate([u.mismatch for u in inputs])
+    mean = _mean_curve(np.concatenate([u.speed for u in inputs]), mismatch)
     clouds = []
-    for name, u in zip(names, unknown, strict=True):
-        kept = thin_cloud(u.mismatch, most=MOST_POINTS // len(unknown))
+    for name, u in zip(names, inputs, strict=True):
+        kept = thin_cloud(u.mismatch, most=MOST_POINTS // len(inputs))
         clouds.append(
             Trace(
                 name=name,
@@ -71,13 +71,13 @@ def unknown_over_speed(names: Sequence[str], unknown: Sequence[UnknownInputs], *
     return Plot(
         slot="residual-speed", title=f"Unknown {what} of the refitted nominal model over speed", x_label="speed",
         x_unit="m/s" if linear else "rad/s", y_label=f"unknown {what}", y_unit=unit, traces=(*clouds, mean),
-        marks=tuple(_speed_regions(unknown)), shown=worth_seeing(mismatch, mean.y),
+        marks=tuple(_speed_regions(inputs)), shown=worth_seeing(mismatch, mean.y),
         note="What the refitted nominal equations leave over along the recorded motion, smoothed.",
     )  # fmt: skip
 
 
-def _speed_regions(unknown: Sequence[UnknownInputs]) -> list[Mark]:
-    found = [r for r in regions(unknown) if r.coordinate == "speed" and r.share - r.samples_share > 0.1]
+def _speed_regions(inputs: Sequence[UnknownInputs]) -> list[Mark]:
+    found = [r for r in regions(inputs) if r.coordinate == "speed" and r.share - r.samples_share > 0.1]
     if not found:
         return []
     r = found[0]

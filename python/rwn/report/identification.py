@@ -8,7 +8,7 @@ from rwn.fit.prior_weight import BELIEVABLE
 from rwn.identify import Identification, at_a_bound
 from rwn.model.model import Model
 from rwn.report.nominal_fit import FittedParameter
-from rwn.report.text import estimate, listing, number, percent, symbol, times_given, unknown_name
+from rwn.report.text import estimate, listing, number, parameter_in_words, percent, symbol, times_given
 
 
 def lines(fit: Identification, nominal: Model) -> Iterator[str]:
@@ -30,9 +30,9 @@ def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
     at_bound = [name for name, value in fit.parameters.items() if at_a_bound(value)]
     unseen = [name for name in fit.not_identifiable if name not in at_bound]
     if at_bound:
-        yield f"{listing([unknown_name(n) for n in at_bound])} ran into a bound: the value is that of the bound"
+        yield f"{listing([parameter_in_words(n) for n in at_bound])} ran into a bound: the value is that of the bound"
     if unseen:
-        names = listing([unknown_name(n) for n in unseen])
+        names = listing([parameter_in_words(n) for n in unseen])
         yield f"these recordings add nothing to what was declared of {names}"
     yield from _held(fit, nominal)
     for name, value in fit.parameters.items():
@@ -43,7 +43,7 @@ def _doubts(fit: Identification, nominal: Model) -> Iterator[str]:
             if moved > BELIEVABLE:
                 factor = value.value / nominal.parameters[name]
                 yield (
-                    f"{unknown_name(name)} moved to {times_given(factor)}, {number(moved, 2)} "
+                    f"{parameter_in_words(name)} moved to {times_given(factor)}, {number(moved, 2)} "
                     "declared deviations: check data sheet and units"
                 )
 
@@ -56,7 +56,7 @@ def _held(fit: Identification, nominal: Model) -> Iterator[str]:
     values = nominal.effect_values
     held = [name for name, (_, value) in values.items() if value != 0.0 and not nominal.uncertainty.get(name)]
     if held and fit.parameters:
-        names = listing([unknown_name(name) for name in held])
+        names = listing([parameter_in_words(name) for name in held])
         yield (
             f"{names} {'is' if len(held) == 1 else 'are'} taken as exact, and the intervals are as narrow as if that "
             f"were so: say how far it is believed under [uncertainty], for instance {held[0]} = 0.1"

@@ -38,13 +38,13 @@ def laws_of_effects(ranking: Ranking, chosen: RankedFit, *, linear: bool) -> tup
     problem, this = ranking.problem.in_free_run(), chosen.final
     table = this.hypothesis.table
 
-    def unknown(active: Sequence[int]) -> list[UnknownInputs]:
+    def inputs(active: Sequence[int]) -> list[UnknownInputs]:
         return [unknown_inputs(problem.drive, problem.simulator, r, this.vector, active) for r in problem.whole]
 
-    full = unknown(this.active)
+    full = inputs(this.active)
     made = []
     for name in chosen.added[:LAWS]:
-        without = unknown([k for k in this.active if k != table[name].index])
+        without = inputs([k for k in this.active if k != table[name].index])
         plot = _law(name, full, without, linear=linear)
         if plot is not None:
             made.append(plot)
@@ -86,9 +86,9 @@ def _along(label: str, unit: str, full: Sequence[UnknownInputs], without: Sequen
     return _Along(label, unit, left, left - rest)
 
 
-def _states(unknown: Sequence[UnknownInputs]) -> dict[str, Array]:
+def _states(inputs: Sequence[UnknownInputs]) -> dict[str, Array]:
     """What a law may depend on (n,); the angle within one revolution, where there was more than one."""
-    states = {name: np.concatenate([getattr(u, name) for u in unknown]) for name in UNITS}
+    states = {name: np.concatenate([getattr(u, name) for u in inputs]) for name in UNITS}
     if np.ptp(states["angle"]) > 2.0 * np.pi:
         states["angle"] = np.mod(states["angle"], 2.0 * np.pi)
     return {name: x for name, x in states.items() if np.ptp(x) > 0.0}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, unrecognised
 from rwn.identify import Identification
 from rwn.model.files import model_of
 from rwn.model.model import Model
@@ -135,7 +135,7 @@ def _compared(run: Recording, models: Mapping[str, Model], wanted: str | None) -
 
 def _known(signal: str, there: Mapping[str, Any] | list[str]) -> str:
     if signal not in there:
-        raise unknown("signal", signal, there, where="plot")
+        raise unrecognised("signal", signal, there, where="plot")
     return signal
 
 

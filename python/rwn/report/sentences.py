@@ -18,11 +18,11 @@ from rwn.report.text import (
     likelihood,
     listing,
     number,
+    parameter_in_words,
     percent,
     plain_name,
     prefix_for,
     times_given,
-    unknown_name,
 )
 
 STANDS_OUT = 2.0  # error in units of the noise, from which three quarters of its square are something else
@@ -116,7 +116,8 @@ def _adequate(found: DiagnosisData) -> tuple[str, ...]:
     return (
         f"The model is adequate{tail}: nothing that these recordings can show is missing.",
         *(
-            f"But {unknown_name(name)} had to move by {number(times, 2)} times its declared uncertainty: check it."
+            f"But {parameter_in_words(name)} had to move by {number(times, 2)} times its declared uncertainty: "
+            "check it."
             for name, times in far.items()
         ),
         *_more_than_noise(found),

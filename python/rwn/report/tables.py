@@ -156,7 +156,7 @@ def parameter_table(found: DiagnosisData) -> str:
         declared = f"± {words.percent(p.uncertainty)}" if p.uncertainty else "exact"
         doubt = "unknown" if p.uncertainty is None else declared
         nominal = words.quantity(p.nominal, p.refitted.unit, 4)
-        label = escape(words.capital(words.unknown_name(name)))
+        label = escape(words.capital(words.parameter_in_words(name)))
         if p.only_declared(p.corrected or p.refitted):
             label += "<div class=note>the recordings hardly tell it: as declared</div>"
         rows.append([label, escape(nominal), doubt, escape(words.estimate(p.refitted)), corrected])

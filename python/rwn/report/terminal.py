@@ -18,10 +18,10 @@ from rwn.report.text import (
     likelihood,
     listing,
     number,
+    parameter_in_words,
     parameter_name,
     percent,
     plain_name,
-    unknown_name,
 )
 
 _COLOURS = {"missing-physics": "cyan", "adequate": "green", "recording-mistake": "red"}  # else yellow
@@ -93,7 +93,7 @@ def _off_the_data_sheet(found: DiagnosisData) -> Iterator[str]:
         low, high = p.refitted.interval or (p.nominal, p.nominal)
         if not low <= p.nominal <= high:
             off = f"{number(p.moved, 2)} declared deviations from the data sheet"
-            yield f"{capital(unknown_name(name))} = {estimate(p.refitted)}, {off}"
+            yield f"{capital(parameter_in_words(name))} = {estimate(p.refitted)}, {off}"
 
 
 def _measured(found: DiagnosisData) -> Iterator[str]:

@@ -133,9 +133,9 @@ def parameter_name(effect: str, parameter: str) -> str:
     return name if not sign or sign == name.replace(" ", "_") else f"{name} {sign}"
 
 
-def unknown_name(unknown: str) -> str:
+def parameter_in_words(name: str) -> str:
     """inertia -> inertia, coulomb-friction.coulomb_torque -> Coulomb torque of Coulomb friction."""
-    effect, _, parameter = unknown.rpartition(".")
+    effect, _, parameter = name.rpartition(".")
     return plain_name(parameter) + (f" of {plain_name(effect)}" if effect else "")
 
 

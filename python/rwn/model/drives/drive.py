@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn import _core
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, unrecognised
 from rwn.recording.signals import SIGNALS
 from rwn.recording.units import linear_unit
 
@@ -149,7 +149,7 @@ class Drive:
     def read(self, motor: Mapping[str, Any], *, where: str) -> tuple[dict[str, Any], int]:
         """What [motor] gives, as parameter -> value with or without a unit, and the order. Raises InputError."""
         if "order" in motor:
-            raise unknown("key", "order", [p.name for p in self.parameters], where=where)
+            raise unrecognised("key", "order", [p.name for p in self.parameters], where=where)
         return dict(motor), 0
 
     def lines(self, parameters: Mapping[str, float], order: int) -> list[str] | None:  # noqa: ARG002

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, unrecognised
 from rwn.model.drives.drive import USUAL_VOLTAGE, Drive, NominalParameter
 
 MOST_ORDER = 20
@@ -72,7 +72,7 @@ def _coefficients(given: Mapping[str, Any], order: int, where: str) -> dict[str,
     """numerator and denominator (highest power first) as b_k and a_k with a leading denominator of 1."""
     for key in given:
         if key not in ("numerator", "denominator"):
-            raise unknown("key", key, ("kind", "order", "numerator", "denominator"), where=where)
+            raise unrecognised("key", key, ("kind", "order", "numerator", "denominator"), where=where)
     if not given:
         return {}
     lists = {key: given.get(key, []) for key in ("numerator", "denominator")}

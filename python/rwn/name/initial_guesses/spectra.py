@@ -118,9 +118,9 @@ def flux_spectrum(problem: Problem, motor: Array, orders: Array) -> Array:
     """
     parts = []
     for run, number in zip(problem.runs, _phases(problem.runs), strict=True):
-        unknown = unknown_inputs(problem.drive, problem.simulator, run, motor)
-        linear = np.stack([unknown.current, np.gradient(unknown.current, run.time), unknown.speed], axis=1)
-        parts.append((unknown.voltage, linear, unknown.speed, unknown.angle, np.full(run.time.size, number)))
+        inputs = unknown_inputs(problem.drive, problem.simulator, run, motor)
+        linear = np.stack([inputs.current, np.gradient(inputs.current, run.time), inputs.speed], axis=1)
+        parts.append((inputs.voltage, linear, inputs.speed, inputs.angle, np.full(run.time.size, number)))
     voltage, linear, speed, angle, phase = (np.concatenate(rows) for rows in zip(*parts, strict=True))
     basis, _ = np.linalg.qr(linear)
     left = _beside(basis, voltage)

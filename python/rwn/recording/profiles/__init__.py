@@ -16,7 +16,7 @@ from importlib.resources import files
 
 import msgspec
 
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, unrecognised
 from rwn.recording.signals import TIME
 
 PROFILES = ("odrive", "moteus", "dynamixel", "twincat", "sinamics", "sysid")
@@ -59,7 +59,7 @@ class Wanted(frozenset[str]):
 def profile(name: str, *, where: object = "profile") -> Profile:
     """The profile of that name. Raises InputError where there is none."""
     if name not in PROFILES:
-        raise unknown("profile", name, PROFILES, where=where)
+        raise unrecognised("profile", name, PROFILES, where=where)
     return _read(name)
 
 

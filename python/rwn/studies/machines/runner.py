@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from rwn.errors import InputError, unknown
+from rwn.errors import InputError, unrecognised
 from rwn.report import write_report
 from rwn.studies.machines.hand_fit import HANDS, Errors
 from rwn.studies.machines.machine import Outcome
@@ -30,7 +30,7 @@ def run_machines(
     names = list(names) or list(MACHINES)
     for name in names:
         if name not in MACHINES:
-            raise unknown("machine", name, MACHINES, where="rwn evidence")
+            raise unrecognised("machine", name, MACHINES, where="rwn evidence")
     if not data.is_dir():
         raise InputError(
             "the folder of recordings is not here",

@@ -126,13 +126,13 @@ def calibrate(
     ] = False,
 ) -> None:
     """Fit the probability that an effect acts to the evidence and answers of development trials."""
-    from rwn.errors import unknown
+    from rwn.errors import unrecognised
     from rwn.studies.trials.calibrate import bias_of, calibrated, names_of, origin, with_bias, words, write
 
     check, known = check or [], [f.name for f in folders]
     for name in check:
         if name not in known:
-            raise unknown("set", name, known, where="--check")
+            raise unrecognised("set", name, known, where="--check")
     names = names_of(folders, results=results)
     what = origin(names, folders, results=results, check=check)
     bias = bias_of(folders, results=results, check=check)
