@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked
 from rwn.correct.drift import free_of_drift
 from rwn.decide.decision import Decision, decide
 from rwn.fit.fit import Fit
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.name.forward import rank
 from rwn.simulate.recorded_run import judging_run
 from rwn.simulate.run import Run
 
@@ -42,7 +42,7 @@ def _recording(seed: int, *, wandering: float) -> rwn.Recording:
 
 def _decided(wandering: float) -> tuple[Decision, list[Run]]:
     problem = prepare([_recording(1, wandering=wandering)], SHEET)
-    ranking = rank(problem, progress=lambda *_: None, names=["quadratic-drag"], at_once=1)
+    ranking = ranked(problem, ["quadratic-drag"], at_once=1)
     unseen = [judging_run(_recording(2, wandering=0.0), SHEET)]
     return decide(ranking, unseen, SHEET, seed=0), unseen
 

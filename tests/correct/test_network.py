@@ -11,14 +11,13 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
+from ranked import ranked_from
 from rwn.correct.network import network_correction, proved_network
 from rwn.decide.calibration import calibration
-from rwn.fit.preparation import prepare
 from rwn.model.drives.axis import LINEAR_AXIS
 from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
-from rwn.name.forward import rank
 from rwn.report.sentences import verdict_sentence
 from rwn.simulate.recorded_run import judging_run
 from rwn.unnamed_law.places import places
@@ -104,7 +103,7 @@ def test_the_sentence_says_so(waved: rwn.Diagnosis) -> None:
 
 
 def test_a_network_over_the_angle() -> None:
-    ranking = rank(prepare([recorded(seed, once_a_turn) for seed in range(2)], NOMINAL), progress=_silent, names=NONE)
+    ranking = ranked_from([recorded(seed, once_a_turn) for seed in range(2)], NOMINAL, NONE)
     made = network_correction(ranking, NOMINAL)
     assert made is not None
     assert made.place.words == "a torque over angle"
@@ -114,7 +113,7 @@ def test_a_network_over_the_angle() -> None:
 
 def test_what_the_nominal_term_can_do_is_not_left_to_the_network() -> None:
     unsure = replace(NOMINAL, uncertainty={**NOMINAL.uncertainty, "viscous_friction": np.inf})
-    ranking = rank(prepare([recorded(seed, wavy) for seed in range(2)], unsure), progress=_silent, names=NONE)
+    ranking = ranked_from([recorded(seed, wavy) for seed in range(2)], unsure, NONE)
     made = network_correction(ranking, unsure, at=places(ranking.problem, unsure)[0])
     assert made is not None
     effect = made.model.own_effects[-1]
@@ -128,7 +127,7 @@ def test_what_the_nominal_term_can_do_is_not_left_to_the_network() -> None:
 def test_a_network_that_does_not_help_elsewhere_is_not_kept() -> None:
     """Held-out recordings of another machine, which brakes where this one drives."""
     runs = [recorded(0, wavy), recorded(1, wavy), recorded(2, lambda w, a: -wavy(w, a))]
-    ranking = rank(prepare(runs[:2], NOMINAL), progress=_silent, names=NONE)
+    ranking = ranked_from(runs[:2], NOMINAL, NONE)
     assert network_correction(ranking, NOMINAL) is not None
     assert proved_network(ranking, NOMINAL, [judging_run(runs[2], NOMINAL)], seed=0) is None
 
@@ -147,7 +146,7 @@ def test_a_name_that_is_proved_and_not_the_whole_stands_in(monkeypatch: pytest.M
 
 def test_without_held_out_recordings_it_is_learned_anew_for_each() -> None:
     runs = [recorded(seed, wavy) for seed in range(2)]
-    ranking = rank(prepare(runs, NOMINAL), progress=_silent, names=NONE)
+    ranking = ranked_from(runs, NOMINAL, NONE)
     kept = proved_network(ranking, NOMINAL, [], seed=0)
     assert kept is not None
     assert all("left out" in row.recording for row in kept[1])
@@ -181,7 +180,7 @@ def test_a_force_over_the_position_of_a_linear_axis() -> None:
         signals = {"force": force, "position": true["position"] + rng.normal(0, 2e-5, t.size),
                    "speed": true["speed"] + rng.normal(0, 1e-3, t.size)}  # fmt: skip
         runs.append(replace(run, signals=signals))
-    ranking = rank(prepare(runs[:2], plain), progress=_silent, names=NONE)
+    ranking = ranked_from(runs[:2], plain, NONE)
     kept = proved_network(ranking, plain, [judging_run(runs[2], plain)], seed=0)
     assert kept is not None
     assert kept[0].place.words == "a force over position"
@@ -191,7 +190,3 @@ def test_a_force_over_the_position_of_a_linear_axis() -> None:
 
 
 NONE = ["constant-load"]  # what stands in does not depend on the names that were tried
-
-
-def _silent(what: str, done: float) -> None:
-    pass

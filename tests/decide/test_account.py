@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked_from
 from rwn.decide.account import account, remainder
 from rwn.decide.evidence import CrossValidation
 from rwn.decide.other_law import curve_instead
 from rwn.fit.fit import fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.preparation import prepare
-from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 
 pytestmark = pytest.mark.slow
@@ -28,7 +27,7 @@ def ranking() -> Ranking:
     """Of the demo, which lacks Coulomb friction."""
     recording = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
     names = ["coulomb-friction", "asymmetric-friction", "quadratic-drag"]
-    return rank(prepare([recording], MODEL), progress=lambda *_: None, names=names)
+    return ranked_from([recording], MODEL, names)
 
 
 def test_what_acts_is_stated_and_its_elaboration_is_not(ranking: Ranking) -> None:
@@ -74,7 +73,7 @@ def on_a_tie() -> tuple[rwn.Model, Ranking]:
         name="two levels", time=given.time, signals={"voltage": given.signals["voltage"], **measured}
     )
     names = ["coulomb-friction", "asymmetric-friction", "constant-load"]
-    return declared, rank(prepare([recording], declared), progress=lambda *_: None, names=names)
+    return declared, ranked_from([recording], declared, names)
 
 
 def test_an_elaboration_is_compared_with_the_plain_law_and_not_with_its_rivals(

@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked_from
 from rwn.decide import evidence as module
 from rwn.decide.evidence import CrossValidation
-from rwn.fit.preparation import prepare
-from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 
 MODEL = rwn.read_model(Path(rwn.__file__).parent / "demo" / "model.toml")
@@ -38,7 +37,7 @@ def _ranking(truth: rwn.Model, names: Sequence[str], *, seed: int, wandering: fl
     speed = rwn.simulate(truth, acting).signals["speed"]
     speed = speed + 0.5 * np.random.default_rng(seed + 100).standard_normal(N)
     given = rwn.Recording(name="run", time=time, signals={"voltage": voltage, "speed": speed})
-    return rank(prepare([given], MODEL), progress=lambda *_: None, names=names)
+    return ranked_from([given], MODEL, names)
 
 
 @pytest.mark.parametrize("seed", [0, 3])

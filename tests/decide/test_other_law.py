@@ -6,10 +6,9 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
+from ranked import ranked_from
 from rwn.decide.other_law import curve_beside
-from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 
 NOMINAL = Model(
@@ -24,7 +23,7 @@ def drag(power: int) -> Ranking:
     runs = [
         recorded(seed, lambda w, _: -0.03 * w * abs(w / 90.0) ** (power - 1) / 90.0, samples=1200) for seed in range(2)
     ]
-    return rank(prepare(runs, NOMINAL), progress=lambda *_: None, names=["quadratic-drag"])
+    return ranked_from(runs, NOMINAL, ["quadratic-drag"])
 
 
 @pytest.mark.slow

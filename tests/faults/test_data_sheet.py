@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked_from
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
-from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 from rwn.search.search import search
 
@@ -62,7 +61,7 @@ def test_a_wrong_data_sheet_is_said_first_and_bends_no_parameter(
 def test_a_sound_data_sheet_is_not_contradicted_by_what_physics_explains() -> None:
     names = ["coulomb-friction", "actuator-deadzone"]
     runs = _runs(102, {"coulomb-friction": {"coulomb_torque": 6e-3}})
-    ranking = rank(prepare(runs, _sheet()), progress=lambda *_: None, names=names)
+    ranking = ranked_from(runs, _sheet(), names)
     assert ranking.nominal_fit.farthest_move > 0.0
     assert contradicted(ranking) == []
 
@@ -72,7 +71,7 @@ def test_a_value_that_comes_back_once_it_is_free_was_right() -> None:
     runs, names = _runs(103, {}), ["coulomb-friction"]
 
     def ranked(model: Model) -> Ranking:
-        return rank(prepare(runs, model), progress=lambda *_: None, names=names)
+        return ranked_from(runs, model, names)
 
     sound, wrong = _sheet(), _sheet(inertia=3.0)
     free = without_declared(sound, {"inertia"})
@@ -82,10 +81,7 @@ def test_a_value_that_comes_back_once_it_is_free_was_right() -> None:
 
 
 def test_both_constants_of_a_motor_are_doubted_together() -> None:
-    ranking = rank(
-        prepare(_runs(104, {}), _sheet(torque_constant=2.0, back_emf_constant=2.0)), progress=lambda *_: None,
-        names=["coulomb-friction"],
-    )  # fmt: skip
+    ranking = ranked_from(_runs(104, {}), _sheet(torque_constant=2.0, back_emf_constant=2.0), ["coulomb-friction"])
     assert contradicted(ranking)[0] == {"torque_constant", "back_emf_constant"}
 
 

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked_from
 from rwn.decide.next_experiment import separated_by
 from rwn.faults.delay import SuspectedFault, accepted, first_effects, rivals, suspected
 from rwn.faults.fault import SHIFT, Fault
 from rwn.faults.fault import without as undone
 from rwn.faults.scale import wrong_scale
 from rwn.fit.preparation import prepare
-from rwn.name.forward import rank
 from rwn.report.diagnosis_data import Beneath
 from rwn.report.fitted_filter import fitted_filters
 from rwn.report.next_steps import next_steps
@@ -259,7 +259,7 @@ def test_a_drive_that_is_hardly_moved_says_nothing(model: rwn.Model, right: rwn.
 @pytest.mark.slow
 def test_what_fits_best_alone_is_a_rival_though_its_law_is_on_a_limit(model: rwn.Model) -> None:
     recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
-    ranking = rank(prepare([recording], model), progress=lambda *_: None, at_once=1)
+    ranking = ranked_from([recording], model, at_once=1)
     least = min(ranking.alone.fits, key=lambda f: f.cost).added
     others = tuple(h for h in ranking.fits if not set(h.added) & set(least))
     without_it = replace(ranking, fits=others)  # what is at a limit is not ranked

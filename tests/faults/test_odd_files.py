@@ -12,13 +12,12 @@ import pytest
 
 import rwn
 from made_up_files import files_of
+from ranked import ranked_from
 from rwn.faults.fault import SIGN, UNIT, Fault
 from rwn.faults.odd_files import wrong_in_some
 from rwn.faults.plain_faults import plain_faults
 from rwn.faults.scale import wrong_scale
-from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.name.forward import rank
 from rwn.recording.columns import Layout
 from rwn.report.next_steps import _mistake
 from rwn.search.search import SearchResult
@@ -88,7 +87,7 @@ def test_what_some_of_the_fitted_have_is_not_undone_in_what_is_kept_back() -> No
     """Tables in Python are all called alike."""
     fitted, other = files_of(MODEL, [], (1.0, 1.0))
     kept_back = replace(other, name=fitted.name)
-    ranking = rank(prepare([fitted], MODEL), progress=lambda *_: None, names=["coulomb-friction"], at_once=1)
+    ranking = ranked_from([fitted], MODEL, ["coulomb-friction"], at_once=1)
     fault = Fault(name=UNIT, signals=("speed",), meaning="", factor=RPM, recordings=(fitted.name,))
     for faults, divided in (((fault,), 1.0), ((replace(fault, recordings=()),), RPM)):
         found = SearchResult(model=MODEL, late=(), faults=faults, ranking=ranking)

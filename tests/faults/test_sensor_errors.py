@@ -11,12 +11,12 @@ import pytest
 
 import rwn
 from made_up_files import files_of
+from ranked import ranked_from
 from rwn.faults.fault import SHIFT, UNIT, Fault
 from rwn.faults.sensor_errors import _far_off, without_sensor_errors
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.name.forward import rank
 from rwn.search.search import _without_sensor_errors, search
 
 MOTOR = {
@@ -85,7 +85,7 @@ def test_the_search_begins_anew_without_them() -> None:
 def test_none_are_left_out_where_a_fault_is_undone(fault: dict[str, Any]) -> None:
     """The samples of these recordings are not those that the explanation is of."""
     recordings = _recordings({"current": [STEP]}, size=0.5)
-    ranking = rank(prepare(recordings, MODEL), progress=lambda *_: None, names=["coulomb-friction"], at_once=1)
+    ranking = ranked_from(recordings, MODEL, ["coulomb-friction"], at_once=1)
     found = Fault(signals=("speed",), meaning="", **fault)
     assert _without_sensor_errors(recordings, [found], ranking).findings == ()
     assert len(_without_sensor_errors(recordings, [], ranking).findings) == 1

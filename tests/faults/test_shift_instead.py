@@ -10,13 +10,13 @@ import pytest
 from scipy.signal import lfilter
 
 import rwn
+from ranked import ranked, ranked_from
 from rwn.faults import delay
 from rwn.faults.delay import shift_instead
 from rwn.fit.preparation import prepare
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
 from rwn.model.model import Model
-from rwn.name.forward import rank
 
 DEMO = Path(rwn.__file__).parent / "demo"
 KEPT = 0.5  # by the filter of the current
@@ -44,10 +44,6 @@ def _recording(model: Model, *, late: int, lag: float) -> rwn.Recording:
     return rwn.Recording(name="run", time=recording.time, signals=signals)
 
 
-def _silent(what: str, done: float) -> None:
-    """As a progress."""
-
-
 @pytest.mark.parametrize(("late", "lag"), [(2, 0.0), (0, 4e-3)])
 def test_a_speed_is_late_where_that_fits_as_well_as_the_law_of_its_sensor(model: Model, late: int, lag: float) -> None:
     recordings = [_recording(model, late=late, lag=lag)]
@@ -55,7 +51,7 @@ def test_a_speed_is_late_where_that_fits_as_well_as_the_law_of_its_sensor(model:
     known = [SensorFilter(signal="current", share=KEPT, time_constant=-step / np.log(KEPT), digital=True)]
     problem = filtered(prepare(recordings, model), known)
     names = ["speed-moving-average", "speed-sensor-lag"]
-    ranking = rank(problem, progress=_silent, names=names, at_once=1)
+    ranking = ranked(problem, names, at_once=1)
     assert ranking.fits[0].added[0] in names
     fault = shift_instead(recordings, model, known, ranking)
     if late:
@@ -73,7 +69,7 @@ def test_a_bias_of_a_sensor_is_no_lag_that_a_late_channel_may_be_instead(
     """What was named does not delay: nothing asks for a shift in its place."""
     late = _recording(model, late=2, lag=0.0)
     late = replace(late, signals={**late.signals, "current": late.signals["current"] + 0.1})
-    ranking = rank(prepare([late], model), progress=_silent, names=["sensor-bias"], at_once=1)
+    ranking = ranked_from([late], model, ["sensor-bias"], at_once=1)
     biased = next(r for r in ranking.fits if r.added == ("sensor-bias",))
     monkeypatch.setattr(delay, "_shifts", lambda *_: pytest.fail("it was asked"))
     assert shift_instead([late], model, [], replace(ranking, fits=(biased,))) is None
@@ -94,7 +90,7 @@ def test_a_current_is_late_where_that_fits_as_well_as_an_input_that_is(model: Mo
         noisy["current"] = np.append(noisy["current"][0], noisy["current"][:-1])
     signals = {"voltage": recording.signals["voltage"], **noisy}
     recordings = [rwn.Recording(name="run", time=recording.time, signals=signals)]
-    ranking = rank(prepare(recordings, model), progress=_silent, names=["input-delay"], at_once=1)
+    ranking = ranked_from(recordings, model, ["input-delay"], at_once=1)
     assert ranking.fits[0].added == ("input-delay",)
     fault = shift_instead(recordings, model, [], ranking)
     assert (fault and (fault.signals, fault.delay)) == ((("current",), 1) if late else None)

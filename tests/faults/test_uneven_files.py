@@ -5,10 +5,9 @@ from __future__ import annotations
 import pytest
 
 from made_up_files import files_of
+from ranked import ranked_from
 from rwn.faults.uneven_files import uneven_files
-from rwn.fit.preparation import prepare
 from rwn.model.model import Model
-from rwn.name.forward import rank
 
 MOTOR = {
     "resistance": 1.0, "inductance": 1e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,
@@ -21,7 +20,7 @@ MODEL = Model(kind="dc", parameters=MOTOR, uncertainty=dict.fromkeys(UNCERTAIN, 
 def _said(quantity: str, factors: tuple[float, ...]) -> dict[str, str]:
     """What is said of recordings in which a parameter is so many times as large, by the name of the recording."""
     made = files_of(MODEL, [quantity], factors)
-    ranking = rank(prepare(made, MODEL), progress=lambda *_: None, names=["coulomb-friction"], at_once=1)
+    ranking = ranked_from(made, MODEL, ["coulomb-friction"], at_once=1)
     return {f.recording: f.words for f in uneven_files(ranking) if f.kind == "files-disagree"}
 
 

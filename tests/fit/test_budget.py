@@ -10,13 +10,13 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
+from ranked import ranked
 from rwn import _core
 from rwn.fit import budget
 from rwn.fit.fit import cost_of_a_step, fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
-from rwn.name.forward import rank
 from rwn.name.screening import screen
 from rwn.parallel import thread_pool
 
@@ -67,7 +67,7 @@ def test_what_a_search_costs_does_not_depend_on_threads() -> None:
     for jobs in (1, 2):
         problem = _problem()
         with thread_pool(jobs):
-            rank(problem, progress=lambda *_: None, names=LATE)
+            ranked(problem, LATE)
         costs.append(problem.work.done)
     assert costs[0] == costs[1] > 0
 
@@ -105,10 +105,10 @@ def test_something_is_left_however_much_was_spent() -> None:
 
 def test_where_the_budget_is_spent_more_effects_are_tried_beside_the_best_alone() -> None:
     names = [*LATE, "magnetic-saturation"]
-    ranking = rank(_problem(_spent(0.9)), progress=lambda *_: None, names=names)
+    ranking = ranked(_problem(_spent(0.9)), names)
     assert ranking.cut_short
     assert len({base for base, _ in ranking.extensions.tried}) == 1
-    whole = rank(_problem(), progress=lambda *_: None, names=names)
+    whole = ranked(_problem(), names)
     assert not whole.cut_short
     assert len({base for base, _ in whole.extensions.tried}) == 2
     assert whole.closest.cost <= ranking.closest.cost
@@ -121,8 +121,8 @@ def test_pairs_that_are_known_are_weighed_though_nothing_is_left_to_try_more() -
     def problem(spent: float) -> Problem:
         return prepare([both], rwn.Model(kind="dc", parameters=MOTOR), work=_spent(spent))
 
-    pairs = rank(problem(0.0), progress=lambda *_: None, names=names)
-    again = rank(problem(0.9), progress=lambda *_: None, names=names, after=pairs)
+    pairs = ranked(problem(0.0), names)
+    again = ranked(problem(0.9), names, after=pairs)
     assert set(again.closest.added) == set(pairs.closest.added) == set(names)
     assert not again.cut_short  # what is left is noise: nothing more would have been tried
 

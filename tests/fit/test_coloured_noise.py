@@ -9,12 +9,12 @@ import pytest
 from numpy.typing import NDArray
 
 import rwn
+from ranked import ranked_from
 from rwn.fit.coloured_noise import under_coloured_noise
 from rwn.fit.fit import Fit, fit_nominal, refit
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
-from rwn.name.forward import rank
 from rwn.name.ranking import Ranking
 from rwn.simulate.windows import windowed
 
@@ -51,7 +51,7 @@ def plain_fit(recording: rwn.Recording) -> tuple[Problem, Fit]:
 
 
 def ranked(recording: rwn.Recording) -> Ranking:
-    return rank(prepare([recording], UNKNOWN), progress=lambda *_: None, names=["sensor-rectification"], at_once=1)
+    return ranked_from([recording], UNKNOWN, ["sensor-rectification"], at_once=1)
 
 
 def by_hand(problem: Problem, this: Fit, share: float, every: int = 0) -> tuple[float, Array, Array]:

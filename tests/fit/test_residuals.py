@@ -9,10 +9,10 @@ import pytest
 from numpy.typing import NDArray
 
 import rwn
+from ranked import ranked
 from rwn.fit.preparation import prepare
 from rwn.fit.residuals import Statistics, statistics_of, structured_of
 from rwn.model.model import Model
-from rwn.name.forward import rank
 
 Array = NDArray[np.float64]
 SAMPLES = 4000
@@ -96,5 +96,5 @@ def test_a_shaft_is_seen_beside_a_drag(stiffness: float, noise: float) -> None:
     signals = {"voltage": voltage, "speed": done.signals["speed"] + noise * draw.standard_normal(time.size)}
     model = Model(kind="dc", parameters=motor, uncertainty=dict.fromkeys(motor, 0.05))
     problem = prepare([rwn.Recording(name="shaft.csv", time=time, signals=signals)], model)
-    ranking = rank(problem, progress=lambda *_: None, names=[*sorted(missing), "backlash"], at_once=2)
+    ranking = ranked(problem, [*sorted(missing), "backlash"], at_once=2)
     assert set(ranking.fits[0].added) == set(missing)

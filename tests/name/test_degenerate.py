@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked_from
 from rwn.fit.fit import Fit
-from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name.degenerate import adds
-from rwn.name.forward import rank
 from rwn.name.observable import revolutions
 
 FitWith = Callable[[str], Fit]  # an effect's name -> the demo's recording explained by it
@@ -75,7 +74,7 @@ def test_loads_that_say_the_same_do_not_keep_another_law_from_being_built_on() -
     model = Model(kind="dc", parameters=motor, uncertainty={"coulomb_friction": 0.5, "viscous_friction": 0.5})
     loads = ["load-disturbance", "constant-load", "load-spring"]
     names = [*loads, "asymmetric-friction", "quadratic-drag"]
-    ranking = rank(prepare([run], model), progress=lambda *_: None, names=names)
+    ranking = ranked_from([run], model, names)
     alone = [f for f in ranking.alone.fits if f.added[0] in loads]
     assert sum(adds(f, ranking.problem) for f in alone) < 3
     assert {"asymmetric-friction", "quadratic-drag"} in [set(f.added) for f in ranking.fits]

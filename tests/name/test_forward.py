@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked, ranked_from
 from rwn.fit.fit import Fit, fit, fit_nominal
 from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.preparation import prepare
@@ -20,7 +21,7 @@ from rwn.fit.residuals import Statistics, statistics, statistics_of, structured_
 from rwn.model.model import Model
 from rwn.name import forward
 from rwn.name.backward import with_simpler
-from rwn.name.forward import _beside, _diverse, _grown, rank
+from rwn.name.forward import _beside, _diverse, _grown
 from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits
 from rwn.name.screening import screen
@@ -158,7 +159,7 @@ def test_a_current_that_is_not_recorded_is_made_of_voltage_and_speed(problem: Pr
 
 
 def test_explanations_are_reported_best_first(problem: Problem) -> None:
-    ranking = rank(problem, progress=_silent, names=["coulomb-friction", "quadratic-drag", "input-delay"])
+    ranking = ranked(problem, ["coulomb-friction", "quadratic-drag", "input-delay"])
     assert ranking.fits[0].added == ("coulomb-friction",)
     assert [r.score for r in ranking.fits] == sorted((r.score for r in ranking.fits), reverse=True)
     assert not any(r.fit.limits_met for r in ranking.fits)
@@ -166,19 +167,19 @@ def test_explanations_are_reported_best_first(problem: Problem) -> None:
 
 def test_an_explanation_goes_on_from_single_effects(problem: Problem) -> None:
     names = ["quadratic-drag", "input-delay"]  # neither is what is missing
-    at_once = rank(problem, progress=_silent, names=names)
-    alone = rank(problem, progress=_silent, names=names, at_once=1)
+    at_once = ranked(problem, names)
+    alone = ranked(problem, names, at_once=1)
     assert not alone.complete
-    further = rank(problem, progress=_silent, names=names, after=alone)
+    further = ranked(problem, names, after=alone)
     assert [r.added for r in further.fits] == [r.added for r in at_once.fits]
     assert [r.score for r in further.fits] == [r.score for r in at_once.fits]
-    fewer = rank(problem, progress=_silent, names=names[:1], after=alone)
+    fewer = ranked(problem, names[:1], after=alone)
     assert {n for r in fewer.fits for n in r.added} <= set(names[:1])
 
 
 def test_pairs_that_were_tried_are_not_tried_again(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
     names = ["quadratic-drag", "input-delay"]  # neither is what is missing
-    pairs = rank(problem, progress=_silent, names=names, at_once=2)
+    pairs = ranked(problem, names, at_once=2)
     assert pairs.extensions.fits
     tried: list[str] = []
 
@@ -187,7 +188,7 @@ def test_pairs_that_were_tried_are_not_tried_again(problem: Problem, monkeypatch
         return []
 
     monkeypatch.setattr("rwn.name.forward.screen", none)
-    again = rank(problem, progress=_silent, names=names, at_once=2, after=pairs)
+    again = ranked(problem, names, at_once=2, after=pairs)
     assert tried == []
     assert [r.score for r in again.fits] == [r.score for r in pairs.fits]
 
@@ -253,7 +254,7 @@ def test_a_strong_cog_is_found() -> None:
     noisy = {s: seen[s] + 0.01 * np.std(seen[s]) * rng.standard_normal(time.size) for s in ("current", "speed")}
     recorded = replace(run, signals={"voltage": voltage, **noisy, "position": seen["position"]})
     sheet = Model(kind="dc", parameters=motor, uncertainty={"viscous_friction": 0.3, "inertia": 0.1})
-    ranking = rank(prepare([recorded], sheet), progress=_silent, names=["cogging-torque", "coulomb-friction"])
+    ranking = ranked_from([recorded], sheet, ["cogging-torque", "coulomb-friction"])
     best = ranking.fits[0].fit
     assert best.added == ("cogging-torque",)
     assert best.value("cogging-torque.amplitude") == pytest.approx(cog["amplitude"], rel=0.02)

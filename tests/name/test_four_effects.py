@@ -9,9 +9,8 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.fit.preparation import prepare
+from ranked import ranked_from
 from rwn.model.model import Model
-from rwn.name.forward import rank
 
 EFFECTS = {
     "coulomb-friction": {"coulomb_torque": 0.01},
@@ -33,7 +32,7 @@ def test_three_effects_and_a_lag_are_found() -> None:
     known_to = {"viscous_friction": 0.3, "inertia": 0.1, "resistance": 0.05}
     sheet = Model(kind="dc", parameters=MOTOR, uncertainty=known_to)
     names = [*EFFECTS, "constant-load", "load-disturbance"]
-    best = rank(prepare([recorded], sheet), progress=lambda *_: None, names=names).fits[0].fit
+    best = ranked_from([recorded], sheet, names).fits[0].fit
     assert set(best.added) == set(EFFECTS)
     for name, values in EFFECTS.items():
         assert best.values_of(name) == pytest.approx(values, rel=0.1), name

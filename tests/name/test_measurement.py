@@ -11,6 +11,7 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL
+from ranked import ranked
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import weighted_by_nominal
@@ -19,7 +20,7 @@ from rwn.fit.problem import Problem
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.name import forward
-from rwn.name.forward import _grown, rank
+from rwn.name.forward import _grown
 from rwn.name.measurement import CHANGES, Measurement
 from rwn.name.ranking import NO_EXTENSIONS, Fits
 from rwn.recording.filters import as_filtered
@@ -115,7 +116,7 @@ def test_nothing_is_built_on_what_another_measurement_shows(
 def test_what_is_known_of_the_recordings_goes_along_when_a_ranking_is_gone_on_with(recorded: Problem) -> None:
     """Else the filter would count as unknown where it is undone already, and never be asked again."""
     names = ["coulomb-friction"]
-    alone = rank(recorded, progress=lambda *_: None, names=names, at_once=1)
-    further = rank(recorded, progress=lambda *_: None, names=names, after=alone)
+    alone = ranked(recorded, names, at_once=1)
+    further = ranked(recorded, names, after=alone)
     assert [f.signal for f in alone.measurement.filters] == ["speed"]
     assert further.measurement == alone.measurement

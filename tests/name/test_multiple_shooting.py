@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.fit.unknown import prior_cost
-from rwn.name.forward import rank
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.ranking import Ranking
 
@@ -46,7 +46,7 @@ def problem() -> Problem:
 
 @pytest.fixture(scope="module")
 def ranking(problem: Problem) -> Ranking:
-    return rank(problem, progress=lambda *_: None, names=NAMES)
+    return ranked(problem, NAMES)
 
 
 def test_effects_are_found_though_the_free_run_of_each_has_lost_the_motion(ranking: Ranking) -> None:

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked_from
 from rwn.errors import InputError
-from rwn.fit.preparation import prepare
 from rwn.model.files import read_model, write_model
 from rwn.model.own_effects import OwnEffect, OwnParameter
-from rwn.name.forward import rank
 
 PEAK = OwnParameter(name="peak", unit="N m", lower=0, upper=0.05, start=0.002, strength=True)
 PHASE = OwnParameter(name="phase", unit="rad", lower=-3.1416, upper=3.1416, start=0, phase=True)
@@ -48,7 +47,7 @@ def test_a_phase_is_found_all_round(effect: OwnEffect, phase: float) -> None:
     known = replace(MODEL, own_effects=(effect,))
     values = {p.name: p.start for p in effect.parameters} | {"peak": 0.004, "phase": phase}
     recording = _recording(replace(known, effects={effect.name: values}))
-    best = rank(prepare([recording], known), progress=lambda *_: None, names=[effect.name]).fits[0].fit
+    best = ranked_from([recording], known, [effect.name]).fits[0].fit
     found = best.values_of(effect.name)
     assert best.added == (effect.name,)
     assert found["peak"] == pytest.approx(0.004, rel=0.05)

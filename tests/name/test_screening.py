@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked
 from rwn.fit.fit import BRIEFLY, TO_THE_END, Fit, fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.levenberg_marquardt import FitStatus
@@ -19,7 +20,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.screening_part import part
 from rwn.model.model import Model
 from rwn.name import screening
-from rwn.name.forward import _weighted_beforehand, rank
+from rwn.name.forward import _weighted_beforehand
 from rwn.name.screening import FURTHER, _further, _has_room, _to_the_end, screen
 from rwn.name.starts import FittedStart, Start, starts
 
@@ -54,7 +55,7 @@ def lagging() -> Problem:
 
 
 def test_a_lag_that_has_changed_places_with_the_motor_is_found_in_its_own(lagging: Problem) -> None:
-    ranking = rank(lagging, progress=lambda *_: None, names=["speed-sensor-lag", "input-delay", "actuator-deadzone"])
+    ranking = ranked(lagging, ["speed-sensor-lag", "input-delay", "actuator-deadzone"])
     best = ranking.fits[0].fit
     assert best.added == ("speed-sensor-lag",)
     assert best.values_of("speed-sensor-lag")["time_constant"] == pytest.approx(LAG, rel=0.01)

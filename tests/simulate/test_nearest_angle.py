@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import rwn
+from ranked import ranked_from
 from rwn.fit.fit import fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.preparation import prepare
 from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index, table
-from rwn.name.forward import rank
 from rwn.name.initial_guesses.initial_angle import aligned
 from rwn.name.initial_guesses.spectra import angle_spectrum
 from rwn.simulate.nearest_angle import angles_to_try
@@ -54,7 +54,7 @@ def test_angles_to_try_go_once_round_what_comes_back() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("effects", [COGGING, {"inertia-variation": {"amplitude": 2e-5}}], ids=lambda e: next(iter(e)))
 def test_an_effect_is_found_in_recordings_that_begin_at_any_angle(effects: dict[str, dict[str, float]]) -> None:
-    found = rank(prepare([seen(effects, 433, 1), seen(effects, 571, 2)], SHEET), progress=lambda *_: None, at_once=1)
+    found = ranked_from([seen(effects, 433, 1), seen(effects, 571, 2)], SHEET, at_once=1)
     (name,) = effects
     assert found.fits[0].added == (name,)
     assert found.left.variance < 1.5

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from ranked import ranked
 from rwn.cli import app
 from rwn.errors import InputError
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import BELIEVABLE
-from rwn.name.forward import rank
 from rwn.name.found_effect import FoundEffect
 from rwn.recording.recording import Recording, read_recording
 from rwn.report.diagnosis import Diagnosis
@@ -95,7 +95,7 @@ def test_fra233_dry_friction_does_not_bend_the_motor_beyond_belief(shared: Path)
     sine, ramp = (read_recording(folder / f"{name}_1.mat", layout=model.recording) for name in ("sine", "ramp"))
     names = ["coulomb-friction", "quadratic-drag", "load-dependent-friction"]
     problem = prepare([cut(sine, 2000, 8000), cut(ramp, 1000, 7000)], model)
-    ranking = rank(problem, progress=lambda *_: None, names=names)
+    ranking = ranked(problem, names)
     first = ranking.fits[0].fit
     assert "coulomb-friction" in first.added
     assert first.minimum.chi2 < 0.3 * ranking.nominal_fit.minimum.chi2
