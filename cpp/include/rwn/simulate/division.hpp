@@ -9,7 +9,7 @@
 
 namespace rwn {
 
-// R/L h below which one step does, be the winding seven times as fast as that where it saturates
+// Below this R/L h one step is enough, even where saturation makes the winding seven times as fast as R/L.
 inline constexpr double angle_of_a_slow_winding = angle_of_a_winding / 7.0;
 
 /// Steps for the transient of a winding come first and grow with it; what is left is divided evenly.
@@ -20,8 +20,8 @@ class Division {
   /// Of h, for effects of which the fastest has the rate `effects` [1/s].
   Division(double h, double effects) { ask(effects * h / angle_of_a_step); }
 
-  /// Of h, for the fastest effect and the transient of a winding of rate R/L, which is as slow as that on its way and
-  /// 2^level times as fast at one end.
+  /// Of h, for the fastest effect and the transient of a winding, which is between once and 2^level times as fast as
+  /// `rate`, its R/L.
   Division(double h, double effects, double rate, int level) {
     double length = angle_of_a_winding / (rate * resistances_of(level));
     const int most = std::min(2 + level, most_transients);

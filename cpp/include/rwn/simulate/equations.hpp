@@ -51,7 +51,7 @@ class Equations {
     inverse_inertia_ = 1.0 / inertia_;
   }
 
-  /// Something is left of the inertia in front of a joint.
+  /// Whether the motor keeps an inertia of its own in front of a joint.
   bool sound() const { return value_of(inertia_) > 0.0; }
 
   bool varies() const { return varies_; }      // within a step, other than with the direction of sliding

@@ -49,10 +49,10 @@ class Integrator {
   bool plain() const { return masses == 1 && exact_; }
   bool dry() const { return dry_; }
 
-  /// Where that is so, what accelerates a shaft that slides in `s.direction` besides the input.
+  /// In a run that is `plain`: what accelerates a shaft that slides in `s.direction`, besides the input.
   S steady_acceleration(const State& s) { return equations_.steady_acceleration(s); }
 
-  /// `advance` of a sliding shaft where that is so, done where it returns true: it slides on. `dry`: with friction.
+  /// In a run that is `plain`: advances a sliding shaft, or returns false where it would stop. `dry`: with friction.
   template <bool dry>
   bool slides_on(typename State::Moving& s, double h, const S& steady, const S& input) {
     if constexpr (!dry) {
@@ -75,7 +75,7 @@ class Integrator {
     for (int k = 0; k < parts.count(); ++k) s = stepper_.step(s, parts.length(k, h));
   }
 
-  /// The common cases of constant terms, done where it returns true: the whole interval goes on as it began.
+  /// Advances under constant terms in one step; false, with nothing advanced, where an event may lie within h.
   bool keeps_on(State& s, const S& h) {
     if (dry_ && s.direction == 0.0) {
       s.direction = equations_.breaking(s);
@@ -111,7 +111,7 @@ class Integrator {
         left -= h;
       }
     }
-    if (events == most_events && value_of(left) > 0.0) {  // it rattles: what is left of the interval is gone over
+    if (events == most_events && value_of(left) > 0.0) {  // it rattles: the rest of the interval is one step
       s = stepper_.step(s, left);
       settle(s);
     }

@@ -1,5 +1,5 @@
-// By what a step of given length moves the state: matrices, made once for each length that comes back, or a series
-// along the way for a length that does not.
+// What takes the state over a step of given length: matrices, made once for each length that occurs again, or a series
+// for a length that does not.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace rwn {
 
-/// What a length is used for: parts of the interval between samples come back, the rest after an event does not, and of
-/// an instant that is searched values alone are wanted.
+/// What a length is used for: parts of the interval between samples, which occur again; the rest after an event, which
+/// does not; or the search for an instant, which needs values without derivatives.
 enum class Use { intervals, rests, search };
 
 template <class S, class Drive, int masses>
@@ -117,11 +117,11 @@ class Operators {
     return steps_[k];
   }
 
-  /// Whether two lengths are one, as far as clocks count.
+  /// Whether two lengths are equal but for the rounding of times.
   static bool same(double h, double other) { return std::abs(other - h) <= same_length * h; }
 
-  /// The step of an interval between samples: made for a length that comes back, between those of a grid for one that
-  /// does not, as of rows that are off their clock.
+  /// The step of an interval between samples: its own for a length that occurs again, interpolated between those of a
+  /// grid of lengths for one that does not, as where rows are off their clock.
   const Step<S>& of_interval(double h, const Regime& regime) {
     if (const Step<S>* known = find(h, regime)) return *known;
     const bool again = std::any_of(missed_.begin(), missed_.end(), [h](double m) { return same(h, m); });
@@ -131,7 +131,7 @@ class Operators {
     return again || made_ < most_returning || at_rest || s.fastest * h > longest_between ? over(h, regime) : between(h, s);
   }
 
-  /// The step of a length that does not come back, but as parts of one rest; good until the next is asked for.
+  /// The step of a length that occurs in one interval alone; it is valid until the next one is asked for.
   const Step<S>& of_rest(double h, const Regime& regime) {
     if (!same(h, rest_.h) || rest_.regime != regime) make(rest_, h, regime);
     return rest_;

@@ -110,8 +110,8 @@ class SecondMass {
     at(a, w, w) -= at(a, w, load_speed);
   }
 
-  /// Steps over h of which none overlooks that the contact ends or a direction turns, given the rates of `s` and the
-  /// torque by which a stuck shaft is held: one where the joint hardly swings.
+  /// Steps over h that are short enough to notice where contact ends or motion reverses; one where the joint hardly
+  /// swings. `rates`: of `s`; `held`: torque by which friction holds a stuck shaft beyond what pulls at it.
   template <class Rates>
   int step_count(const Moving& s, const Rates& rates, bool dry, double held, double h) const {
     if (s.contact == 0.0 || (!joint_.play && !dry)) return 1;

@@ -82,7 +82,7 @@ class Simulation {
     return slice_.samples;
   }
 
-  /// Whether every row is a command that acts until the next, and no more is asked than what that does.
+  /// Whether each input is held from its row to the next, and neither actuators, sensors nor windows do more.
   bool is_plain() const {
     return !delayed_ && break_count_ == 0 && slice_.input_time == slice_.time && !actuates_ && !senses_ && !has_own_ &&
            slice_.settings.restart_every == 0;

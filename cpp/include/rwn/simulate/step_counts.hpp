@@ -11,9 +11,9 @@ struct StepCounts {
   long between = 0;                           // steps whose matrices lie between those of a grid
 };
 
-/// In the units of rwn/simulate/work.hpp, of a run with n states and derivatives by so many parameters as were asked for (what a
-/// kernel's width adds differs by machine): fitted to what runs of all kinds took, within a quarter for most. A template
-/// like all of the kernels, so that no two of them share it.
+/// Cost, in the units of rwn/simulate/work.hpp, of a run with n states and with the derivatives that were asked for
+/// (those that a kernel adds to fill its vectors differ by machine). Fitted to the times of runs of all kinds, within a
+/// quarter for most. A template, as all that kernels call, so that each instruction set has its own.
 template <class S, int n>
 long cost_of(const StepCounts& c, int samples, int derivatives) {
   const long N = derivatives;
