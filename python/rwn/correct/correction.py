@@ -110,16 +110,16 @@ def _proved_part(decision: Decision, heldout: Sequence[Run], *, seed: int) -> Pr
 
 
 def _in_place(decision: Decision, chosen: RankedFit, other: RankedFit) -> bool:
-    """Whether an explanation has rivals of stated effects in the place of these, and the rest of them."""
+    """Whether an explanation is the chosen one with stated effects or, in their place, rivals of these."""
     stated = [e for e in decision.account.stated if e.name in chosen.added]
     told = [sum(name in other.added for name in (e.name, *e.rivals)) for e in stated]
     return len(other.added) == len(chosen.added) == sum(told) and set(told) == {1}
 
 
 def _better_part(decision: Decision, chosen: RankedFit, heldout: Sequence[Run], *, seed: int) -> RankedFit | None:
-    """The part of an explanation beside which the rest makes recordings worse that were kept back, most so.
+    """The part of an explanation to which its other effects do most harm on recordings kept back; None: to none.
 
-    Where both run away nothing is won without the rest.
+    A comparison in which both run away says nothing.
     """
     ranking, worse = decision.ranking, []
     for names in _parts(chosen.added) if heldout else ():

@@ -46,7 +46,10 @@ class ActingEffect:
         return self.together > ACTS
 
     def contradicted_by(self, half: str) -> ActingEffect:
-        """With what such a contradiction leaves of its probability, which it would meet by chance alone if it acted."""
+        """The effect with the probability that is left (Bayes) when a half of the drive contradicts it.
+
+        An effect that acts is contradicted by chance alone, with the probability LEVEL.
+        """
         before = min(self.together, SURE)
         left = before / self.together * LEVEL / (1.0 - before * (1.0 - LEVEL))  # Bayes; what does not act does meet it
         return replace(self, probability=self.probability * left, together=self.together * left, against=half)
@@ -80,7 +83,7 @@ class Account:
 
 
 def account(ranking: Ranking, heldout: Sequence[Run], model: Model) -> Account:
-    """What acts, of the best explanation that has effects at all; empty where none was found."""
+    """The account of the best explanation that has effects at all; without effects where none was found."""
     best = next((r for r in ranking.fits if r.added), ranking.nothing_missing)
     found = elaborated(ranking, best, lambda this: CrossValidation(ranking, this, heldout, model))
     leading, validation = found.leading, found.validation

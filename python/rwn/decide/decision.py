@@ -49,9 +49,10 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
 
 
 def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedFit]:
-    """What is stated, fitted without the rest: where a law then runs into a limit it bends towards one that it is not.
+    """The effects that are stated, fitted without the others; with the ranking and the account that go with them.
 
-    Such a law is no part of the account, and is among the ranking's that ran into a limit.
+    A law whose shape runs into a limit without the others bends towards another law: it is taken out of the account,
+    and its fit is kept among those of the ranking that are at a limit.
     """
     chosen = together(ranking, found.leading, {e.name for e in found.stated})
     while bent := {name.split(".")[0] for name in chosen.fit.limits_met}:

@@ -67,10 +67,11 @@ def curve_beside(problem: Problem, this: Fit, model: Model) -> Curve | None:
 
 
 def curve_instead(problem: Problem, this: Fit, without: Fit, model: Model) -> float:
-    """Squared error with the best curve over one state in place of an effect, in units of that with it; at most 1.
+    """Squared error with the best curve over one state in place of an effect, over that with the effect; at most 1.
 
-    A law says as much of its state as any curve does. The curve may be of any term, also a coefficient or the error of
-    a sensor. 1 where the drive has no place for a curve. `without`: the fit by what the curve stands beside.
+    Where the effect is what acts, no curve over its state does better. The curve may be of any term, also a coefficient
+    or the error of a sensor. 1 where the drive has no place for a curve. `without`: the fit by what the curve stands
+    beside.
     """
     if not has_room(model, 1, beside=len(without.added)):
         return 1.0

@@ -1,8 +1,8 @@
-"""A data sheet that is wrong in one value, which the recordings say where nothing is missing as well as where it is.
+"""A data sheet that is wrong in one value, whether or not physics is missing besides.
 
-Priors hold against misfit that lasts, so a value that is far off keeps its effect on the motion, and takes the name of
-the physics that makes up for it best. Where the best explanation has to leave what is declared all the same, all are
-weighed anew with that value unknown: if the best ends as far off then, and is likelier by far, the sheet is wrong.
+A wrong value is held near itself by its declared uncertainty, so that the search finds whatever physics makes up for it
+best. Where even the best explanation moves a value far outside what was declared, the explanations are ranked anew with
+that value unknown. If the best one then ends as far off, and is decisively likelier, the data sheet is wrong.
 """
 
 from __future__ import annotations
@@ -25,9 +25,10 @@ from rwn.name.weights import effective_samples
 
 
 def contradicted(ranking: Ranking) -> list[frozenset[str]]:
-    """What the best explanation had to move beyond belief, that first without which it fits best.
+    """Parameters that the best explanation moved further from the data sheet than is believable, in groups.
 
-    Both constants of a motor where it is one of them.
+    A group is one parameter, or both constants of a motor that are one number. First is the group without whose
+    declared uncertainty the explanation fits best.
     """
     best, problem = ranking.fits[0].fit, ranking.problem
     far = [name for name, by in best.moves.items() if by > BELIEVABLE and name in problem.prior.uncertainty]
@@ -41,10 +42,10 @@ def without_declared(model: Model, names: Collection[str]) -> Model:
 
 
 def confirmed(free: Ranking, bound: Ranking, model: Model, names: Collection[str]) -> bool:
-    """Whether the best explanation leaves what `model` declares of some parameters, now that nothing holds it there.
+    """Whether the best explanation, with some parameters free, ends far outside what `model` declares of them.
 
-    And is likelier by far than the best of those that were held to it, under the same noise: where something is missing
-    that has no name here, any value that is free absorbs some of it.
+    It has to be decisively likelier, too, than the best explanation that was held to the declared values, under the
+    same noise: where something is missing that has no name here, any free value absorbs some of it.
     """
     best, problem = free.fits[0].fit, free.problem
     off = [

@@ -56,7 +56,7 @@ class SuspectedFault:
 
     @property
     def little(self) -> float:
-        """What a single effect may leave if it is to do in place of the fault: no more than that by itself leaves."""
+        """The most that one effect may leave to do in place of the fault: no more than undoing the fault leaves."""
         return min(LITTLE, self.after + SLIGHT)
 
 
@@ -92,9 +92,9 @@ def removing(fault: Fault, suspect: SuspectedFault, *, left: float, physics: flo
 
 
 def rivals(*rankings: Ranking) -> list[str]:
-    """Effects of which two might do what the fault does with one beneath it.
+    """Effects of which a pair might explain what the fault explains together with one effect.
 
-    They are those of the drive's ends, which delay and scale, and the first ones with the fault and without.
+    They are those of actuators and sensors, which delay and scale signals, and the first effects of each ranking.
     """
     table = rankings[0].problem.prior.table
     ends = [name for name, effect in table.items() if effect.at_an_end]
@@ -102,16 +102,18 @@ def rivals(*rankings: Ranking) -> list[str]:
 
 
 def first_effects(*rankings: Ranking) -> list[str]:
-    """The effects of the first hypotheses of each, and those that by themselves leave least, strained or not."""
+    """The effects of the best explanations of each ranking, and the single effects that cost least, however ranked."""
     first = [r.fit for of in rankings for r in of.fits[:FIRST]]
     least = [f for of in rankings for f in sorted(of.alone.fits, key=lambda f: f.cost)[:FIRST]]
     return list(dict.fromkeys(name for f in (*first, *least) for name in f.added))
 
 
 def accepted(suspect: SuspectedFault, *, left: float, physics: float, little: float = LITTLE) -> bool:
-    """Whether the fault, which leaves `left` by itself or with what is beneath it, explains more than physics.
+    """Whether undoing the fault explains the recordings better than physics alone does.
 
-    `little`: what physics may leave so that nothing is left to explain.
+    All are squared errors above the noise: `left` is what remains with the fault undone, with or without effects that
+    were found then; `physics` is what the best explanation leaves without undoing it; up to `little` of that counts as
+    nothing.
     """
     return left < BETTER * physics and left < (1.0 - DELAY_REMOVES) * suspect.before and physics > little
 
@@ -146,10 +148,11 @@ def refined(
 def shift_instead(
     recordings: Sequence[Recording], model: Model, filters: Sequence[SensorFilter], ranking: Ranking
 ) -> Fault | None:
-    """A channel that comes late by whole samples, where that fits no worse than the lag or the delay that was named.
+    """A channel that is late by whole samples, where that fits no worse than the lag or the delay that was named.
 
-    Filters of other channels, and physics, hide such a shift from a look at the nominal model; an inductance that gives
-    way makes it a delay of the input. `filters`: of the sensors, under which the ranking was found.
+    The nominal model does not show such a shift where filters of other channels or missing physics hide it; a fit may
+    take it for a delay of the input, which its inductance makes up for in the other channel. `filters`: of the sensors,
+    under which the ranking was found.
     """
     best, lagging = ranking.fits[0].fit, filtered(prepare(recordings, model), filters)
     table = lagging.prior.table

@@ -58,8 +58,8 @@ def _acting(steps: Array, time: float) -> Array:
 class Standstill:
     """A recording until twice the time that it stood still, and a fit that would move under its input.
 
-    Simulated in short windows from the recorded motion: what is missing of the motion that follows says nothing of when
-    it began.
+    It is simulated in short windows from the recorded motion, so that what the fit lacks of the motion that follows
+    does not shift the instant at which power came.
     """
 
     problem: Problem

@@ -31,7 +31,7 @@ SURE = 0.99  # probability that is stated of a fault; those that fit alike share
 
 
 class ErrorReduction(NamedTuple):
-    """The squared error above the noise that goes with a fault and what is beneath it."""
+    """How much squared error above the noise vanishes when a fault is undone, with the effects that are found then."""
 
     share: float  # of what the refitted model leaves
     part: float  # of what the best physics leaves that does without it
@@ -126,7 +126,7 @@ def _moved_values(values: Array, delay: int) -> Array:
 
 
 def _moved(lost: Flags, delay: int) -> Flags:
-    """Where there is nothing before the first sample, nothing was measured."""
+    """Which samples (n,) are missing once a signal is moved; those from before its first sample are, too."""
     if delay < 0:
         return np.concatenate([np.full(-delay, True), lost[:delay]])
     return lost[delay:]

@@ -78,10 +78,10 @@ def _gains(late: LateEnable, recordings: Sequence[Recording], model: Model, prob
 def late_beside(
     recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit, *, known: Sequence[LateEnable] = ()
 ) -> tuple[LateEnable, ...]:
-    """What stood still where an explanation, of these recordings or of others, would have moved; not what is `known`.
+    """Late enables where a recording stood still and an explanation would have moved; without those that are `known`.
 
-    A friction that is a little more on that day holds a drive too: with a late enable the recording is far likelier
-    also where the explanation is fitted to it alone.
+    The explanation may be one of other recordings. A friction that was a little larger on that day holds a drive too,
+    so a late enable has to make the recording decisively likelier also with the explanation refitted to it alone.
     """
     if model.drive.coefficients:
         return ()
@@ -135,10 +135,10 @@ def needed(
 def retimed(
     found: Sequence[LateEnable], recordings: Sequence[Recording], model: Model, problem: Problem, this: Fit
 ) -> tuple[LateEnable, ...]:
-    """Each at the time that an explanation asks for, where the recordings are far likelier with that.
+    """The late enables at the times at which an explanation errs least, where that is decisively better.
 
-    What was missing when it was found, such as a delay, moves it. Errors count as what is left with that time is worth:
-    a wrong one leaves a position off for good. `problem`: of `powered` recordings.
+    Physics that was missing when a late enable was found, such as a delay, shifts its time. The gain is weighed by what
+    is left at the better time, since a wrong time leaves a position off for good. `problem`: of `powered` recordings.
     """
     made = []
     for late in found:
@@ -170,11 +170,11 @@ def _standing_samples(recording: Recording, model: Model) -> int:
 def _worthwhile(
     found: tuple[LateEnable, ...], recordings: Sequence[Recording], model: Model
 ) -> tuple[LateEnable, ...]:
-    """The late enables with each of which the recordings are far likelier than by what else holds a drive or delays it.
+    """The late enables without which the recordings are decisively less likely, whatever else holds or delays a drive.
 
-    Each is a number of its own. With it and without, the same effects may act beside the nominal model; errors count as
-    what the best leaves is worth while the drives stand still and begin to move: what is missing later says nothing of
-    that, nor what bends the motion, in short windows from the recorded one.
+    Each is one more parameter, and with it and without the same effects may act beside the nominal model. Only the
+    beginnings of the recordings are compared, in short windows from the recorded motion: physics that is missing later,
+    or that bends the motion, then does not count.
     """
     weighted = nominal_of(beginnings(powered(recordings, found, model)), model)[0].in_windows()
     waits = [_waiting_time(recordings[late.place], late, model) for late in found]
@@ -227,9 +227,10 @@ def _enabled_at(time: float, place: int, recording: Recording) -> LateEnable:
 
 
 def _would_move(problem: Problem, this: Fit, recording: Recording, model: Model, beside: Run, samples: int) -> bool:
-    """Whether a fit leaves the noise of the samples that stand still, under the input as it was recorded.
+    """Whether a simulated fit moves by more than the noise while the recording stands still, under the recorded input.
 
-    Where these are not about 0, whether a change of the input moves it, and would from rest.
+    Where the recorded speed is not about 0 meanwhile, the drive may turn evenly or the sensor be biased: then a change
+    of the input has to move the simulation both from that speed and from rest.
     """
     run = replace(run_of(recording, model).until(samples), start_unknowns=beside.start_unknowns, levels=beside.levels)
     if not run.in_motion or _stands_about_zero(run, samples):

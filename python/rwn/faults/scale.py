@@ -223,9 +223,9 @@ def _units(group: tuple[str, ...], model: Model) -> dict[float, str]:
 
 
 def _is_allowed(factor: float, group: tuple[str, ...], seen: Similarity, model: Model) -> bool:
-    """Whether what the data sheet and missing physics leave open makes a signal's size of a unit's factor.
+    """Whether a signal has the size of a wrong unit of this factor, as far as data sheet and missing physics allow.
 
-    Missing physics slows a motor: where numbers are too large, it may be slower than its model by more than faster.
+    Missing physics slows a motor: a motion recorded too large may be smaller than the factor says by more than larger.
     """
     off = float(np.log(seen.ratio / factor))
     if _beyond_physics(factor):
@@ -240,7 +240,7 @@ def _beyond_physics(factor: float) -> bool:
 
 
 def _tolerance(seen: Similarity, model: Model) -> float:
-    """Relative difference from a unit's factor that the data sheet and missing physics, by what it bends, may make."""
+    """How far off a unit's factor a signal may be, relative, for the data sheet's doubt and for missing physics."""
     missing = max(1.0 - seen.correlation**2, 0.0)
     return float(np.clip(2.0 * np.sqrt(model.drive.speed_spread(model.uncertainty) ** 2 + missing), SAME, WIDEST))
 

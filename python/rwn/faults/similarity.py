@@ -48,7 +48,7 @@ class Similarity:
         return _misfit(self.ratio, self.correlation, factor)
 
     def bettered(self, factor: float) -> bool:
-        """Whether the signal as it is comes nearer too: a scale multiplies a level as well as what changes."""
+        """Whether undoing `factor` brings the signal nearer with its level too: a scale multiplies that as well."""
         return _misfit(*self.whole, factor) < _misfit(*self.whole, 1.0)
 
 

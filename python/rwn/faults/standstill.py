@@ -17,12 +17,12 @@ FEWEST = 3  # samples that stand still: fewer are what an inductance and an iner
 
 
 def first_moved(signal: Array) -> int:
-    """The first sample of a signal (n,) that is certainly elsewhere than those before, and stays so; else the last.
+    """The first sample of a signal (n,) that has certainly left where it stood, and stays away; else the last.
 
-    Most of as many samples that follow are elsewhere too. Where the signal stood, and its noise, white or not, are
-    those of the first half of what came before each sample: a motion that sets in slowly is hardly in it, and more than
-    a filter can make of the noise that differences show is a motion. A few samples tell little of either (Student's
-    distribution).
+    Where it stood and how noisy it is are estimated, for each sample, from the first half of the samples before it: a
+    motion that sets in slowly hardly counts there. The limits are Student's, as few samples tell little. No more is
+    taken for noise than a sensor's filter can make of the least change of the signal. It stays away where the median of
+    as many samples that follow is beyond the limit as well.
     """
     from scipy.special import ndtr, stdtrit  # late: the command line starts without it
 

@@ -18,7 +18,8 @@ from rwn.simulate.run import Run
 def uneven_files(ranking: Ranking) -> list[Finding]:
     """What is said, by file, of friction that is fitted apart, and of the parameter that the files disagree on most.
 
-    Of parameters only where nothing but noise is left then: what is missing differs from file to file as well.
+    A parameter is said only where a value of its own in each file leaves nothing but noise: physics that is missing
+    makes parameters differ from file to file as well.
     """
     problem, best = ranking.weighted, ranking.fits[0].final
     fitted = "a level of its own is fitted with it; corrected.toml holds the mean"
@@ -41,7 +42,7 @@ def uneven_files(ranking: Ranking) -> list[Finding]:
 def uneven_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
     """What is said, by file, of friction in recordings that were not fitted, where it differs between those that were.
 
-    It is the level that fits each best: that of another recording says nothing of it.
+    Each is simulated at the level that fits it best, since the levels of other recordings say nothing of its own.
     """
     problem, best = ranking.weighted.in_free_run(), ranking.fits[0].final
     level = friction(problem)

@@ -62,11 +62,11 @@ def minimise(
 ) -> Minimum:
     """Levenberg-Marquardt (Nielsen's damping) from `start` (p,) within the unknowns' bounds.
 
-    Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: what
-    priors are multiplied by: the independent samples that a coloured residual is short of. `probe` gives the error
-    without derivatives: it decides on a step after `doubt` that were not taken, and `evaluate` follows if that one is.
-    `enough`: asked after every iteration, ends the fit as the iteration limit does. `roughly`: it may be the curvature
-    before the last iteration that is returned where this limit ends the fit.
+    Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: factor
+    on the priors, as large as samples are more than independent samples. `probe`: the error without derivatives, which
+    is asked before `evaluate` once `doubt` steps in a row were refused. `enough`: asked after every iteration; ends the
+    fit as the iteration limit does. `roughly`: where that limit ends the fit, the curvature may be the one before the
+    last iteration.
     """
     search = SearchCoordinates(evaluate, probe, unknowns, prior_scale)
     z = search.begun(start)
@@ -111,7 +111,7 @@ def minimise(
 def _relieved(
     search: SearchCoordinates, z: Array, gradient: Array, curvature: Array, damping: float, little: float
 ) -> tuple[Array, float, float]:
-    """The step of the first lower damping that promises `little` or more, or of the least; its promise, its damping."""
+    """Lowers the damping until a step promises at least `little`, or no further; the step, its promise, its damping."""
     while True:
         damping = max(RELIEF * damping, UNDAMPED)
         step = _step(search, z, gradient, curvature, damping)

@@ -140,7 +140,7 @@ def _power(spectrum: NDArray[np.complex128]) -> Array:
 def statistics(problem: Problem, this: Fit, *, drift: bool = True) -> Statistics:
     """Residual statistics of a fit, over all recordings and signals.
 
-    `drift`: with the position's beside those of other signals; its noise level is the slow error that it is left.
+    `drift`: also of the position where other signals tell the motion too; its errors then hold what it drifts by.
     """
     residuals = problem.residuals(this.vector, this.active)
     joined = join(problem, residuals)

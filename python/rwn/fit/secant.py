@@ -40,9 +40,9 @@ def nonsmooth_unknowns(this: Hypothesis, *names: str) -> list[int]:
 
 
 def down_secants(problem: Problem, start: Fit, *, turns: int, share: float = np.inf) -> Fit:
-    """A fit gone on from the end of another, by turns as long as they gain; `start` where its error is smooth.
+    """A fit gone on from `start` by secants, then by derivatives, up to `turns` times while that gains.
 
-    `share`: what it may cost, the beginning of every part aside.
+    It is `start` itself where the error is smooth. `share`: what it may cost; each part takes one iteration at least.
     """
     this, best, own = start.hypothesis, start, problem.metered()
     for _ in range(turns if nonsmooth_unknowns(this) else 0):

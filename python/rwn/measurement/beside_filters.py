@@ -29,7 +29,7 @@ COMPARED = 2 * (round((SLOWEST - FASTEST) / SPACING) + 1)
 def refitted(this: Fit, problem: Problem) -> Fit:
     """The same explanation fitted to a problem that may hold other filters.
 
-    A motor that has left what is declared of it may have done so in place of a filter: it begins anew.
+    Where the motor left what is declared of it, it may have made up for a filter: it then starts from the data sheet.
     """
     starts = {name: this.values_of(name) for name in this.added}
     motor = this.motor if this.farthest_move < BELIEVABLE else None

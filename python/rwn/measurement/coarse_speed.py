@@ -109,7 +109,10 @@ def _mean_error(run: Run, residual: Array, step: float, noise: float) -> Array:
 def _to_the_mean(
     this: Fit, shown: Problem, steps: Sequence[float], noises: Sequence[float], *, share: float
 ) -> tuple[Fit, Problem]:
-    """The fit that expects the rounding which is shown, and the problem that it solves; each round may cost `share`."""
+    """By turns the rounding error that a fit expects and a fit to the speeds without it; the last fit and its problem.
+
+    `share`: what each round may cost.
+    """
     problem = shown
     for _ in range(ROUNDS):
         residuals = shown.residuals(this.vector, this.active)

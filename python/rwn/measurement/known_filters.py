@@ -76,9 +76,9 @@ def undone(problem: Problem, signal: str, time_constant: float) -> Problem:
 
 
 def log_density(problem: Problem) -> float:
-    """Logarithm of how much closer together the samples of a problem's signals are as they were recorded.
+    """Logarithm of the Jacobian of the digital filters that a problem undoes: recorded samples lie closer together.
 
-    What is likely of samples as they were before a digital filter is as likely of what it showed, but for this.
+    Taken off the log-likelihood of samples as they were before the filters, it leaves that of the recorded ones.
     """
     found = 0.0
     for signal, time_constant in problem.filters.items():

@@ -43,11 +43,12 @@ def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
 
 
 def likeliest(problem: Problem, this: Fit) -> str:
-    """The law under which the errors of a fit, refitted, are likeliest; one that the rows' times do not show, by far.
+    """The law under which the refitted errors of a fit are likeliest, decisively where the rows' times do not show it.
 
     What is new in an error may go with the input by another way than through the drive: a controller answers the noise
-    of a row by the input of that row, a cable picks its steps up. A law that foretells this is likelier for no physics,
-    so one that simulates the recordings certainly worse than another, from their input alone, is not taken.
+    of a row by the input of that row, and a cable picks up steps of the input. A law that predicts this is likelier
+    without being right, so no law is taken that simulates the recordings certainly worse than another from their input
+    alone.
     """
     candidates = _candidates(problem)
 
@@ -116,11 +117,12 @@ def _chosen(
     refitted: Mapping[str, tuple[Problem, Fit]], scores: Mapping[str, float],
     filters: Mapping[str, Sequence[SensorFilter]] | None = None,
 ) -> str:  # fmt: skip
-    """The likeliest law, "held" where none is decisively so; of one that no times show, by what is left is worth.
+    """The likeliest law, "held" where none is decisively so.
 
-    One that simulates the recordings, from what they show of the input alone, certainly worse than another, each beside
-    its `filters`, is neither. Against one that the times show, one that no times show does not count: while physics is
-    missing, an input that acts sooner or later makes up for some of it.
+    For a law that the rows' times do not show, its gain counts in independent samples. No law is taken that simulates
+    the recordings, from their input alone, certainly worse than another, each beside its `filters`. A law that the
+    times show is compared in this with such laws only: while physics is missing, an input that acts sooner or later
+    makes up for some of it.
     """
     held, _ = refitted[HELD]
     from_rows = {law: (_under_law(problem, law), this) for law, (problem, this) in refitted.items()}
@@ -197,10 +199,11 @@ def _is_known(problem: Problem, held: Problem) -> bool:
 
 
 def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recording]:
-    """The recordings without the currents that hang on when the input changed since the row before, which none knows.
+    """The recordings without currents that depend on when the input changed since the row before, which no row shows.
 
-    A winding follows its voltage within a row or two: where that stepped, evenly spread over the step, the current is
-    known to a twelfth of the square of what it will become. Raises InputError where a recording does not fit the model.
+    A winding follows its voltage within a row or two. Where the voltage stepped at any instant of that interval, evenly
+    likely, the current has a variance of a twelfth of the square of what it will become. Raises InputError where a
+    recording does not fit the model.
     """
     recordings, law = list(recordings), model.recording.intersample
     if law in (AUTO, HELD) or not model.drive.winding or any("current" not in r.signals for r in recordings):

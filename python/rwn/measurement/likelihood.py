@@ -60,7 +60,7 @@ def log_likelihoods(problem: Problem, this: Fit) -> dict[str, float]:
 
     An autoregression is over even steps: errors of uneven rows are those of the samples that these would lie between,
     and the noise of a row, where it was not interpolated, is larger there the farther it lies from its tick.
-    What an input that was inferred from the errors has taken of their noise is no likelihood.
+    Noise that an input inferred from the errors has taken up is put back first: it makes nothing likelier.
     """
     residuals = problem.residuals(this.vector, this.active)
     likelihoods = {}
@@ -80,10 +80,10 @@ def log_likelihoods(problem: Problem, this: Fit) -> dict[str, float]:
 
 
 def _log_variance(new: Array, noise: Array, noises: float) -> float:
-    """Mean logarithm of the variance of what is new in errors, and of its squares over it.
+    """Minus twice the log-likelihood per sample of normal innovations (n,) at their likeliest size, up to a constant.
 
-    `noise`: of the rows (n,), 1 on the scale of the errors where none is amplified; `noises`: of how many rows it is
-    made up. The rest of what is new is no noise, and alike in all rows.
+    `noise`: variance of the noise of each row (n,), 1 on the scale of the errors where none is amplified; `noises`: how
+    many rows' noise adds up in an innovation. What else is `new` in an error is as large in all rows.
     """
     whole = float(np.mean(new**2)) + 1e-300
     share = min(noises * float(np.mean(noise)) / whole, 1.0)

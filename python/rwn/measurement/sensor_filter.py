@@ -161,7 +161,7 @@ def _together(
 ) -> tuple[SensorFilter, ...]:  # fmt: skip
     """The digital filters at the time constants that are likeliest together.
 
-    One after the other they stop short of it beside a delay, which takes up for each what the other lacks.
+    Estimated one after the other they end elsewhere where there is a delay, which makes up for what either lacks.
     """
     from scipy.optimize import minimize  # late: the command line starts without it
 
@@ -189,9 +189,8 @@ def _of_time(problem: Problem, f: SensorFilter, time_constant: float) -> SensorF
     return replace(f, time_constant=time_constant, share=problem.share_kept(f.signal, time_constant))
 
 
-
 def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
-    """An explanation, and the same without lags and delays: any of them may stand in for a filter."""
+    """The explanation, and the same without lags and delays, any of which may imitate a filter."""
     yield this
     kept = tuple(name for name in this.added if not problem.prior.table[name].retards)
     if kept != this.added:
@@ -199,17 +198,16 @@ def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
         yield fit(problem, begun, share=one_stage(problem.work))
 
 
-
 def _likeliest_kind(
     problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, NoiseColour]
 ) -> SensorFilter | None:
     """The filter, digital or analog, under which the errors are likelier than as coloured noise alone; None: neither.
 
-    By BIC: a filter has a time constant more. An autoregression may have been any other filtered, so that where much is
-    missing, or where the input is noisy, a filter gains or loses by what that happens to be; one under which the
-    recordings are not simulated better is none. A digital one, which sees nothing between the rows, is decisively
-    likelier than one that filters all the time, or it is taken for that: what drives log is filtered at a faster rate.
-    What is missing lasts and is left by both: the difference counts in as many samples as are independent.
+    They are compared by BIC, as a filter has a time constant more. Where much is missing, or where the input is noisy,
+    any filter makes errors likelier or less likely without being there: so one with which the recordings are not
+    simulated better is none. A digital filter, which sees nothing between the rows, has to be decisively likelier than
+    an analog one, since what drives log is filtered at a faster rate. What is missing lasts in the errors of both:
+    their difference counts in independent samples.
     """
     analog, digital = replace(seen, digital=False), _digital(problem, this, seen, told)
 
@@ -230,10 +228,6 @@ def _likeliest_kind(
 def _accuracy_lost(problem: Problem, this: Fit, f: SensorFilter) -> float:
     """How much worse an explanation simulates the signals as they were recorded with a filter, in deviations."""
     return loss_gained(losses_beside(problem, this, ()), losses_beside(problem, this, [f]))
-
-
-
-
 
 
 def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, NoiseColour]) -> SensorFilter:

@@ -210,7 +210,7 @@ def _magnitudes(
 
 
 def _share_left(noise: Array, told: Array) -> float:
-    """What is left of the deviation of white noise (n,) without what it `told` (n,) of an input by itself."""
+    """The share of the deviation of white noise (n,) that is left once the input that it `told` (n,) is taken off."""
     return float(np.clip(noise_from_differences(noise - told) / noise_from_differences(noise), LEAST_LEFT, 1.0))
 
 

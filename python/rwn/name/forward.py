@@ -45,7 +45,7 @@ class _ForwardSelection(NamedTuple):
     paired: bool  # some have several effects
     complete: bool  # more effects at once would not help
     cut_short: int  # so many effects at once were tried beside the best alone, for what that costs; 0: none
-    measured: Measurement | None = None  # otherwise than thought, which showed before all was tried
+    measured: Measurement | None = None  # how recordings were made, where it proved to be otherwise before the end
 
 
 def rank(

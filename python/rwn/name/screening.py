@@ -96,9 +96,9 @@ def _attempt(start: Start, iterations: int, on: Problem, *, share: float, roughl
 
 
 def _further(problem: Problem, attempts: Sequence[FittedStart], on: Problem, best_here: float) -> list[FittedStart]:
-    """Those that are under way, some iterations further: the first ones say little of where a fit ends.
+    """Goes on with the fits that have not converged: their first iterations say little of where they end.
 
-    Once one leaves but noise, those that are not far behind alone.
+    Once one leaves nothing but noise, only those go on that are not far behind it.
     """
     leading = min(attempts, key=lambda a: a.cost, default=None)
     explained = leading is not None and statistics(on, leading.fit).at_the_floor
@@ -139,7 +139,7 @@ def _to_the_end(
 
 
 def _given_up(problem: Problem, ends: list[FittedStart]) -> list[FittedStart]:
-    """Those that were given up for being far behind go on after all, where what was ahead leaves more than noise."""
+    """Goes on with fits given up for being far behind, where what was ahead of them leaves more than noise."""
     best = min(ends, key=lambda end: end.cost, default=None)
     if best is None or statistics(problem, best.fit).at_the_floor:
         return ends

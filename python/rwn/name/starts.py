@@ -89,7 +89,7 @@ def starts(problem: Problem, base: Fit, name: str, *, orders: int) -> list[Start
 
 
 def _moved(base: Fit) -> bool:
-    """Whether a fit has moved the motor so far that what is missing may have bent it: then its start is worth a try."""
+    """Whether a fit has moved the motor far: what is missing may have bent it, so the given motor is a start too."""
     return any(
         u.prior is not None and u.prior > 0.0 and abs(v - u.prior) > MOVED * u.prior_std * u.prior
         for u, v in zip(base.hypothesis.unknowns, base.minimum.values, strict=True)
@@ -97,7 +97,7 @@ def _moved(base: Fit) -> bool:
 
 
 def _with_less_inertia(base: Fit) -> list[dict[str, float]]:
-    """The motor with less inertia: what is late at its ends may be in it, and beside that no delay fits."""
+    """The motor with less inertia: a larger one may have taken up a delay, beside which the delay would not show."""
     uncertain = {u.name for u in base.hypothesis.unknowns}
     if "inertia" not in uncertain:
         return []

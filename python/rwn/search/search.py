@@ -82,7 +82,7 @@ class _Assumptions(NamedTuple):
 def search(
     recordings: Sequence[Recording], model: Model, *, late: Sequence[LateEnable], say: Progress, effort: float = 1.0
 ) -> SearchResult:
-    """The explanation; found anew where under the best one the input acted otherwise.
+    """Explains recordings, and does so anew where the best explanation shows that the input acted otherwise.
 
     `late`: power stages that were enabled late, as far as the nominal model shows them. `effort`: what the search may
     cost, as a multiple of the usual.
@@ -156,9 +156,9 @@ def _asked_again(
 def _tells_more(
     acted: Sequence[Recording], before: Sequence[Recording], found: _Assumptions, ranking: Ranking
 ) -> bool:  # fmt: skip
-    """Whether the recordings are decisively likelier by the best explanation with an input that was inferred beside it.
+    """Whether an input inferred anew beside the best explanation makes the recordings decisively likelier.
 
-    `before`: with the input as inferred beside another explanation, under which it was found.
+    `acted`: the recordings with that input; `before`: with the one that the explanation was found under.
     """
     if not any(r.applied_input is not None and r.applied_input.spread.any() for r in acted):
         return False
