@@ -23,7 +23,7 @@ from rwn.measurement.unrecorded_input import ROUNDS, has_unknown_input, with_inf
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
-from rwn.recording.clock import clock_of
+from rwn.recording.clock import clock_beside, clock_of
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording, beginnings
 
@@ -39,7 +39,8 @@ def with_intersample(recordings: Sequence[Recording], model: Model) -> Model:
     """
     if model.recording.intersample != AUTO or model.drive.coefficients:
         return model
-    return stating(model, likeliest(*nominal_of(beginnings(recordings), stating(model, HELD))))
+    timed = without_untimed(beginnings(recordings), model)
+    return stating(model, likeliest(*nominal_of(timed, stating(model, HELD))))
 
 
 def likeliest(problem: Problem, this: Fit) -> str:
@@ -218,6 +219,15 @@ def without_unknown(recordings: Sequence[Recording], model: Model) -> list[Recor
             lost = {"current": off | missing.get("current", np.zeros(off.size, dtype=bool))}
             recordings[k] = replace(recordings[k], missing={**missing, **lost})
     return recordings
+
+
+def without_untimed(recordings: Sequence[Recording], model: Model) -> list[Recording]:
+    """The recordings without the currents that hang on when a row beside a clock's ticks was taken, for any law.
+
+    A few that were taken while the current rose would decide between all laws, by what none of them says.
+    """
+    beside = [r for r in recordings if clock_beside(r.time) is not None]
+    return without_unknown(recordings, stating(model, "ticks")) if beside else list(recordings)
 
 
 def stating(model: Model, law: str) -> Model:

@@ -18,7 +18,13 @@ from rwn.fit.refitting import refitted_beside
 from rwn.fit.residuals import statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, known_filters, stating_filters
-from rwn.measurement.likeliest_law import likeliest_with_filters, stating, with_intersample, without_unknown
+from rwn.measurement.likeliest_law import (
+    likeliest_with_filters,
+    stating,
+    with_intersample,
+    without_unknown,
+    without_untimed,
+)
 from rwn.measurement.likelihood import is_decisive, log_posterior
 from rwn.measurement.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
@@ -148,7 +154,8 @@ def _asked_again(
     known = _filters(ranking, stated)
     if stated is model or (stated.recording.intersample == HELD and ranking.left.at_the_floor):
         return _Assumptions(still, stated, known)
-    bare = prepare(without_all(powered(recordings, still, model), faults), stating(model, HELD))
+    timed = without_untimed(without_all(powered(recordings, still, model), faults), model)
+    bare = prepare(timed, stating(model, HELD))
     law, filters = likeliest_with_filters(bare, best, stated.recording.intersample, known)
     return _Assumptions(still, stating(stated, law), filters)
 
