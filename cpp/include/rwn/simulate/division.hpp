@@ -32,9 +32,11 @@ class Division {
     ask(effects * (h - gone_) / angle_of_a_step);
   }
 
-  /// At least so many steps for what is left.
+  /// At least so many steps for what is left; up to `most_even` to be exact, more only to stay stable.
   void ask(double steps) {
-    if (steps > even_) even_ = static_cast<int>(std::min(std::ceil(steps), most_even));
+    if (!(steps > even_)) return;
+    const double stable = std::min(steps * angle_of_a_step / angle_of_stability, most_stable);
+    even_ = static_cast<int>(std::ceil(std::max(std::min(steps, most_even), stable)));
   }
 
   int count() const { return transients_ + even_; }
@@ -48,7 +50,9 @@ class Division {
 
  private:
   static constexpr double angle_of_a_step = 0.7;  // of the fastest rate of an effect
-  static constexpr double most_even = 16.0;
+  // A step of the fastest rate that stays stable is twice as long: a bristle that is bent the other way is as fast.
+  static constexpr double angle_of_stability = 1.3;
+  static constexpr double most_even = 16.0, most_stable = 1024.0;
   static constexpr int most_transients = 6;  // of a winding 16 times as fast as R/L
   std::array<double, most_transients> transient_{};
   double gone_ = 0.0;
