@@ -10,7 +10,7 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.fit.preparation import prepare
-from rwn.prove.heldout import HeldoutRow, _gain, gain_interval, heldout_error, heldout_rows, helps, hurts
+from rwn.prove.heldout import HeldoutRow, _gain, gain_interval, heldout_error, heldout_rows, helps, hurts, log_change
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.recorded_run import judging_run
 
@@ -164,3 +164,11 @@ def test_the_driving_force_is_a_signal_where_the_position_alone_is_recorded() ->
     force, position = row(DRIVING_FORCE, 1.0, 2.0, (-1.2, -0.8)), row("position", 1.0, 0.5, (0.4, 0.6))
     assert heldout_error([position, force]) == pytest.approx(0.5 * (0.25 + 4.0))
     assert heldout_error([position, force, BETTER]) == pytest.approx(0.25)
+
+
+def test_a_driving_force_is_no_judge_where_the_speed_was_recorded() -> None:
+    """A friction with a memory asks for a force many times the one that acted, along the noise of a speed."""
+    force = row(DRIVING_FORCE, 50.0, 400.0, (-8.0, -6.0))
+    assert not hurts([BETTER, force])
+    assert log_change([BETTER, force]) == log_change([BETTER])
+    assert hurts([PERHAPS, force]), "a position alone drifts"
