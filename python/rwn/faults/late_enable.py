@@ -72,7 +72,7 @@ def _gains(late: LateEnable, recordings: Sequence[Recording], model: Model, prob
     """Whether a recording is far likelier with a late enable where a fit explains its beginning alone."""
     beginning = _beginning(problem, this, recordings[late.place], model, problem.runs[late.place])
     gained = beginning.cost(0.0) - beginning.cost(late.time)
-    return gained > 2.0 * DECISIVE * beginning.inflation(late.time)
+    return 2.0 * DECISIVE * beginning.inflation(late.time) < gained < np.inf
 
 
 def late_beside(
@@ -88,7 +88,8 @@ def late_beside(
     runs, enough = [run_of(r, model) for r in recordings], 2.0 * variance_inflation(problem, this) * DECISIVE
     found = _enabled_late(recordings, model, problem, this, runs, known=known)
     each = {late: _beginning(problem, this, recordings[late.place], model, runs[late.place]) for late in found}
-    return tuple(late for late, of in each.items() if of.cost(0.0) - of.cost(late.time) > enough)
+    gained = {late: of.cost(0.0) - of.cost(late.time) for late, of in each.items()}
+    return tuple(late for late in found if enough < gained[late] < np.inf)  # one that runs away tells nothing
 
 
 def _enabled_late(
