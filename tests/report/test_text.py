@@ -163,6 +163,15 @@ def test_the_two_numbers_are_those_that_the_gain_is_of() -> None:
     assert before_after(replace(row, corrected=None)) == ("14.2 rad/s", "6.31 rad/s")
 
 
+def test_a_model_that_was_better_as_given_than_refitted_is_said_to_be() -> None:
+    found = made_up.found()
+    row = headline(found)
+    assert row is not None
+    better = replace(found, heldout=tuple(replace(r, nominal=2.0) if r is row else r for r in found.heldout))
+    assert "(87 % less); as given, before any fit, the model leaves 2.00 rad/s." in verdict_sentence(better)
+    assert "as given" not in verdict_sentence(found)
+
+
 def test_a_part_that_was_left_out_does_not_read_as_an_error_in_seconds() -> None:
     found = made_up.found()
     row = replace(found.heldout[0], recording=f"last 30 % of train_1.csv {LEFT_OUT}")

@@ -238,7 +238,9 @@ def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
     does = "increases" if (corrected > row.refitted if row.gain is None else row.gain < 0.0) else "reduces"
     more_or_less = "more" if does == "increases" else "less"
     share = f" ({percent(abs(row.gain))} {more_or_less})" if row.gain is not None else ""
-    return f"{how} {does} {where} from {before}, refitted alone, to {after}{share}."
+    as_given = error_in_words(row.nominal, *row_prefix(row))
+    given = f"; as given, before any fit, the model leaves {as_given}" if row.nominal < row.refitted else ""
+    return f"{how} {does} {where} from {before}, refitted alone, to {after}{share}{given}."
 
 
 def _hides(row: HeldoutRow, other: HeldoutRow) -> bool:
