@@ -17,7 +17,8 @@ Array = NDArray[np.float64]
 
 OFTEN = 0.3  # share of the samples that have to repeat the last one
 AT_ONCE = 0.8  # share of the updates that come after the usual number of samples, or on one grid
-LEVEL = 0.01  # chance that the changes of a coarse signal lie on a grid, or that a fine one repeats itself so often
+LEVEL = 0.01  # chance that the changes of a coarse signal lie on a grid
+RARELY = 0.001  # chance that a fine signal repeats itself so often: it is asked of every one
 FEWEST = 20  # times that a sample repeats the last; of fewer values `quantum` tells no step
 
 
@@ -67,7 +68,7 @@ def _now_and_then(x: Array, repeats: Flags) -> Flags:
     if often < FEWEST or noise == 0.0 or quantum(x) > 0.0 or quantum(x[held]) > 0.0:
         return np.zeros(x.size, dtype=bool)
     by_chance = x.size * float(np.min(change[change > 0.0])) / (2.0 * np.sqrt(np.pi) * noise)
-    return held if pdtrc(often - 1, by_chance) < LEVEL else np.zeros(x.size, dtype=bool)
+    return held if pdtrc(often - 1, by_chance) < RARELY else np.zeros(x.size, dtype=bool)
 
 
 def _updates(ticks: NDArray[np.int64], changes: Flags, widths: Sequence[int]) -> Flags | None:
