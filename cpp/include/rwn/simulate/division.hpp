@@ -18,7 +18,7 @@ class Division {
   Division() = default;
 
   /// Of h, for effects of which the fastest has the rate `effects` [1/s].
-  Division(double h, double effects) { ask(effects * h / angle_of_a_step); }
+  Division(double h, double effects) { ask(steps_over(effects * h)); }
 
   /// Of h, for the fastest effect and the transient of a winding, which is between once and 2^level times as fast as
   /// `rate`, its R/L.
@@ -29,15 +29,11 @@ class Division {
       transient_[static_cast<std::size_t>(transients_)] = length;
       gone_ += length;
     }
-    ask(effects * (h - gone_) / angle_of_a_step);
+    ask(steps_over(effects * (h - gone_)));
   }
 
-  /// At least so many steps for what is left; up to `most_even` to be exact, more only to stay stable.
-  void ask(double steps) {
-    if (!(steps > even_)) return;
-    const double stable = std::min(steps * angle_of_a_step / angle_of_stability, most_stable);
-    even_ = static_cast<int>(std::ceil(std::max(std::min(steps, most_even), stable)));
-  }
+  /// At least so many steps for what is left.
+  void ask(double steps) { even_ = std::max(even_, static_cast<int>(std::ceil(steps))); }
 
   int count() const { return transients_ + even_; }
 
@@ -49,10 +45,17 @@ class Division {
   }
 
  private:
-  static constexpr double angle_of_a_step = 0.7;  // of the fastest rate of an effect
-  // A step of the fastest rate that stays stable is twice as long: a bristle that is bent the other way is as fast.
-  static constexpr double angle_of_stability = 1.3;
-  static constexpr double most_even = 16.0, most_stable = 1024.0;
+  /// Steps over an angle (rate times time) of an effect: up to `most_exact` for accuracy, more for stability alone.
+  static double steps_over(double angle) {
+    return std::max(std::min(angle / angle_of_a_step, most_exact), std::min(angle / stable_angle, most_stable));
+  }
+
+  static constexpr double angle_of_a_step = 0.7;
+  // Half of the 2.78 that a fourth-order Runge-Kutta step is stable over: a bristle bent against the motion is twice as
+  // fast as the rate that its effect states.
+  static constexpr double stable_angle = 1.39;
+  static constexpr double most_exact = 16.0;
+  static constexpr double most_stable = 1024.0;  // a bound on what one row may cost while parameters are tried
   static constexpr int most_transients = 6;  // of a winding 16 times as fast as R/L
   std::array<double, most_transients> transient_{};
   double gone_ = 0.0;
