@@ -36,8 +36,10 @@ def test_noise_went_through_the_filter_that_the_motion_shows(time_constant: floa
     seen = NoiseColour(share=0.5, deviation=0.3, evidence=1.0, filtered=1.0)
     told = SensorFilter(signal="speed", share=0.5, time_constant=-1e-3 / np.log(0.5), noise=seen)
     beside = filtered(problem, [told])
-    noise_then = with_noise_of(beside, fit_nominal(beside)).noise["speed"]
+    fitted = fit_nominal(beside)
+    noise_then = with_noise_of(beside, fitted).noise["speed"]
     assert noise_then.reflection == pytest.approx([np.exp(-1e-3 / time_constant)], rel=0.02)
+    assert not with_noise_of(problem, fitted).noise["speed"].reflection, "another filter may be asked of the problem"
 
 
 def test_no_position_is_better_known_than_the_clock() -> None:

@@ -95,12 +95,10 @@ def _random_walk(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> 
 
 def _filtered_noise(problem: Problem, this: Fit) -> dict[str, Noise]:
     """The noise of signals whose filter is fitted as part of the measurement: the motion and it went through one."""
-    pairs = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
-    fitted = {u.name: float(value) for u, value in pairs if u.nuisance}
-    noise = {}
-    for signal, lag in analog_filters(this.hypothesis.table).items():
-        time_constant = fitted.get(f"{lag.name}.{lag.parameters[0].name}")
-        if time_constant is not None and signal in problem.noise:
+    measured, noise = {n.effect for n in problem.prior.nuisance}, {}
+    for signal, lag in analog_filters(problem.prior.table).items():
+        if lag.name in measured and signal in problem.noise:
+            (time_constant,) = this.values_of(lag.name).values()
             share = problem.share_kept(signal, time_constant)
             noise[signal] = replace(problem.noise[signal], reflection=(share,))
     return noise

@@ -226,8 +226,8 @@ def without_untimed(recordings: Sequence[Recording], model: Model) -> list[Recor
 
     A few that were taken while the current rose would decide between all laws, by what none of them says.
     """
-    beside = [r for r in recordings if clock_beside(r.time) is not None]
-    return without_unknown(recordings, stating(model, "ticks")) if beside else list(recordings)
+    beside_a_clock = any(clock_beside(r.time) is not None for r in recordings)
+    return without_unknown(recordings, stating(model, "ticks")) if beside_a_clock else list(recordings)
 
 
 def stating(model: Model, law: str) -> Model:

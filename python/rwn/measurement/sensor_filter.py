@@ -55,8 +55,7 @@ def shown_in_noise(problem: Problem, this: Fit) -> bool:
 
 def filters_again(problem: Problem, explanation: Fit, known: Sequence[SensorFilter]) -> tuple[SensorFilter, ...]:
     """The filters beside an explanation that was found under those that are `known`, which the problem is without."""
-    (this,) = refitted_beside([explanation], filtered(problem, known))
-    return filters_and_likelihood(with_noise_of(problem, this), this, known)[0]
+    return filters_and_likelihood(with_noise_of(problem, explanation), explanation, known)[0]
 
 
 def filters_and_likelihood(
@@ -214,8 +213,9 @@ def _likeliest_kind(
     def score(filters: Sequence[SensorFilter]) -> float:
         return likelihood_beside(problem, this, filters) + _by_noise(told, filters)
 
-    scores = {f: score([f]) for f in (analog, digital) if _accuracy_lost(problem, this, f) < 0.0}
-    without = score([])
+    plain = losses_beside(problem, this, ())
+    simulated_better = [f for f in (analog, digital) if loss_gained(plain, losses_beside(problem, this, [f])) < 0.0]
+    scores, without = {f: score([f]) for f in simulated_better}, score([])
     likely = {f: found for f, found in scores.items() if found > without}
     if len(likely) == 2:
         on = filtered(problem, [digital])
@@ -223,11 +223,6 @@ def _likeliest_kind(
         gained = (likely[digital] - likely[analog]) * left.effective / max(left.count, 1)
         return digital if gained > DECISIVE else analog
     return next(iter(likely), None)
-
-
-def _accuracy_lost(problem: Problem, this: Fit, f: SensorFilter) -> float:
-    """How much worse an explanation simulates the signals as they were recorded with a filter, in deviations."""
-    return loss_gained(losses_beside(problem, this, ()), losses_beside(problem, this, [f]))
 
 
 def _digital(problem: Problem, this: Fit, seen: SensorFilter, told: Mapping[str, NoiseColour]) -> SensorFilter:
