@@ -7,7 +7,8 @@ import pytest
 
 import rwn
 from made_up_motor import MOTOR, recorded
-from rwn.report.figures import _by_chance, unknown_over_speed
+from rwn.name.initial_guesses.spectra import highest_by_chance
+from rwn.report.figures import unknown_over_speed
 from rwn.report.law_figures import _over_time
 from rwn.report.plot import Plot, Trace
 from rwn.report.plot_text import in_words
@@ -123,7 +124,7 @@ def test_a_spectrum_of_noise_has_no_line_to_draw() -> None:
     """Lines of noise are exponential, here of 120 orders; a line is worth a picture beyond what they reach."""
     rng = np.random.default_rng(4)
     spectra = rng.exponential(0.02, size=(2000, 120))
-    beyond = np.mean([share.max() > _by_chance(share) for share in spectra])
+    beyond = np.mean([share.max() > highest_by_chance(share) for share in spectra])
     assert 0.003 < beyond < 0.03
     spectra[:, 6] = 0.4
-    assert all(share.max() > _by_chance(share) for share in spectra)
+    assert all(share.max() > highest_by_chance(share) for share in spectra)

@@ -23,7 +23,6 @@ from rwn.unnamed_law.places import range_of, states_of, unit_of_state, unit_of_w
 
 Array = NDArray[np.float64]
 
-LEVEL = 0.01  # chance that a spectrum of noise is drawn
 WORTH_SEEING = 0.05  # of the residual, that the highest line explains
 
 
@@ -104,7 +103,7 @@ def _spectrum(ranking: Ranking, linear: bool) -> Plot | None:
     residuals = problem.residuals(nominal.vector, nominal.active)
     share = spectra.angle_spectrum(problem, nominal.vector, residuals, grid)
     highest = int(np.argmax(share))
-    if share[highest] < max(WORTH_SEEING, _by_chance(share)):
+    if share[highest] < max(WORTH_SEEING, spectra.highest_by_chance(share)):
         return None
     unit = "1/m" if linear else "per rev"
     return Plot(
@@ -113,11 +112,6 @@ def _spectrum(ranking: Ranking, linear: bool) -> Plot | None:
         traces=(Trace(name="refitted nominal", role="measured", x=grid, y=share),),
         note=f"Highest at {grid[highest]:.4g} {unit}: {share[highest]:.0%}.",
     )  # fmt: skip
-
-
-def _by_chance(spectrum: Array) -> float:
-    """What the highest line of noise with this median exceeds once in 1 / LEVEL times: lines are exponential."""
-    return float(np.median(spectrum) / np.log(2.0) * np.log(spectrum.size / LEVEL))
 
 
 def network_over_its_state(made: NetworkCorrection) -> Plot:

@@ -24,6 +24,8 @@ from rwn.simulate.unknown_inputs import unknown_inputs
 
 Array = NDArray[np.float64]
 
+LEVEL = 0.01  # chance that the highest line of a spectrum of noise is beyond `highest_by_chance`
+
 
 def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess] | None:
     """Spatial frequencies that explain most of what `base` leaves; none where no angle is known."""
@@ -212,6 +214,11 @@ def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
         if len(found) == count:
             break
     return found
+
+
+def highest_by_chance(spectrum: Array) -> float:
+    """What the highest line of noise (k,) with this median exceeds with a chance of LEVEL, as lines are exponential."""
+    return float(np.median(spectrum) / np.log(2.0) * np.log(spectrum.size / LEVEL))
 
 
 def order_grid(problem: Problem) -> Array:
