@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 OFTEN = 0.3  # share of the samples that have to repeat the last one
 AT_ONCE = 0.8  # share of the updates that come after the usual number of samples, or on one grid
 LEVEL = 0.01  # chance that the changes of a coarse signal lie on a grid
-RARELY = 0.001  # chance that a fine signal repeats itself so often: it is asked of every one
+RARELY = 0.001  # chance that a fine signal repeats itself so often: 1 % of a diagnosis, of some ten signals
 FEWEST = 20  # times that a sample repeats the last; of fewer values `quantum` tells no step
 
 

@@ -130,8 +130,9 @@ def _alone(x: Array, may_swing: Flags, together: int) -> Flags:
     others = ~_in_all(off, together)
     others[[0, -1]] = False  # these are mirrored
     largest = np.min(np.abs(here), axis=0) > float(np.max(np.abs(x[others]), initial=0.0))
-    rest = -np.sort(-jump[off & swings & ~largest])  # few of which may be spikes too, within the range of the motion
-    usual = rest[few] if rest.size > (few := int(RARE * np.count_nonzero(swings))) else 0.0
+    few = int(RARE * np.count_nonzero(swings))  # that may be spikes too, within the range of the motion
+    rest = np.sort(jump[off & swings & ~largest])[: -few or None]
+    usual = float(np.max(rest, initial=0.0))
     beyond = smooth & largest & (BESIDE * jump > usual)
     led_to = np.minimum(np.abs(here[0] - before - leads), np.abs(here[-1] - after + follows)) < BESIDE * jump
     dropped = np.all(here == 0.0, axis=0) & ~led_to
