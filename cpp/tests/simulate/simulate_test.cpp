@@ -167,6 +167,19 @@ TEST(Simulate, FrictionHoldsAtStandstill) {
   for (double w : speed_of(c)) EXPECT_EQ(w, 0.0);
 }
 
+TEST(Simulate, ALoadThatPullsAShaftBackFirstDoesNotHoldItForTheWholeRow) {
+  const auto hanging = [](double step) {
+    Case c = motor(static_cast<int>(std::lround(0.02 / step)), step);
+    for (double& v : c.input) v = 12.0;
+    c.active = {place_of<rwn::ConstantLoad>()};
+    c.parameters[static_cast<std::size_t>(rwn::first_parameter(c.active[0]))] = 0.022;  // above the friction of 0.02
+    return speed_of(c);
+  };
+  const std::vector<double> rows = hanging(1e-3), fine = hanging(1e-5);
+  EXPECT_GT(rows[1], 0.1);
+  for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_NEAR(rows[k], fine[100 * k], 1e-9) << "row " << k;
+}
+
 TEST(Simulate, FrictionHoldsAShaftWithoutElectricsAtRowsThatAreOffTheirClock) {
   Case c = motor();
   c.drive = rwn::drive_of("axis");

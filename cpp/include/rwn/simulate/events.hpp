@@ -53,9 +53,10 @@ class Events {
     }
     const double instant = friction_.instant(s, h, beyond);
     if (instant > search_.at_once(h) || s.direction == 0.0) return friction_.pass(s, instant, beyond);
-    s.direction = 0.0;  // could not start: the friction holds after all
+    const double back = -s.direction;
+    s.direction = 0.0;  // could not start: the friction holds after all, or until it gives way to the other side
     const State held = search_.at(s, h);
-    if (!contact_.continues(s, held)) return pass(s, h, held);
+    if (!contact_.continues(s, held) || friction_.gives_way(held, back)) return pass(s, h, held);
     s = held;
     s.x[w] = S(0.0);
     return h;

@@ -25,6 +25,9 @@ class FrictionEvents {
     return !(s.direction * value_of(next.x[w]) < 0.0);  // what is not finite goes on, to be found by the sample loop
   }
 
+  /// True where a shaft that was held is pulled off in a direction.
+  bool gives_way(const State& held, double direction) { return equations_.breaking(held) == direction; }
+
   /// When the sliding or sticking of `s` ends, before `beyond`, which is h later.
   double instant(const State& s, const S& h, const State& beyond) {
     if (s.direction != 0.0) return search_.instant(s, h, beyond, [&](const State& x) { return ahead(s, x); });
