@@ -99,7 +99,7 @@ def test_a_level_is_behind_all_parameters_and_unknown_of_one_recording_alone() -
     problem = prepare(_recordings(FACTORS[:2]), MODEL)
     problem = with_levels(problem, friction(problem))
     places = [_core.parameter_count(), _core.parameter_count() + 1]
-    assert [[place for place, _, _ in run.levels] for run in problem.runs] == [places, places]
+    assert [[level.place for level in run.levels] for run in problem.runs] == [places, places]
     assert all(own.spread == SPREAD for own in problem.prior.of_runs if own.level)
     assert problem.on([problem.whole[0]]).runs[0].levels == problem.whole[0].levels
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import rwn
+from made_up_files import files_of
 from made_up_motor import SMALL
 from ranked import ranked
 from rwn.fit.fit import Fit, fit
@@ -60,6 +61,30 @@ def test_a_filter_that_is_not_known_is_asked_of_any_explanation(recorded: Proble
     assert found is not None
     assert [f.signal for f in found.filters] == ["speed"]
     assert found.changes == 0
+
+
+@pytest.mark.parametrize(
+    ("names", "factors", "loads", "shown"),
+    [
+        (["inertia"], (0.8, 1.3), (), "inertia of run_0"),
+        (["viscous_friction"], (0.6, 1.6), (), "friction of run_0"),
+        ([], (1.0, 1.0), (-2e-3, 2e-3), "load of run_0"),
+        ([], (1.0, 1.0), (), None),
+    ],
+)  # fmt: skip
+def test_what_differs_from_file_to_file_is_what_shows_most(
+    names: list[str], factors: tuple[float, ...], loads: tuple[float, ...], shown: str | None
+) -> None:
+    made = Measurement(as_prepared=prepare(files_of(MODEL, names, factors, loads=loads), MODEL))
+    found = made.otherwise(*weighted_by_nominal(made.problem), completely=True)
+    own = [] if found is None else [o.name for o in found.problem.prior.of_runs]
+    assert (own[:1] or [None]) == [shown]
+    assert found is None or found.supposed == (names == ["inertia"])
+
+
+def test_several_machines_are_not_supposed_twice() -> None:
+    made = Measurement(as_prepared=prepare(files_of(MODEL, ["inertia"], (0.8, 1.3)), MODEL), of_one_machine=True)
+    assert made.otherwise(*weighted_by_nominal(made.problem), completely=True) is None
 
 
 def test_a_filter_is_asked_early_where_the_noise_itself_shows_it() -> None:

@@ -152,7 +152,7 @@ class Fit:
 
     @property
     def levels(self) -> dict[str, float]:
-        """The fitted levels of single recordings, logarithms of factors, by the name of the unknown."""
+        """The fitted levels of single recordings (fit/prior.py), by the name of the unknown."""
         pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
         return {u.name: float(v) for u, v in pairs if u.level}
 

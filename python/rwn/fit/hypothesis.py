@@ -31,11 +31,12 @@ class Hypothesis:
     unknowns: tuple[Unknown, ...]
     table: Mapping[str, Effect] = field(default_factory=table)
     taken_over: frozenset[str] = frozenset()  # uncertain nominal parameters that an effect has in its own place
+    added_to: tuple[str, ...] = ()  # effects that act through what differs from recording to recording
 
     @property
     def active(self) -> list[int]:
         """Indices of the switched-on effects."""
-        return [self.table[name].index for name in self.effects]
+        return [self.table[name].index for name in dict.fromkeys((*self.effects, *self.added_to))]
 
     @property
     def by(self) -> list[int]:
@@ -98,7 +99,7 @@ def hypothesis(
     vector = np.append(parameter_vector(motor_now, values, known_effects), of_runs)
     return Hypothesis(
         effects=active, added=added, vector=vector, unknowns=tuple(unknowns), table=known_effects,
-        taken_over=frozenset(prior.uncertainty) & replaced,
+        taken_over=frozenset(prior.uncertainty) & replaced, added_to=prior.added_to,
     )  # fmt: skip
 
 

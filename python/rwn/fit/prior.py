@@ -8,13 +8,14 @@ from dataclasses import dataclass, field
 from rwn.model.drives.drive import OneNumber
 from rwn.model.model import Model
 from rwn.model.vocabulary import Effect, table
+from rwn.simulate.own_unknowns import LevelPrior
 
 
 @dataclass(frozen=True, kw_only=True)
 class RunUnknown:
     """What is unknown of one run alone, 0 where nothing is: it adds to one parameter there, or is a level.
 
-    A level is the logarithm of a factor on several parameters.
+    A level is the logarithm of a factor on several parameters, or adds to them.
     """
 
     name: str
@@ -24,6 +25,7 @@ class RunUnknown:
     spread: float  # standard deviation of its prior
     turns: bool = False  # only effects of the angle depend on it
     level: bool = False
+    adds: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,9 +53,16 @@ class Prior:
     one_numbers: tuple[OneNumber, ...] = ()  # pairs of parameters
 
     @property
-    def levels(self) -> tuple[tuple[tuple[int, ...], float], ...]:
-        """What differs from recording to recording: the parameters that each level scales, and its deviation."""
-        return tuple(dict.fromkeys((own.parameters, own.spread) for own in self.of_runs if own.level))
+    def levels(self) -> tuple[LevelPrior, ...]:
+        """What differs from recording to recording."""
+        levels = (own for own in self.of_runs if own.level)
+        return tuple(dict.fromkeys(LevelPrior(own.parameters, own.spread, own.adds) for own in levels))
+
+    @property
+    def added_to(self) -> tuple[str, ...]:
+        """The effects whose parameters levels add to: they act in every hypothesis, at 0 where it has no others."""
+        places = {p for own in self.of_runs if own.level and own.adds for p in own.parameters}
+        return tuple(name for name, e in self.table.items() if places & {e.at(p.name) for p in e.parameters})
 
     @classmethod
     def of(cls, model: Model) -> Prior:

@@ -17,8 +17,9 @@ from rwn.model.initial_state import INITIAL_POSITION
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
-from rwn.simulate.level import nearest_level
+from rwn.simulate.level import nearest_levels
 from rwn.simulate.nearest_angle import angles_to_try, nearest_angle
+from rwn.simulate.own_unknowns import LevelShare
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import NormalEquations, Output, Simulator
 from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
@@ -89,10 +90,8 @@ class Problem:
         what differs from recording to recording.
         """
         begun = self.simulator.started(run, vector)
-        for parameters, spread in () if run.levels else self.prior.levels:
-            begun = nearest_level(
-                self.simulator, run, begun, active, parameters=parameters, spread=spread, noise=self.noise
-            )
+        if self.prior.levels and not run.levels:
+            begun = nearest_levels(self.simulator, run, begun, active, self.prior.levels, noise=self.noise)
         if not run.angle_unknown or motor_index(INITIAL_POSITION) in {u.parameter for u in run.start_unknowns}:
             return begun
         effects = [effect for effect in self.prior.table.values() if effect.index in active]
@@ -134,32 +133,34 @@ class Problem:
     def normal_of(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> NormalEquations:
         """Normal equations (p, p), (p,) of one run, of what is unknown of it alone at its place in `by`."""
         core, begun = _core.parameter_count(), self.started(run, vector, active)
-        adds_to, scales = dict(run.start_unknowns), self._scaled(run, vector, active)
+        adds_to, levels = dict(run.start_unknowns), self._levels(run, vector, active)
         # what is unknown of other runs changes nothing here
-        here = [scales[k][1] if k in scales else (adds_to.get(k, k),) for k in by]
+        here = [levels[k].parameters if k in levels else (adds_to.get(k, k),) for k in by]
         wanted = sorted({p for parameters in here for p in parameters if p < core})
         found = self.normal_at(run, begun, active, wanted)
-        if (wanted == list(by) and not scales) or not (found.finite and np.isfinite(found.curvature).all()):
+        if (wanted == list(by) and not levels) or not (found.finite and np.isfinite(found.curvature).all()):
             return found
         column = {k: j for j, k in enumerate(wanted)}
         factor = np.ones(core)
-        for place, (part, parameters) in scales.items():
-            factor[list(parameters)] *= np.exp(part * vector[place])
+        for place, level in levels.items():
+            if not level.adds:
+                factor[list(level.parameters)] *= np.exp(level.share * vector[place])
         chosen = np.zeros((len(wanted), len(by)))
         for j, (k, parameters) in enumerate(zip(by, here, strict=True)):
             for p in parameters:
                 if p in column:
-                    chosen[column[p], j] = scales[k][0] * begun[p] if k in scales else factor[p]
+                    by_level = levels[k].share * (1.0 if levels[k].adds else begun[p]) if k in levels else factor[p]
+                    chosen[column[p], j] = by_level
         return replace(found, gradient=chosen.T @ found.gradient, curvature=chosen.T @ found.curvature @ chosen)
 
-    def _scaled(self, run: Run, vector: Array, active: Sequence[int]) -> dict[int, tuple[float, tuple[int, ...]]]:
-        """The levels of a run: place of each, with its part, and the parameters among those it scales that act."""
+    def _levels(self, run: Run, vector: Array, active: Sequence[int]) -> dict[int, LevelShare]:
+        """The levels of a run by their places, each of those of its parameters that act."""
         if not run.levels:
             return {}
         switched = (e for e in self.prior.table.values() if e.index in active)
         acting = {e.first + k for e in switched for k in range(len(e.parameters))} | set(range(len(motor_parameters())))
         known = [level for level in run.levels if level.place < vector.size]
-        return {u.place: (u.share, tuple(p for p in u.parameters if p in acting)) for u in known}
+        return {u.place: u._replace(parameters=tuple(p for p in u.parameters if p in acting)) for u in known}
 
     def normal_at(self, run: Run, vector: Array, active: Sequence[int], by: Sequence[int]) -> NormalEquations:
         """Normal equations (p, p), (p,) of one run whose start is part of `vector` (all,)."""

@@ -26,7 +26,7 @@ class Unknown:
     tied_to: str = ""  # another logarithmic unknown that has about the same value
     tie_std: float = np.inf  # relative standard deviation of their ratio
     nuisance: bool = False  # of the recording, not of the drive: fitted, not reported
-    level: bool = False  # logarithm of a factor on a quantity in one recording (measurement/levels.py)
+    level: bool = False  # of a quantity in one recording (measurement/levels.py)
     amplitude: str = ""  # the unknown whose oscillation this is the phase of; both are searched as its two parts
     cyclic: bool = False  # a phase: values a turn apart are one
 

@@ -1,7 +1,7 @@
-"""What differs from recording to recording: friction, as a bearing or a gear is warm in one and cold in the next.
+"""What differs from recording to recording: friction, as a gear warms up, or the load that hangs on the drive.
 
-Each recording then has a level of its own, a factor on one quantity, as an unknown of the measurement. Whether they do
-differ is asked beside the best explanation, since what is missing of it may differ too.
+Each recording then has a level of its own, a factor on one quantity or what is added to it, as an unknown of the
+measurement. Whether they do differ is asked beside the best explanation, since what is missing of it may differ too.
 """
 
 from __future__ import annotations
@@ -18,11 +18,13 @@ from rwn.fit.intervals import AGREEMENT, covariance
 from rwn.fit.prior import RunUnknown
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
-from rwn.model.vocabulary import motor_index
+from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.simulate.own_unknowns import LevelShare
 from rwn.simulate.run import Run
 
-SPREAD = 0.3  # prior deviation of a level's logarithm: friction that halves, as a gear warms up, is 2.3 of it
+# prior deviation of a level's logarithm: friction that halves, as a gear warms up, is 2.3 of it; of a load, as a share
+# of the largest torque
+SPREAD = 0.3
 ITERATIONS = 10  # of a fit that begins near its end
 APART = 3.0  # deviations from the mean of all, from which a recording is said to differ: one in 370 by chance
 
@@ -32,7 +34,10 @@ class Level:
     """A quantity that may differ from recording to recording."""
 
     quantity: str
-    parameters: tuple[int, ...]  # indices of what a factor on it scales
+    parameters: tuple[int, ...]  # indices of what a factor on it scales, or of what it adds to
+    unit: str = "1"  # of what is added
+    adds: bool = False
+    lasting: bool = False  # it is one number of a machine: recordings in which it differs contradict each other
 
     def of(self, recording: str) -> str:
         """The name of its unknown of one recording."""
@@ -47,28 +52,65 @@ def friction(problem: Problem) -> Level:
     return Level(quantity="friction", parameters=(*(motor_index(name) for name in names), *torques))
 
 
+def load(problem: Problem) -> Level:
+    """The level of a load that stays the same along a recording."""
+    steady = [e for e in problem.prior.table.values() if e.steady and e.site in problem.drive.sites]
+    places = tuple(e.at(p.name) for e in steady for p in e.parameters)
+    unit = problem.drive.unit_of(steady[0], steady[0].parameters[0].unit) if steady else "1"
+    return Level(quantity="load", parameters=places, unit=unit, adds=True)
+
+
+def all_levels(problem: Problem) -> list[Level]:
+    """What may differ: friction and load, which do on one machine, and every uncertain number of the machine."""
+    pairs = [(pair.name, pair.like) for pair in problem.drive.one_numbers]
+    one = {name: pair for pair in pairs if set(pair) <= set(problem.prior.uncertainty) for name in pair}
+    names = [n for n in problem.prior.uncertainty if n in motor_parameters() and n not in problem.drive.friction]
+    numbers = dict.fromkeys(one.get(name, (name,)) for name in names)
+    lasting = [
+        Level(quantity=_in_words(of), parameters=tuple(map(motor_index, of)), lasting=True) for of in numbers
+    ]  # fmt: skip
+    return [friction(problem), load(problem), *lasting]
+
+
+def _in_words(names: Sequence[str]) -> str:
+    return " and ".join(name.replace("_", " ") for name in names)
+
+
+def known_levels(problem: Problem) -> list[Level]:
+    """What does differ: the levels that are unknowns of a problem."""
+    return [level for level in all_levels(problem) if is_known(problem, level)]
+
+
+def is_known(problem: Problem, level: Level) -> bool:
+    """Whether a level is an unknown of each recording."""
+    return any(own.name == level.of(run.name) for own in problem.prior.of_runs for run in problem.whole)
+
+
 def can_differ(problem: Problem, level: Level) -> bool:
     """Whether there are several recordings of a drive with such a quantity, and it is no unknown of each yet."""
-    known = any(own.name == level.of(run.name) for own in problem.prior.of_runs for run in problem.whole)
-    return len(problem.whole) > 1 and not known and bool(level.parameters)
+    return len(problem.whole) > 1 and not is_known(problem, level) and bool(level.parameters)
 
 
 def with_levels(problem: Problem, level: Level) -> Problem:
     """The problem with a level of a quantity for each recording among what is unknown.
 
-    A recording has the quantity times its own level over their geometric mean: the mean is the parameter's, which the
-    data sheet knows, and no level's.
+    A recording has the quantity times its own level over their geometric mean, or plus its level less their mean: the
+    mean is the parameter's, which the data sheet knows, and no level's.
     """
     first = _core.parameter_count() + len(problem.prior.of_runs)
     names = dict.fromkeys(run.name for run in problem.whole)
+    spread = SPREAD * problem.scales["torque"] if level.adds else SPREAD
     own = [
         RunUnknown(
-            name=level.of(name), unit="1", place=first + k, parameters=level.parameters, spread=SPREAD, level=True
+            name=level.of(name), unit=level.unit, place=first + k, parameters=level.parameters, spread=spread,
+            level=True, adds=level.adds,
         )
         for k, name in enumerate(names)
-    ]
+    ]  # fmt: skip
     shares = {
-        name: tuple(LevelShare(u.place, (u.name == level.of(name)) - 1.0 / len(own), level.parameters) for u in own)
+        name: tuple(
+            LevelShare(u.place, (u.name == level.of(name)) - 1.0 / len(own), level.parameters, level.adds) for u in own
+        )
         for name in names
     }
 
@@ -87,23 +129,31 @@ def beside_levels(problem: Problem, this: Fit, level: Level) -> tuple[Problem, F
 
 
 def uneven(problem: Problem, this: Fit, level: Level) -> dict[str, tuple[float, float]]:
-    """The quantity of each recording over its geometric mean, with a deviation, of those that certainly differ."""
+    """The quantity of each recording over its geometric mean, with a deviation, of those that certainly differ.
+
+    Less its mean, of what is added.
+    """
     unknowns = [u.name for u in this.hypothesis.unknowns]
     names = [run.name for run in problem.whole if level.of(run.name) in unknowns]
     places = [unknowns.index(level.of(name)) for name in names]
     if not places:
         return {}
     contrasts = np.eye(len(places)) - 1.0 / len(places)
-    logarithms = contrasts @ this.minimum.values[places]
+    off = contrasts @ this.minimum.values[places]
     spread = contrasts @ covariance(this, statistics(problem, this))[np.ix_(places, places)] @ contrasts
     # no level is better known than any other number of a fit
-    factors, deviations = np.exp(logarithms), np.hypot(np.sqrt(np.maximum(np.diag(spread), 0.0)), AGREEMENT)
-    rows = zip(names, factors, deviations, strict=True)
-    return {name: (float(f), float(f * d)) for name, f, d in rows if abs(np.log(f)) > APART * d}
+    whole = float(np.ptp(off)) if level.adds else 1.0
+    deviations = np.hypot(np.sqrt(np.maximum(np.diag(spread), 0.0)), AGREEMENT * whole)
+    rows = [(name, x, d) for name, x, d in zip(names, off, deviations, strict=True) if abs(x) > APART * d]
+    if level.adds:
+        return {name: (float(x), float(d)) for name, x, d in rows}
+    return {name: (float(np.exp(x)), float(np.exp(x) * d)) for name, x, d in rows}
 
 
 def level_beside(problem: Problem, this: Fit, level: Level, run: Run) -> float:
-    """The quantity of one recording over that of the machine, as a fit has both."""
+    """The quantity of one recording over that of the machine, as a fit has both; less it, of what is added."""
     mean, own = this.vector, problem.started(run, this.vector, this.active)
+    if level.adds:
+        return float(own[level.parameters[0]] - mean[level.parameters[0]])
     scaled = [p for p in level.parameters if mean[p] != 0.0]
     return float(own[scaled[0]] / mean[scaled[0]]) if scaled else 1.0

@@ -22,11 +22,12 @@ from rwn.fit.secant import all_down_secants
 from rwn.measurement.angle import along_the_simulated_angle
 from rwn.measurement.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.measurement.filter_colour import SensorFilter
-from rwn.name.backward import distinct, elaborations, replaced, with_simpler
+from rwn.name.backward import distinct, replaced, with_simpler
 from rwn.name.degenerate import adds
 from rwn.name.measurement import Measurement
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.observable import observable
+from rwn.name.prior_odds import loaded, prior_odds, steady_loads
 from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits, Ranking
 from rwn.name.screening import OF_THE_MACHINE, screen
 from rwn.name.weights import weigh
@@ -34,7 +35,6 @@ from rwn.name.weights import weigh
 Progress = Callable[[str, float], None]
 
 MOST_EFFECTS = OF_THE_MACHINE + 1  # in one explanation: a sensor or an actuator shows beside what acts in the machine
-ELABORATE = 5.0  # how much likelier plain friction is than an elaboration of it
 
 
 class _ForwardSelection(NamedTuple):
@@ -88,17 +88,19 @@ def _ranked(
     measured = grown.measured or made.otherwise(problem, best, completely=at_once == MOST_EFFECTS)
     if measured:  # otherwise than thought, beside whatever is missing
         renew(problem.work, begun)
-        alone_again = _ranked(measured, progress=progress, at_once=1)
-        if names is None and at_once == 1:
-            return alone_again
-        renew(problem.work, begun)
-        several = [f for f in best_few(fits) if len(f.added) > 1]  # what a second search may not afford to find
-        return _ranked(measured, progress=progress, names=names, at_once=at_once, after=alone_again, known=several)
+        found = _ranked(measured, progress=progress, at_once=1)
+        if names is not None or at_once > 1:
+            renew(problem.work, begun)
+            several = [f for f in best_few(fits) if len(f.added) > 1]  # a second search may not afford to find them
+            found = _ranked(measured, progress=progress, names=names, at_once=at_once, after=found, known=several)
+        if found.left.at_the_floor or made.supposed or not measured.supposed:
+            return found
+        made = replace(made, of_one_machine=True)
     at_a_limit = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not f.limits_met and adds(f, problem)]
     best, left = _best_of(problem, [nominal, *fits])
     weighted, finals, counted = final_fits(problem, [nominal, *fits], left)
-    ranked = weigh([nominal, *fits], counted, rivals=len(wanted), prior=_prior(problem), finals=finals)
+    ranked = weigh([nominal, *fits], counted, rivals=len(wanted), prior=prior_odds(problem), finals=finals)
     # disturbances are no account of what the nominal model lacks: it is shown as plainly fitted
     ranked = [r if r.added else replace(r, final=nominal) for r in ranked]
     return Ranking(
@@ -179,7 +181,7 @@ def _beside_and_in_windows(
 def _is_worth_it(problem: Problem, more: Sequence[Fit], best: Fit, *, rivals: int) -> bool:
     """Whether one of `more` is likelier than what was `best`, by the evidence that explanations are weighed with."""
     closest, left = _best_of(problem, [best, *more])
-    likeliest = weigh([best, *more], left, rivals=rivals, prior=_prior(problem))[0].fit
+    likeliest = weigh([best, *more], left, rivals=rivals, prior=prior_odds(problem))[0].fit
     return closest is not best and likeliest is not best
 
 
@@ -201,8 +203,8 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
     problem, nominal = _weighted_beforehand(problem)
     progress("trying every effect", 0.1)
     fits = screen(problem, nominal, wanted)
-    if problem.drive.force:  # the rule on a machine axis: gravity, or an offset of the drive
-        for offset in screen(problem, nominal, _offsets(problem)):
+    if loaded(problem):
+        for offset in screen(problem, nominal, steady_loads(problem)):
             fits = distinct([*fits, *screen(problem, offset, wanted)])
     windowed: list[Fit] = []
     if affords_more(problem.work) and has_lost_the_motion(problem, min([nominal, *fits], key=lambda f: f.cost)):
@@ -213,10 +215,6 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
 
 def _made_of(this: Fit, wanted: Sequence[str]) -> bool:
     return all(name in wanted or this.hypothesis.table[name].steady for name in this.added)
-
-
-def _offsets(problem: Problem) -> list[str]:
-    return [name for name, effect in problem.prior.table.items() if effect.steady]
 
 
 def _under_own_noise(problem: Problem, nominal: Fit, fits: list[Fit]) -> Fits:
@@ -275,15 +273,6 @@ def _diverse(fits: Sequence[Fit]) -> list[Fit]:
         if len(alike) < 2:
             kept.append(f)
     return kept[:3]
-
-
-def _prior(problem: Problem) -> dict[str, float]:
-    """Log prior odds that differ from uniform: a steady load is common on a machine axis.
-
-    Plain friction is likelier than any one of the laws that elaborate it, and than a load that a bench motor carries.
-    """
-    offset = np.log(len(problem.prior.table)) + 1.0 if problem.drive.force else -np.log(ELABORATE)
-    return dict.fromkeys(_offsets(problem), offset) | dict.fromkeys(elaborations(), -np.log(ELABORATE))
 
 
 def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Problem, Fit, list[Fit]]:

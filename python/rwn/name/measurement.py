@@ -1,4 +1,4 @@
-"""How recordings were made, as the best explanation of them shows it: filters of the sensors, friction by the file."""
+"""How recordings were made, as the best explanation of them shows it: filters of the sensors, levels by the file."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ from dataclasses import dataclass, replace
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
+from rwn.fit.residuals import statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
-from rwn.measurement.levels import can_differ, friction, with_levels
+from rwn.measurement.levels import Level, all_levels, can_differ, friction, with_levels
 from rwn.measurement.sensor_filter import filters_again, sensor_filters, shown_in_noise
 from rwn.name.uneven import uneven_beside
+from rwn.parallel import side_by_side
 
 CHANGES = 2  # times that filters which are known may be found to be others; each costs a search
 
@@ -22,6 +24,8 @@ class Measurement:
     as_prepared: Problem  # without filters of the sensors
     filters: tuple[SensorFilter, ...] = ()
     changes: int = 0  # times that filters have turned out to be others
+    supposed: bool = False  # the recordings are of several machines, which has to leave noise alone
+    of_one_machine: bool = False  # that was supposed in vain
 
     @property
     def problem(self) -> Problem:
@@ -36,11 +40,11 @@ class Measurement:
         filters = self._filters(problem, best, completely)
         if filters != self.filters:
             return replace(self, filters=filters, changes=self.changes + bool(self.filters))
-        level = friction(problem)
-        if not completely or not can_differ(problem, level):
+        level = self._level(problem, best) if completely else None
+        if level is None:
             return None
-        uneven = uneven_beside(problem, best, level).is_decisive
-        return replace(self, as_prepared=with_levels(self.as_prepared, level)) if uneven else None
+        supposed = self.supposed or level.lasting
+        return replace(self, as_prepared=with_levels(self.as_prepared, level), supposed=supposed)
 
     def in_noise(self, problem: Problem, best: Fit) -> Measurement | None:
         """The measurement with filters that the noise itself shows beside an explanation that may lack effects."""
@@ -48,6 +52,19 @@ class Measurement:
             return None
         filters = sensor_filters(problem, best)
         return replace(self, filters=filters) if filters else None
+
+    def _level(self, problem: Problem, best: Fit) -> Level | None:
+        """What differs from recording to recording most certainly, of what is not known to do so.
+
+        Physics that is missing makes the numbers of a machine differ too: those are asked only where more than noise is
+        left, and held to be several machines' only where that leaves noise alone.
+        """
+        done = statistics(problem, best).at_the_floor
+        asked = [friction(problem)] if done else all_levels(problem)
+        asked = [level for level in asked if can_differ(problem, level) and not (level.lasting and self.of_one_machine)]
+        tried = side_by_side(lambda level: (level, uneven_beside(problem, best, level)), asked)
+        decisive = [row for row in tried if row[1].is_decisive]
+        return max(decisive, key=lambda row: row[1].log_odds)[0] if decisive else None
 
     def _filters(self, problem: Problem, best: Fit, completely: bool) -> tuple[SensorFilter, ...]:
         if problem.drive.coefficients:

@@ -1,6 +1,6 @@
-"""The level of a quantity in a recording that was not fitted, where it differs from one to the next: what fits it best.
+"""Levels of quantities in a recording that was not fitted, where they differ from one to the next: what fits it best.
 
-As the angle at its start, it is a number of that recording and none of the machine.
+As the angle at its start, they are numbers of that recording and none of the machine.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.noise import Noise
+from rwn.simulate.own_unknowns import LevelPrior
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import Simulator
 
@@ -20,38 +21,41 @@ ITERATIONS = 6
 HALVINGS = 4
 
 
-def nearest_level(
-    simulator: Simulator, run: Run, vector: Array, active: Sequence[int], *, parameters: Sequence[int], spread: float,
+def nearest_levels(
+    simulator: Simulator, run: Run, vector: Array, active: Sequence[int], levels: Sequence[LevelPrior], *,
     noise: Mapping[str, Noise],
 ) -> Array:  # fmt: skip
-    """`vector` (all,) with `parameters` times the one factor at which the run fits best.
+    """`vector` (all,) with the levels, (k,) of them, at which the run fits best. `noise`: see Simulator."""
+    changed = [[p for p in level.parameters if level.adds or vector[p] != 0.0] for level in levels]
+    wanted = sorted({p for of in changed for p in of})
+    spreads = np.array([level.spread for level in levels])
 
-    `spread`: prior deviation of its logarithm. `noise`: see Simulator.
-    """
-    scaled = [p for p in parameters if vector[p] != 0.0]
-
-    def at(level: float) -> Array:
+    def at(values: Array) -> Array:
         trial = vector.copy()
-        trial[scaled] *= np.exp(level)
+        for level, of, value in zip(levels, changed, values, strict=True):
+            trial[of] = level.of(trial[of], value)
         return trial
 
-    def cost(level: float) -> float:
-        found = simulator.normal_equations(run, at(level), active, (), noise=noise)
+    def cost(values: Array) -> float:
+        found = simulator.normal_equations(run, at(values), active, (), noise=noise)
         chi2 = found.chi2 if found.finite and np.isfinite(found.chi2) else np.inf
-        return chi2 + (level / spread) ** 2
+        return chi2 + float(np.sum((values / spreads) ** 2))
 
-    best, least = 0.0, cost(0.0)
-    for _ in range(ITERATIONS if scaled else 0):
+    best = np.zeros(len(levels))
+    least = cost(best)
+    for _ in range(ITERATIONS if wanted else 0):
         here = at(best)
-        normal = simulator.normal_equations(run, here, active, scaled, noise=noise)
-        along = here[scaled]
-        curvature = float(along @ normal.curvature @ along) + 1.0 / spread**2
-        if not normal.finite or not np.isfinite(curvature):
+        normal = simulator.normal_equations(run, here, active, wanted, noise=noise)
+        if not normal.finite or not np.isfinite(normal.curvature).all():
             break
-        step = (float(along @ normal.gradient) - best / spread**2) / curvature
+        along = np.zeros((len(wanted), len(levels)))
+        for j, (level, of) in enumerate(zip(levels, changed, strict=True)):
+            along[[wanted.index(p) for p in of], j] = 1.0 if level.adds else here[of]
+        curvature = along.T @ normal.curvature @ along + np.diag(1.0 / spreads**2)
+        step = np.linalg.solve(curvature, along.T @ normal.gradient - best / spreads**2)
         trials = ((best + share * step, cost(best + share * step)) for share in 0.5 ** np.arange(HALVINGS))
-        level, found = next((pair for pair in trials if pair[1] < least), (best, least))
+        values, found = next((pair for pair in trials if pair[1] < least), (best, least))
         if not found < least:
             break
-        best, least = level, found
+        best, least = values, found
     return at(best)

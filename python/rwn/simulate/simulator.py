@@ -73,7 +73,7 @@ class Simulator:
                 own[parameter] += vector[place]
         for level in run.levels:
             if level.place < vector.size:
-                own[list(level.parameters)] *= np.exp(level.share * vector[level.place])
+                own[list(level.parameters)] = level.of(own[list(level.parameters)], vector[level.place])
         for name, value in zip(STATE, run.start, strict=True):
             own[motor_index(name)] += value
         return own
