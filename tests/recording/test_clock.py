@@ -58,3 +58,18 @@ def test_a_clock_is_found_behind_times_that_are_written_in_milliseconds(period: 
     clock = clock_of(np.round(period * ticks, 3))
     assert clock.period == pytest.approx(period, rel=1e-6)
     assert clock.lost == lost
+
+
+def test_rows_far_behind_their_ticks_keep_their_own() -> None:
+    """Delays of a computer that are half-normal: of a row in twenty another tick is nearer than its own."""
+    rng = np.random.default_rng(4)
+    ticks = np.flatnonzero(rng.random(3000) > 0.01)
+    late = np.minimum(np.abs(rng.normal(0.0, 0.25, ticks.size)), 0.85)
+    clock = clock_of(0.01 * (ticks + late))
+    assert np.mean(clock.ticks == ticks - ticks[0]) > 0.999
+    assert clock.period == pytest.approx(0.01, rel=1e-5)
+
+
+def test_rows_at_random_times_have_no_clock() -> None:
+    time = np.sort(np.random.default_rng(5).uniform(0.0, 10.0, 1000))
+    assert clock_of(time).lost == 0

@@ -18,6 +18,7 @@ FARTHEST = 0.3  # relative distance from the median step beyond which most steps
 PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows
 AS_WELL = 1.0 / float(np.sinc(0.5 / PER_CYCLE))  # agreement at a period over that at the nearest that is tried
 ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
+MOST_BESIDE = 8  # rows that make room for one which was far too late
 ROUNDING = 1e-6  # of times as numbers, relatively
 JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
 CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
@@ -59,7 +60,8 @@ def clock_of(time: Array) -> Clock:
     """The clock of rows at `time` (n,) [s], n at least 2, increasing: the line through the times over their ticks.
 
     The ticks are those of the period at which the rows' phases agree best, of the first rows and then of twice as many:
-    jitter does not add up. Rows that share a tick keep no clock: each counts as one.
+    jitter does not add up. Of two rows beside one tick, as where one was far too late, the one whose own tick is free
+    is that one's; where many share a tick, they keep no clock and each counts as one.
     """
     return _clock_of(np.ascontiguousarray(time, dtype=np.float64).tobytes())
 
@@ -80,7 +82,7 @@ def _clock_of(times: bytes) -> Clock:
         rows = min(2 * rows, time.size)
         two_cycles = 2.0 / rows
         _, period, start = _agreeing(time[: rows : -(-rows // ENOUGH)], period, two_cycles)
-    ticks = np.rint((time - start) / period)
+    ticks = _one_each((time - start) / period)
     if np.any(np.diff(ticks) < 1):
         ticks, period = np.arange(time.size, dtype=np.float64), usual
     else:
@@ -95,6 +97,37 @@ def _clock_of(times: bytes) -> Clock:
     for shared in (clock.ticks, clock.off):
         shared.setflags(write=False)
     return clock
+
+
+def _one_each(cycles: Array) -> Array:
+    """The tick (n,) next to each row at `cycles` (n,) periods, or one beside that where another row has it.
+
+    Rows make room for each other in a chain to whichever side leaves them nearer to their ticks. As they are where more
+    share a tick than rows are lost of a clock.
+    """
+    ticks = np.rint(cycles)
+    shared = np.flatnonzero(np.diff(ticks) < 1)
+    if shared.size > LOST * ticks.size:
+        return ticks
+    for k in shared:
+        if ticks[k] < ticks[k + 1]:  # a chain has made room already
+            continue
+        ways = [_made_room(cycles, ticks, k, -1), _made_room(cycles, ticks, k + 1, 1)]
+        ticks = min((way for way in ways if way is not None), key=lambda way: way[0], default=(0.0, ticks))[1]
+    return ticks
+
+
+def _made_room(cycles: Array, ticks: Array, first: int, by: int) -> tuple[float, Array] | None:
+    """The ticks with that of a row moved `by` one, and of as many beside it as that takes; first, what it costs."""
+    end = first
+    while 0 <= end + by < ticks.size and ticks[end + by] == ticks[end] + by:
+        end += by
+        if abs(end - first) > MOST_BESIDE:
+            return None
+    rows = slice(min(first, end), max(first, end) + 1)
+    moved = ticks.copy()
+    moved[rows] += by
+    return float(np.sum((cycles - moved)[rows] ** 2 - (cycles - ticks)[rows] ** 2)), moved
 
 
 def _agreeing(time: Array, period: float, reach: float) -> tuple[float, float, float]:

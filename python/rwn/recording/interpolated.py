@@ -19,6 +19,7 @@ from rwn.values import Values
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+NEAREST = 0.5  # periods from a tick, from which another is nearer
 ROUNDS = 8  # after which what lies farther on counts for nothing
 
 
@@ -75,11 +76,17 @@ class InterpolatedRows(Values):
 
 
 def interpolated_rows(time: Array, clock: Clock) -> InterpolatedRows:
-    """Rows at `time` (n,) [s] as lines between the samples of a clock, none of them half a period or more off it."""
-    before, after = np.maximum(-clock.off, 0.0), np.maximum(clock.off, 0.0)
+    """Rows at `time` (n,) [s] as lines between the samples of a clock.
+
+    One that is half a period or more off its tick shows more of another sample than of its own, which is not known.
+    """
+    far = np.abs(clock.off) >= NEAREST
+    off = np.where(far, 0.0, clock.off)
+    before, after = np.maximum(-off, 0.0), np.maximum(off, 0.0)
     alone_before = np.diff(clock.ticks, prepend=clock.ticks[0]) != 1
     alone_after = np.diff(clock.ticks, append=clock.ticks[-1]) != 1
-    cut = (alone_before & (before > 0.0)) | (alone_after & (after > 0.0))
+    unknown_before, unknown_after = alone_before | _shifted(far, 1), alone_after | _shifted(far, -1)
+    cut = far | (unknown_before & (before > 0.0)) | (unknown_after & (after > 0.0))
     return InterpolatedRows(
         rows=time - time[0],
         ticks=np.asarray(clock.period * clock.ticks),
@@ -99,7 +106,7 @@ def _shifted(flags: Flags, by: int) -> Flags:
 def between_ticks(time: Array) -> InterpolatedRows | None:
     """Rows at times (n,) as lines between samples at the ticks of the clock that they lie beside; None: of none."""
     clock = clock_beside(time)
-    return None if clock is None or np.abs(clock.off).max() >= 0.5 else interpolated_rows(time, clock)
+    return None if clock is None else interpolated_rows(time, clock)
 
 
 def rounded(time: Array) -> InterpolatedRows | None:
@@ -116,7 +123,7 @@ def stamped(time: Array) -> InterpolatedRows | None:
     A computer that reads a drive over a bus notes when it got to each row.
     """
     clock = clock_beside(time)
-    if clock is None or np.abs(clock.off).max() >= 0.5 or rounded(time) is not None:
+    if clock is None or rounded(time) is not None:
         return None
     return _at_their_ticks(time, clock)
 
