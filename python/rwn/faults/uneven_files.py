@@ -53,7 +53,7 @@ def _said(problem: Problem, this: Fit, level: Level) -> list[Finding]:
 
 
 def _kind(level: Level) -> str:
-    return "files-disagree" if level.lasting else f"uneven-{level.quantity}"
+    return "files-disagree" if level.lasting else "uneven-load" if level.adds else "uneven-friction"
 
 
 def _off(level: Level, off: float) -> str:

@@ -26,6 +26,7 @@ from rwn.simulate.run import Run
 # of the largest torque
 SPREAD = 0.3
 ITERATIONS = 10  # of a fit that begins near its end
+DRY = "N m"  # the unit of a friction that does not depend on the speed
 APART = 3.0  # deviations from the mean of all, from which a recording is said to differ: one in 370 by chance
 
 
@@ -46,10 +47,21 @@ class Level:
 
 def friction(problem: Problem) -> Level:
     """The level of dry and viscous friction: of the nominal model, and of the effects that take its place."""
+    return frictions(problem)[0]
+
+
+def frictions(problem: Problem) -> list[Level]:
+    """All friction, which is warm or cold, and each of its parts: a seal's may change where that of grease does not."""
     names = problem.drive.friction
+    dry = [name for name in names if motor_parameters()[name].unit == DRY]
     instead = [e for e in problem.prior.table.values() if any(p.replaces in names for p in e.parameters)]
-    torques = tuple(e.at(p.name) for e in instead for p in e.parameters if p.unit == "N m") if names else ()
-    return Level(quantity="friction", parameters=(*(motor_index(name) for name in names), *torques))
+    torques = tuple(e.at(p.name) for e in instead for p in e.parameters if p.unit == DRY) if names else ()
+    rubs, drags = (*map(motor_index, dry), *torques), tuple(motor_index(name) for name in names if name not in dry)
+    return [
+        Level(quantity="friction", parameters=(*drags, *rubs)),
+        Level(quantity="dry friction", parameters=rubs),
+        Level(quantity="viscous friction", parameters=drags),
+    ]
 
 
 def load(problem: Problem) -> Level:
@@ -69,7 +81,7 @@ def all_levels(problem: Problem) -> list[Level]:
     lasting = [
         Level(quantity=_in_words(of), parameters=tuple(map(motor_index, of)), lasting=True) for of in numbers
     ]  # fmt: skip
-    return [friction(problem), load(problem), *lasting]
+    return [*frictions(problem), load(problem), *lasting]
 
 
 def _in_words(names: Sequence[str]) -> str:
@@ -87,8 +99,9 @@ def is_known(problem: Problem, level: Level) -> bool:
 
 
 def can_differ(problem: Problem, level: Level) -> bool:
-    """Whether there are several recordings of a drive with such a quantity, and it is no unknown of each yet."""
-    return len(problem.whole) > 1 and not is_known(problem, level) and bool(level.parameters)
+    """Whether there are several recordings of a drive with such a quantity, and no part of it is unknown of each."""
+    parts = [set(own.parameters) for own in problem.prior.of_runs if own.level]
+    return len(problem.whole) > 1 and bool(level.parameters) and not any(p <= set(level.parameters) for p in parts)
 
 
 def with_levels(problem: Problem, level: Level) -> Problem:

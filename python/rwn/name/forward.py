@@ -85,8 +85,8 @@ def _ranked(
         problem, nominal, fits, _ = _under_own_noise(problem, nominal, fits)
     fits = with_simpler(problem, nominal, fits) if names is None and not grown.measured else fits
     best = min([nominal, *fits], key=lambda f: f.cost)
-    measured = grown.measured or made.otherwise(problem, best, completely=at_once == MOST_EFFECTS)
-    if measured:  # otherwise than thought, beside whatever is missing
+    measured = grown.measured or made.otherwise(problem, best, completely=at_once == MOST_EFFECTS, others=fits)
+    while measured:  # otherwise than thought, beside whatever is missing
         renew(problem.work, begun)
         found = _ranked(measured, progress=progress, at_once=1)
         if names is not None or at_once > 1:
@@ -96,6 +96,7 @@ def _ranked(
         if found.left.at_the_floor or made.supposed or not measured.supposed:
             return found
         made = replace(made, of_one_machine=True)
+        measured = made.otherwise(problem, best, completely=True, others=fits)
     at_a_limit = [f for f in fits if f.limits_met]
     fits = [f for f in fits if not f.limits_met and adds(f, problem)]
     best, left = _best_of(problem, [nominal, *fits])

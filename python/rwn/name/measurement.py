@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
-from rwn.measurement.levels import Level, all_levels, can_differ, friction, with_levels
+from rwn.measurement.levels import Level, all_levels, can_differ, frictions, with_levels
 from rwn.measurement.sensor_filter import filters_again, sensor_filters, shown_in_noise
-from rwn.name.uneven import uneven_beside
+from rwn.name.uneven import LevelsTest, uneven_beside
 from rwn.parallel import side_by_side
 
+SINGLE = 3  # explanations by one effect that what differs from recording to recording is asked beside
 CHANGES = 2  # times that filters which are known may be found to be others; each costs a search
 
 
@@ -32,19 +35,23 @@ class Measurement:
         """What is to be explained."""
         return filtered(self.as_prepared, self.filters)
 
-    def otherwise(self, problem: Problem, best: Fit, *, completely: bool) -> Measurement | None:
+    def otherwise(
+        self, problem: Problem, best: Fit, *, completely: bool, others: Sequence[Fit] = ()
+    ) -> Measurement | None:  # fmt: skip
         """The measurement that the best explanation of `problem` shows; None: this one.
 
         `completely`: whether all is asked that several effects at once may show, not only what single ones do.
+        `others`: explanations of which a simpler one may be right, where the best has made do without what differs from
+        recording to recording.
         """
         filters = self._filters(problem, best, completely)
         if filters != self.filters:
             return replace(self, filters=filters, changes=self.changes + bool(self.filters))
-        level = self._level(problem, best) if completely else None
-        if level is None:
+        levels = self._levels(problem, best, _simpler(others, best)) if completely else []
+        if not levels:
             return None
-        supposed = self.supposed or level.lasting
-        return replace(self, as_prepared=with_levels(self.as_prepared, level), supposed=supposed)
+        supposed = self.supposed or any(level.lasting for level in levels)
+        return replace(self, as_prepared=reduce(with_levels, levels, self.as_prepared), supposed=supposed)
 
     def in_noise(self, problem: Problem, best: Fit) -> Measurement | None:
         """The measurement with filters that the noise itself shows beside an explanation that may lack effects."""
@@ -53,18 +60,26 @@ class Measurement:
         filters = sensor_filters(problem, best)
         return replace(self, filters=filters) if filters else None
 
-    def _level(self, problem: Problem, best: Fit) -> Level | None:
-        """What differs from recording to recording most certainly, of what is not known to do so.
+    def _levels(self, problem: Problem, best: Fit, simpler: Sequence[Fit]) -> list[Level]:
+        """What differs from recording to recording of what is not known to do so, the most certain first.
 
         Physics that is missing makes the numbers of a machine differ too: those are asked only where more than noise is
         left, and held to be several machines' only where that leaves noise alone.
         """
+        found = list[Level]()
+        while level := self._level(problem, best, simpler):
+            found.append(level[0])
+            problem, best, simpler = level[1].problem, level[1].fit, ()
+        return found
+
+    def _level(self, problem: Problem, best: Fit, simpler: Sequence[Fit]) -> tuple[Level, LevelsTest] | None:
         done = statistics(problem, best).at_the_floor
-        asked = [friction(problem)] if done else all_levels(problem)
+        asked = frictions(problem) if done else all_levels(problem)
         asked = [level for level in asked if can_differ(problem, level) and not (level.lasting and self.of_one_machine)]
-        tried = side_by_side(lambda level: (level, uneven_beside(problem, best, level)), asked)
+        pairs = [(level, this) for this in (best, *(() if done else simpler)) for level in asked]
+        tried = side_by_side(lambda pair: (pair[0], uneven_beside(problem, best, *pair)), pairs)
         decisive = [row for row in tried if row[1].is_decisive]
-        return max(decisive, key=lambda row: row[1].log_odds)[0] if decisive else None
+        return max(decisive, key=lambda row: row[1].log_odds) if decisive else None
 
     def _filters(self, problem: Problem, best: Fit, completely: bool) -> tuple[SensorFilter, ...]:
         if problem.drive.coefficients:
@@ -74,3 +89,10 @@ class Measurement:
         if not completely or self.changes == CHANGES:
             return self.filters
         return filters_again(self.as_prepared, best, self.filters)
+
+
+def _simpler(these: Sequence[Fit], best: Fit) -> list[Fit]:
+    """The explanations that fit best by fewer effects than the best one, of each number, and of single effects some."""
+    closest = sorted(these, key=lambda f: f.cost)
+    by_size = ([f for f in closest if len(f.added) == size] for size in range(1, len(best.added)))
+    return [f for size, found in enumerate(by_size) for f in found[: SINGLE if size == 0 else 1]]

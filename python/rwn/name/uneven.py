@@ -26,13 +26,14 @@ class LevelsTest(NamedTuple):
         return self.log_odds > DECISIVE
 
 
-def uneven_beside(problem: Problem, best: Fit, level: Level) -> LevelsTest:
+def uneven_beside(problem: Problem, best: Fit, level: Level, explanation: Fit | None = None) -> LevelsTest:
     """The levels beside an explanation, with the lesser evidence of two that err otherwise where more is missing.
 
     That of effects counts samples of the error, as if what is missing were noise that lasts; the likelihood of
-    autoregressions counts what is new in it.
+    autoregressions counts what is new in it. Both against the best explanation without levels, which is the one that
+    the levels are beside unless another is given.
     """
-    on, this = beside_levels(problem, best, level)
+    on, this = beside_levels(problem, explanation or best, level)
     left, alike = statistics(on, this), refit(best, problem, iterations=ITERATIONS)
     new = log_posterior(on, this) - log_posterior(problem, alike)
     return LevelsTest(log_odds=min(log_odds(this, best, left), new), problem=on, fit=this, left=left)
