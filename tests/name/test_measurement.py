@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 import rwn
 from made_up_files import files_of
@@ -18,6 +19,7 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.fit.residuals import statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.name import forward
@@ -26,7 +28,7 @@ from rwn.name.measurement import CHANGES, Measurement
 from rwn.name.ranking import NO_EXTENSIONS, Fits
 from rwn.recording.filters import as_filtered
 
-STEP, SHARE = 1e-3, 0.6
+STEP, SHARE, SLOW = 1e-3, 0.6, 0.9
 MODEL = Model(kind="dc", parameters=SMALL, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 
 
@@ -61,6 +63,28 @@ def test_a_filter_that_is_not_known_is_asked_of_any_explanation(recorded: Proble
     assert found is not None
     assert [f.signal for f in found.filters] == ["speed"]
     assert found.changes == 0
+
+
+def test_noise_that_lasts_is_noise_where_the_motion_went_through_no_filter() -> None:
+    """First-order noise of the current, of which 0.9 is in the next sample: no filter, and nothing is missing."""
+    rng, time = np.random.default_rng(11), STEP * np.arange(4000)
+    voltage = np.repeat(3.0 * rng.uniform(-1.0, 1.0, 80), 50)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    shown = rwn.simulate(MODEL, run).signals
+    lasting = lfilter([np.sqrt(1.0 - SLOW**2)], [1.0, -SLOW], rng.standard_normal(time.size))
+    white = rng.standard_normal(time.size)
+    noisy = {"speed": shown["speed"] + 0.2 * white, "current": shown["current"] + 0.02 * lasting}
+    made = Measurement(as_prepared=prepare([replace(run, signals={"voltage": voltage, **noisy})], MODEL))
+    problem, nominal = weighted_by_nominal(made.problem)
+    assert not statistics(problem, nominal).at_the_floor
+    found = made.otherwise(problem, nominal, completely=True)
+    assert found is not None
+    assert not found.problem.filters
+    assert not found.problem.prior.nuisance
+    assert found.problem.coloured["current"] == pytest.approx(SLOW, abs=0.02)
+    problem, nominal = weighted_by_nominal(found.problem)
+    assert statistics(problem, nominal).at_the_floor
+    assert found.otherwise(problem, nominal, completely=True) is None
 
 
 @pytest.mark.parametrize(

@@ -40,6 +40,7 @@ class Problem:
     prior: Prior
     scales: Mapping[str, float]  # quantities that parameters are measured against
     filters: Mapping[str, float] = field(default_factory=dict)  # digital ones [s] by signal, undone in the runs
+    coloured: Mapping[str, float] = field(default_factory=dict)  # share of the noise of a signal that the next row has
     inflation: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
     @property
@@ -54,8 +55,14 @@ class Problem:
 
     def share_kept(self, signal: str, time_constant: float) -> float:
         """phi of a first-order filter of a signal: of what it showed a sample ago, how much it shows still."""
-        step = float(np.median([r.sample_time for r in self.runs if r.signal(signal).size]))
-        return float(np.exp(-step / time_constant))
+        return float(np.exp(-self._step(signal) / time_constant))
+
+    def time_kept(self, signal: str, share: float) -> float:
+        """The time constant [s] of a first-order filter of which that is the share kept."""
+        return -self._step(signal) / float(np.log(share))
+
+    def _step(self, signal: str) -> float:
+        return float(np.median([r.sample_time for r in self.runs if r.signal(signal).size]))
 
     def metered(self) -> Problem:
         """The same problem with a meter of its own."""

@@ -18,6 +18,8 @@ from rwn.simulate.run import Run
 Array = NDArray[np.float64]
 
 CLOCK = 1e-5  # relative accuracy of a sample clock (a good crystal), and so of what was travelled by it
+# deviations of what the noise tells of a filter, from which what the motion tells is another: one in 16 000 by chance
+APART = 4.0
 DRIFT = 1.0  # most that the error of a drifting position may weigh against that of the other signals
 
 
@@ -94,11 +96,17 @@ def _random_walk(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> 
 
 
 def _filtered_noise(problem: Problem, this: Fit) -> dict[str, Noise]:
-    """The noise of signals whose filter is fitted as part of the measurement: the motion and it went through one."""
-    measured, noise = {n.effect for n in problem.prior.nuisance}, {}
+    """The noise of signals whose filter is fitted as part of the measurement: the motion and it went through one.
+
+    Where the motion shows another filter than the noise, what coloured the noise is none: it is so by itself.
+    """
+    measured, noise = {n.effect: n for n in problem.prior.nuisance}, {}
     for signal, lag in analog_filters(problem.prior.table).items():
         if lag.name in measured and signal in problem.noise:
-            (time_constant,) = this.values_of(lag.name).values()
+            ((name, time_constant),) = this.values_of(lag.name).items()
+            by_noise, spread = (of[name] for of in (measured[lag.name].values, measured[lag.name].spread))
+            if abs(np.log(time_constant / by_noise)) > APART * spread:
+                time_constant = by_noise
             share = problem.share_kept(signal, time_constant)
             noise[signal] = replace(problem.noise[signal], reflection=(share,))
     return noise

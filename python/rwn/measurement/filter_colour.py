@@ -12,16 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.problem import Problem
-from rwn.measurement.noise_spectrum import NoiseColour, noise_colour
+from rwn.fit.residuals import structured_of
+from rwn.measurement.noise_spectrum import FASTEST, NoiseColour, noise_colour
 from rwn.model.vocabulary import analog_filters
-from rwn.recording.noise import noise_from_differences
+from rwn.recording.noise import autoregression, noise_from_differences
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
 CERTAINLY, MAYBE = 0.9, 0.75  # probability that noise went through a filter, from which it did, and may have
 SLOWEST = 0.95  # of phi: a slower filter is physics
-NOISE_ALONE = 2.0  # variance of what is new in a residual against its rough noise, up to which it is noise alone
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,6 +33,7 @@ class SensorFilter:
     time_constant: float  # [s]
     noise: NoiseColour = field(default_factory=NoiseColour)  # what the noise alone shows of it
     digital: bool = False  # it takes samples, as a drive's program does; else it is fitted as a law of the sensor
+    of_noise: bool = False  # it coloured the noise alone: the motion went through none
 
     @property
     def spread(self) -> float:
@@ -68,13 +69,24 @@ def certain(seen: Sequence[SensorFilter]) -> bool:
     return any(f.noise.filtered > CERTAINLY for f in seen)
 
 
-def is_noise_alone(problem: Problem, residuals: Sequence[Mapping[str, Array]], seen: SensorFilter) -> bool:
-    """Whether errors, (n,) of each run by signal, are noise of this colour and nothing else."""
-    parts = [run.masked(seen.signal, r[seen.signal]) for run, r in zip(problem.runs, residuals, strict=True)
-             if seen.signal in r]  # fmt: skip
-    fresh = [x[1:] - seen.share * x[:-1] for x in parts]
-    loud = max(float(np.nanmean(x**2)) / max(noise_from_differences(x) ** 2, 1e-300) for x in fresh)
-    return loud < NOISE_ALONE
+def coloured_noise(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -> list[SensorFilter]:
+    """The signals whose errors are first-order noise and nothing else, and went through no filter that is known.
+
+    `residuals`: (n,) of each run, by signal. What is new in such errors is white.
+    """
+    lags, known = analog_filters(problem.prior.table), {n.effect for n in problem.prior.nuisance}
+    found = []
+    for seen in coloured_signals(problem, residuals):
+        pairs = zip(problem.runs, residuals, strict=True)
+        errors = [run.masked(seen.signal, left[seen.signal]) for run, left in pairs if seen.signal in left]
+        noise = autoregression(errors, 1)
+        (share,) = noise.reflection
+        if not FASTEST < share < SLOWEST or lags[seen.signal].name in known:
+            continue
+        if not structured_of({seen.signal: np.concatenate([noise.innovations(x) for x in errors])}):
+            time_constant = seen.time_constant * float(np.log(seen.share) / np.log(share))
+            found.append(replace(seen, share=share, time_constant=time_constant, of_noise=True))
+    return found
 
 
 def _is_sensor_noise(run: Run, signal: str, residual: Array) -> bool:

@@ -17,10 +17,21 @@ from rwn.recording.noise import Noise
 
 
 def filtered(problem: Problem, filters: Sequence[SensorFilter]) -> Problem:
-    """The problem with the filters undone where they are digital, else among what every hypothesis fits."""
+    """The problem with the filters undone where they are digital, else among what every hypothesis fits.
+
+    Those of noise alone colour it.
+    """
     for f in filters:
-        problem = undone(problem, f.signal, f.time_constant) if f.digital else _as_nuisance(problem, f)
+        if f.of_noise:
+            problem = _coloured(problem, f)
+        else:
+            problem = undone(problem, f.signal, f.time_constant) if f.digital else _as_nuisance(problem, f)
     return problem
+
+
+def _coloured(problem: Problem, f: SensorFilter) -> Problem:
+    noise = {**problem.noise, f.signal: replace(problem.noise[f.signal], reflection=(f.share,))}
+    return replace(problem, coloured={**problem.coloured, f.signal: f.share}, noise=noise)
 
 
 def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
@@ -33,11 +44,16 @@ def known_filters(problem: Problem) -> tuple[SensorFilter, ...]:
     """The filters that a problem was given, see `filtered`."""
     fitted = {n.effect: next(iter(n.values.values())) for n in problem.prior.nuisance}
     lags = {s: fitted[lag.name] for s, lag in analog_filters(problem.prior.table).items() if lag.name in fitted}
-    return tuple(
+    of_motion = [
         SensorFilter(signal=s, share=problem.share_kept(s, time), time_constant=time, digital=digital)
         for times, digital in ((problem.filters, True), (lags, False))
         for s, time in times.items()
-    )
+    ]
+    of_noise = [
+        SensorFilter(signal=s, share=share, time_constant=problem.time_kept(s, share), of_noise=True)
+        for s, share in problem.coloured.items()
+    ]
+    return (*of_motion, *of_noise)
 
 
 def noise_before_filters(problem: Problem, noise: Mapping[str, Noise]) -> dict[str, Noise]:

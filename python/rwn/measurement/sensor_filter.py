@@ -27,7 +27,7 @@ from rwn.measurement.beside_filters import (
     refitted,
     shown_through,
 )
-from rwn.measurement.filter_colour import SLOWEST, SensorFilter, certain, coloured_signals, is_noise_alone
+from rwn.measurement.filter_colour import SLOWEST, SensorFilter, certain, coloured_signals
 from rwn.measurement.known_filters import filtered
 from rwn.measurement.likelihood import DECISIVE, is_decisive
 from rwn.measurement.noise_spectrum import FASTEST, NoiseColour
@@ -77,7 +77,7 @@ def filters_and_likelihood(
     seen = [*seen, *(replace(f, digital=False) for f in known if f.signal not in told)]
     if not seen:
         return (), likelihood_beside(problem, this, ())
-    found = [_filters_beside(problem, base, seen, residuals, told) for base in _bases(beside, this)]
+    found = [_filters_beside(problem, base, seen, told) for base in _bases(beside, this)]
     filters, score, likelihood = max(found, key=lambda one: one[1])
     if known:
         stays = likelihood_beside(problem, this, known)
@@ -94,8 +94,7 @@ def _by_noise(told: Mapping[str, NoiseColour], filters: Sequence[SensorFilter]) 
 
 
 def _filters_beside(
-    problem: Problem, base: Fit, seen: Sequence[SensorFilter], residuals: Sequence[Mapping[str, Array]],
-    told: Mapping[str, NoiseColour],
+    problem: Problem, base: Fit, seen: Sequence[SensorFilter], told: Mapping[str, NoiseColour]
 ) -> tuple[tuple[SensorFilter, ...], float, float]:  # fmt: skip
     """The filters beside an explanation, what speaks for them, and how likely both are (log, BIC)."""
     found: dict[str, SensorFilter] = {}
@@ -109,8 +108,6 @@ def _filters_beside(
             asked[one.signal] = others
             on = filtered(problem, others)
             best = _likeliest_kind(on, refitted(base, on), found.get(one.signal, one), told)
-            if best is None and is_noise_alone(problem, residuals, one):
-                best = one
             found = {f.signal: f for f in (*others, best) if f is not None}
         uncovered = _uncovered(problem, base, tuple(found.values()), known)
         known += uncovered

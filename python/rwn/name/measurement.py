@@ -9,7 +9,7 @@ from functools import reduce
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
-from rwn.measurement.filter_colour import SensorFilter
+from rwn.measurement.filter_colour import SensorFilter, coloured_noise
 from rwn.measurement.known_filters import filtered
 from rwn.measurement.levels import Level, all_levels, can_differ, frictions, with_levels
 from rwn.measurement.sensor_filter import filters_again, sensor_filters, shown_in_noise
@@ -46,7 +46,8 @@ class Measurement:
         """
         filters = self._filters(problem, best, completely)
         if filters != self.filters:
-            return replace(self, filters=filters, changes=self.changes + bool(self.filters))
+            again = _of_motion(filters) != _of_motion(self.filters)
+            return replace(self, filters=filters, changes=self.changes + (again and bool(self.filters)))
         levels = self._levels(problem, best, _simpler(others, best)) if completely else []
         if not levels:
             return None
@@ -84,11 +85,25 @@ class Measurement:
     def _filters(self, problem: Problem, best: Fit, completely: bool) -> tuple[SensorFilter, ...]:
         if problem.drive.coefficients:
             return self.filters
-        if not self.filters:
+        known = _of_motion(self.filters)
+        found = self._filters_of_motion(problem, best, known, completely)
+        if found != known:
+            return found
+        coloured = coloured_noise(problem, problem.residuals(best.vector, best.active))
+        return (*self.filters, *(f for f in coloured if f.signal not in problem.coloured))
+
+    def _filters_of_motion(
+        self, problem: Problem, best: Fit, known: tuple[SensorFilter, ...], completely: bool
+    ) -> tuple[SensorFilter, ...]:  # fmt: skip
+        if not known:
             return sensor_filters(problem, best)
         if not completely or self.changes == CHANGES:
-            return self.filters
-        return filters_again(self.as_prepared, best, self.filters)
+            return known
+        return filters_again(self.as_prepared, best, known)
+
+
+def _of_motion(filters: Sequence[SensorFilter]) -> tuple[SensorFilter, ...]:
+    return tuple(f for f in filters if not f.of_noise)
 
 
 def _simpler(these: Sequence[Fit], best: Fit) -> list[Fit]:

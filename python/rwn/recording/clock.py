@@ -109,7 +109,7 @@ def _one_each(cycles: Array) -> Array:
     shared = np.flatnonzero(np.diff(ticks) < 1)
     if shared.size > LOST * ticks.size:
         return ticks
-    for k in shared:
+    for k in map(int, shared):
         if ticks[k] < ticks[k + 1]:  # a chain has made room already
             continue
         ways = [_made_room(cycles, ticks, k, -1), _made_room(cycles, ticks, k + 1, 1)]
