@@ -35,7 +35,7 @@ def _ranking(volts: float) -> Any:
     speed = simulate(MODEL, given).signals["speed"] + noise
     problem = prepare([Recording(name="x", time=time, signals={"voltage": voltage, "speed": speed})], MODEL)
     nominal = fit_nominal(problem)
-    return SimpleNamespace(nominal_fit=nominal, before=statistics(problem, nominal))
+    return SimpleNamespace(problem=problem, nominal_fit=nominal, before=statistics(problem, nominal))
 
 
 def _verdict(together: float, left: Remainder, *, volts: float = 5.0) -> str:

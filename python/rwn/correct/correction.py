@@ -53,6 +53,9 @@ class Correction:
 
 def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: int) -> Correction:
     """The model with what is stated; where nothing is, with a network or the leading names, what is best proved."""
+    if decision.chosen.added and not decision.account.stated:  # something holds the shaft, and nothing tells what
+        known = replace(fitted_model(decision.chosen.final, model), effects=model.effects)
+        return Correction(decision=decision, model=known, final=decision.chosen.final)
     decision = free_of_drift(decision, heldout, seed=seed)
     if decision.verdict == "unexplained":
         found = _without_a_name(decision, heldout, model, seed=seed)

@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from rwn.decide.account import Account, Remainder, account, remainder
+from rwn.decide.excitation import moves
 from rwn.decide.other_law import curve_beside
 from rwn.decide.shaft_alone import ShaftAlone, shaft_alone
 from rwn.decide.verdict import Verdict, verdict_of
@@ -37,6 +38,8 @@ class Decision:
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
     """What is stated, proved on `heldout` or by cross-validation."""
     ranking, found, chosen = _stated(ranking, account(ranking, heldout, model))
+    if not moves(ranking.problem.whole):  # whatever holds a shaft does it alike
+        found, chosen = replace(found, effects=()), found.leading
     rows = proved(ranking, chosen, heldout, seed=seed)
     left = remainder(ranking, chosen.final)
     verdict = verdict_of(ranking, found, left)

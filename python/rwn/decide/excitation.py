@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.hypothesis import Hypothesis
+from rwn.fit.problem import Problem
 from rwn.recording.noise import noise_from_differences
 from rwn.simulate.run import Run
 
@@ -36,14 +37,32 @@ def advice(runs: Sequence[Run]) -> str:
     return f"Record {what}" + (f"; these recordings show {' and '.join(lacks)}." if lacks else ".")
 
 
+def moves(runs: Sequence[Run]) -> bool:
+    """Whether a recording shows that the shaft turned; where none has a speed or a position that is taken to be so."""
+    speeds = [r.motion[0] for r in runs if r.speed.size or r.position.size]
+    unseen = np.inf if runs and not speeds else 0.0
+    peak = max((float(np.percentile(np.abs(w), 99.5)) for w in speeds if w.size), default=unseen)
+    noise = max((noise_from_differences(r.speed) for r in runs if r.speed.size), default=0.0)
+    return peak > 3.0 * noise
+
+
+def held_against(problem: Problem) -> float:
+    """The largest torque [N m] (force [N]) under which nothing moved; 0 where something did, or none was recorded."""
+    drive, motor = problem.drive, problem.prior.motor
+    runs = [r for r in problem.whole if drive.force or r.current.size]
+    if moves(problem.whole) or not runs:
+        return 0.0
+    torques = [np.abs(drive.driving_torque(motor, r.current, r.input)) for r in runs]
+    return max(float(np.percentile(torque, 99.5)) for torque in torques)
+
+
 def missing(runs: Sequence[Run]) -> list[str]:
     """What no recording shows, in words."""
+    if not moves(runs):
+        return ["no motion"]
     speeds = [r.motion[0] for r in runs]
     peak = max((float(np.percentile(np.abs(w), 99.5)) for w in speeds if w.size), default=0.0)
     together = np.concatenate(speeds) if speeds else np.zeros(1)
-    noise = max((noise_from_differences(r.speed) for r in runs if r.speed.size), default=0.0)
-    if peak <= 3.0 * noise:
-        return ["no motion"]
     lacks = []
     if not (np.any(together > 0.1 * peak) and np.any(together < -0.1 * peak)):
         lacks.append("no change of direction")

@@ -27,7 +27,8 @@ def verdict_of(ranking: Ranking, found: Account, left: Remainder) -> Verdict:
         return "missing-physics"
     if left.signals and left.error > 1.0 + MATERIAL:
         return "unexplained"
-    return "insufficient-excitation" if _nothing_learned(ranking) else "adequate"
+    held = not excitation.moves(ranking.problem.whole)
+    return "insufficient-excitation" if held or _nothing_learned(ranking) else "adequate"
 
 
 def _nothing_learned(ranking: Ranking) -> bool:

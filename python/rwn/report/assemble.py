@@ -43,6 +43,7 @@ from rwn.report.text import (
     located_briefly,
     parameter_in_words,
     plain_name,
+    quantity,
     shaft_in_words,
     times_given,
 )
@@ -105,7 +106,7 @@ def assemble(
         version=__version__,
         elapsed=elapsed,
         stand_in=correction.stands_in,
-        added=correction.final.added,
+        added=tuple(name for name in correction.final.added if name in correction.model.effects),
         corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, widening=widening)),
     )
 
@@ -151,6 +152,9 @@ def _next_experiment(
     problem, shaft = decision.ranking.problem, decision.shaft
     if drive.verdict == "insufficient-excitation":
         wanted = excitation.advice(problem.whole)
+        if torque := excitation.held_against(problem):
+            unit = "N" if problem.drive.linear else "N m"
+            wanted += f" Nothing moved under up to {quantity(torque, unit)}: friction or a brake holds it."
     elif shaft is not None and not shaft.moves_as_recorded:
         wanted = f"Look at the shaft first: {shaft_in_words(shaft)}."
     elif drive.verdict == "unexplained" and shaft is None and all(r.current.size for r in problem.whole):

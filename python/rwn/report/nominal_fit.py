@@ -26,11 +26,16 @@ class FittedParameter:
     corrected: Estimate | None = None  # together with the found effects
 
     @property
+    def best(self) -> Estimate:
+        """As refitted with what is found beside it, where something is."""
+        return self.refitted if self.corrected is None else self.corrected
+
+    @property
     def moved(self) -> float:
         """By how many declared standard deviations the refit moved it, relative or in its logarithm; 0 where exact."""
         if not self.uncertainty or self.nominal <= 0.0:
             return 0.0
-        ratio = self.refitted.value / self.nominal
+        ratio = self.best.value / self.nominal
         return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
 
     def only_declared(self, fitted: Estimate) -> bool:

@@ -1,0 +1,35 @@
+"""A shaft that never turned."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rwn
+
+DEMO = Path(rwn.__file__).parent / "demo"
+
+
+@pytest.mark.slow
+def test_a_shaft_that_is_held_names_nothing_and_leaves_the_data_sheet() -> None:
+    """Current flows and nothing turns: friction or a brake holds it."""
+    model = rwn.read_model(DEMO / "model.toml")
+    right = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    rng, n = np.random.default_rng(2), len(right)
+    holding = replace(model, effects={"coulomb-friction": {"coulomb_torque": 0.3}})
+    voltage = 0.2 * np.asarray(right.signals["voltage"])
+    stalled = rwn.simulate(holding, replace(right, signals={"voltage": voltage})).signals["current"]
+    signals = {
+        "voltage": voltage,
+        "current": stalled + 1e-2 * rng.standard_normal(n),
+        "speed": 0.5 * rng.standard_normal(n),
+    }
+    found = rwn.diagnose([replace(right, signals=signals)], model)
+    assert found.verdict == "insufficient-excitation"
+    assert not found.effects
+    assert not found.corrected.effects
+    assert "Nothing moved under up to" in found.next_experiment
+    assert found.corrected.parameters["inertia"] == pytest.approx(model.parameters["inertia"], rel=0.1)
