@@ -70,6 +70,14 @@ def test_rows_far_behind_their_ticks_keep_their_own() -> None:
     assert clock.period == pytest.approx(0.01, rel=1e-5)
 
 
+def test_rows_that_catch_up_with_an_overrun_keep_their_ticks() -> None:
+    """A loop that stood for five periods and then ran its late rows one after the other."""
+    ticks = np.arange(2000, dtype=float)
+    time = ticks + 0.01 * np.random.default_rng(6).standard_normal(2000)
+    time[700:706] = 704.6 + 0.1 * np.arange(6)
+    assert np.array_equal(clock_of(0.005 * time).ticks, ticks)
+
+
 def test_rows_at_random_times_have_no_clock() -> None:
     time = np.sort(np.random.default_rng(5).uniform(0.0, 10.0, 1000))
     assert clock_of(time).lost == 0

@@ -60,6 +60,10 @@ class BalancedRun(Run):
         """Its first `end` samples."""
         return replace(super().until(end), velocity=self.velocity[:end], acceleration=self.acceleration[:end])  # type: ignore[call-arg,return-value]
 
+    def with_intersample(self, law: str) -> BalancedRun:  # noqa: ARG002
+        """The same: a balance at each instant knows nothing of what the input was between the rows."""
+        return self
+
 
 def balanced(run: Run, inertia: float) -> BalancedRun:
     """A recording with a position as the balance of forces takes it, of an axis of an `inertia` [kg m^2 or kg]."""

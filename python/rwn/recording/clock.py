@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from heapq import heappush, heapreplace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,6 @@ FARTHEST = 0.3  # relative distance from the median step beyond which most steps
 PER_CYCLE = 4  # periods that are tried for each cycle by which they differ over the rows
 AS_WELL = 1.0 / float(np.sinc(0.5 / PER_CYCLE))  # agreement at a period over that at the nearest that is tried
 ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
-MOST_BESIDE = 8  # rows that make room for one which was far too late
 ROUNDING = 1e-6  # of times as numbers, relatively
 JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
 CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
@@ -100,34 +100,24 @@ def _clock_of(times: bytes) -> Clock:
 
 
 def _one_each(cycles: Array) -> Array:
-    """The tick (n,) next to each row at `cycles` (n,) periods, or one beside that where another row has it.
+    """The tick (n,) next to each row at `cycles` (n,) periods, with as few moved as lets each have one to itself.
 
-    Rows make room for each other in a chain to whichever side leaves them nearer to their ticks. As they are where more
-    share a tick than rows are lost of a clock.
+    As they are where more share a tick than rows are lost of a clock. Ticks less the rows before them must not fall:
+    the nearest such numbers by absolute differences, of which a row far too late moves none but its own.
     """
     ticks = np.rint(cycles)
-    shared = np.flatnonzero(np.diff(ticks) < 1)
-    if shared.size > LOST * ticks.size:
+    shared = np.count_nonzero(np.diff(ticks) < 1)
+    if not 0 < shared <= LOST * ticks.size:
         return ticks
-    for k in map(int, shared):
-        if ticks[k] < ticks[k + 1]:  # a chain has made room already
-            continue
-        ways = [_made_room(cycles, ticks, k, -1), _made_room(cycles, ticks, k + 1, 1)]
-        ticks = min((way for way in ways if way is not None), key=lambda way: way[0], default=(0.0, ticks))[1]
-    return ticks
-
-
-def _made_room(cycles: Array, ticks: Array, first: int, by: int) -> tuple[float, Array] | None:
-    """The ticks with that of a row moved `by` one, and of as many beside it as that takes; first, what it costs."""
-    end = first
-    while 0 <= end + by < ticks.size and ticks[end + by] == ticks[end] + by:
-        end += by
-        if abs(end - first) > MOST_BESIDE:
-            return None
-    rows = slice(min(first, end), max(first, end) + 1)
-    moved = ticks.copy()
-    moved[rows] += by
-    return float(np.sum((cycles - moved)[rows] ** 2 - (cycles - ticks)[rows] ** 2)), moved
+    highest, rising = list[float](), np.empty(ticks.size)
+    for k, ahead in enumerate(ticks - np.arange(ticks.size)):
+        heappush(highest, -ahead)
+        if -highest[0] > ahead:
+            heapreplace(highest, -ahead)
+        rising[k] = -highest[0]
+    rising = np.minimum.accumulate(rising[::-1])[::-1]
+    found: Array = rising + np.arange(ticks.size)
+    return found
 
 
 def _agreeing(time: Array, period: float, reach: float) -> tuple[float, float, float]:
