@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
+from rwn.fit.input_errors import of_sensors, with_input_errors
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import join
 from rwn.model.vocabulary import analog_filters
@@ -53,8 +54,9 @@ def noise_of(runs: Sequence[Run], residuals: Sequence[Mapping[str, Array]]) -> d
 def with_noise_of(problem: Problem, this: Fit) -> Problem:
     """`problem` weighted by the noise that a fit leaves."""
     residuals = problem.residuals(this.vector, this.active)
-    before = {**problem.noise, **_filtered_noise(problem, this)}
+    before = {**of_sensors(problem.noise), **_filtered_noise(problem, this)}
     noise = _coloured(problem, before, noise_of(problem.runs, residuals), residuals)
+    noise = with_input_errors(problem, this, noise)
     excess = _excess(problem, noise, residuals)
     if excess > 1.0:
         noise["position"] = noise["position"].scaled(excess**0.5)

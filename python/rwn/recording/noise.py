@@ -22,11 +22,13 @@ PER_MEDIAN = 1.4826  # standard deviation of normal numbers over the median of t
 class Noise:
     """Noise of one signal: the deviation of what is new in each sample, and how a sample goes with those before.
 
-    `reflection`: partial autocorrelations; none where it is white.
+    `reflection`: partial autocorrelations; none where it is white. `of_sensor`: those of the sensor's part of it, where
+    it holds what errors of the input make of the signal too.
     """
 
     level: float
     reflection: tuple[float, ...] = ()
+    of_sensor: tuple[float, ...] | None = None
 
     @property
     def deviation(self) -> float:

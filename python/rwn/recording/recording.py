@@ -51,7 +51,8 @@ class Recording(Shown, Values):
     `linear`: a linear axis (m, m/s, N) instead of a shaft. `missing`: where (n_t,) a signal was not measured; what
     stands there is a guess that nothing is compared with. `units`: that its source has time and signals in, where it
     says so; what is written beside it is written in these. `applied_input`: the input as it acted, where more is known
-    of it than its samples. `name` stands in messages and pictures; `source`: the file or table that it was read from;
+    of it than its samples; `input_noise`: deviation of the white noise that was taken off it. `name` stands in messages
+    and pictures; `source`: the file or table that it was read from;
     `warnings`: what reading it found odd, a sentence each. Arrays are made float64, contiguous and read-only.
 
     Raises InputError when lengths differ, an array is not a real vector or a signal's name is unknown.
@@ -65,6 +66,7 @@ class Recording(Shown, Values):
     warnings: tuple[str, ...] = ()
     missing: Mapping[str, Flags] = field(default_factory=dict)
     applied_input: PiecewiseInput | None = None
+    input_noise: float = 0.0
     units: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -59,6 +59,7 @@ def run_of(recording: Recording, model: Model) -> Run:
         angle_from_speed=position.size == 0,
         ticks_per_row=ticks,
         interpolated=rows,
+        input_noise=recording.input_noise,
     )
     known = recording.applied_input
     return replace(run, applied_input=law.applied(when, run.input) if known is None and law else known)

@@ -48,6 +48,7 @@ class Run:
     start_unknowns: tuple[StartUnknown, ...] = ()
     levels: tuple[LevelShare, ...] = ()
     input_before: float = 0.0
+    input_noise: float = 0.0  # deviation of the white noise that was taken off the input
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
     ticks_per_row: int = 1  # of the clock that the drive's filters run by
     interpolated: InterpolatedRows | None = None  # its rows, where the signals are samples that these lay between

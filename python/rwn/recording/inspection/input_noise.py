@@ -43,7 +43,7 @@ def without_input_noise(recording: Recording) -> tuple[Recording, list[Finding]]
         kind="input-noise", recording=recording.name, signals=(INPUT,), count=len(recording),
         words=f"the {INPUT} has a noise of {rms:.3g} V rms that no signal answers", done="simulated without it",
     )  # fmt: skip
-    return replace(recording, signals={**recording.signals, INPUT: steady}), [found]
+    return replace(recording, signals={**recording.signals, INPUT: steady}, input_noise=rms), [found]
 
 
 def _departures(recording: Recording, signal: str) -> Array:
