@@ -16,7 +16,7 @@ from rwn.errors import InputError
 from rwn.faults.fault import without_all
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
 from rwn.faults.sensor_errors import without_sensor_errors
-from rwn.faults.uneven_files import uneven_unseen
+from rwn.faults.uneven_files import contradicting_unseen, uneven_unseen
 from rwn.fit.nominal import check_it_runs
 from rwn.fit.preparation import prepare
 from rwn.measurement.unrecorded_input import inferred_input_findings, with_inferred_input
@@ -108,8 +108,9 @@ class _Unseen:
         """What their own motion told: errors of sensors, late enables, an input between rows, levels of their own."""
         given = found.model.drive.input
         enabled = (one.as_finding(given) for one in self.late)
-        told = (*inferred_input_findings(self.runs, given), *uneven_unseen(found.ranking, self.runs))
-        return (*self.sensor_errors, *enabled, *told)
+        ranking = found.ranking
+        told = (*inferred_input_findings(self.runs, given), *uneven_unseen(ranking, self.runs))
+        return (*self.sensor_errors, *enabled, *told, *contradicting_unseen(ranking, self.runs))
 
 
 def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:

@@ -8,8 +8,8 @@ import pytest
 
 import rwn
 from made_up_files import files_of
-from ranked import ranked
-from rwn.faults.uneven_files import uneven_files, uneven_unseen
+from ranked import ranked, ranked_from
+from rwn.faults.uneven_files import contradicting_unseen, uneven_files, uneven_unseen
 from rwn.fit.preparation import prepare
 from rwn.measurement.levels import all_levels, load, with_levels
 from rwn.model.model import Model
@@ -45,6 +45,23 @@ def test_loads_are_said_by_file_also_of_one_that_was_not_fitted() -> None:
     assert said == pytest.approx({"run_0": -0.002, "run_1": 0.002}, rel=0.05)
     (other,) = uneven_unseen(ranking, [judging_run(unseen, MODEL)])
     assert float(other.words.split()[3]) == pytest.approx(0.009, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("names", "factor", "load", "said"),
+    [
+        (["inertia"], 1.5, 0.0, "its inertia is +50 %"),
+        ([], 1.0, 0.006, "its load is +0.006"),
+        ([], 1.0, 0.0, None),
+    ],
+)
+def test_a_recording_kept_back_that_contradicts_the_others_is_said(
+    names: list[str], factor: float, load: float, said: str | None
+) -> None:
+    known = files_of(MODEL, [], (1.0,))
+    (_, unseen) = files_of(MODEL, names, (1.0, factor), loads=(0.0, load))
+    found = contradicting_unseen(ranked_from(known, MODEL, ["coulomb-friction"]), [judging_run(unseen, MODEL)])
+    assert [f.words.startswith(said or "") for f in found] == ([True] if said else [])
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.measurement.levels import Level, known_levels, level_beside, uneven
+from rwn.measurement.unseen_level import explained_by_a_level
 from rwn.name.ranking import Ranking
 from rwn.recording.inspection import Finding
 from rwn.simulate.run import Run
@@ -38,6 +39,21 @@ def uneven_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
     return found
 
 
+def contradicting_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
+    """What is said of recordings that were not fitted and contradict those that were in one number alone."""
+    problem, best = ranking.weighted.in_free_run(), ranking.fits[0].final
+    pairs = [(run.name, explained_by_a_level(problem, best, run)) for run in unseen]
+    return [
+        Finding(
+            kind=_kind(one.level), recording=name, signals=(), count=0, done="judged as it is",
+            words=f"its {one.level.quantity} is {_off(one.level, one.off)} off that of the fitted recordings, which "
+            "explains all of its error",
+        )
+        for name, one in pairs
+        if one is not None
+    ]  # fmt: skip
+
+
 def _said(problem: Problem, this: Fit, level: Level) -> list[Finding]:
     fitted = "a level of its own is fitted with it; corrected.toml holds the mean"
     if level.lasting:
@@ -57,7 +73,7 @@ def _kind(level: Level) -> str:
 
 
 def _off(level: Level, off: float) -> str:
-    return f"{off:+.3g} {level.unit}" if level.adds else f"{100.0 * (off - 1.0):+.2g} %"
+    return f"{off:+.3g} {level.unit}" if level.adds else f"{float(f'{100.0 * (off - 1.0):.2g}'):+g} %"
 
 
 def _size(level: Level, deviation: float) -> str:

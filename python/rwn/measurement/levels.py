@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rwn import _core
 from rwn.fit.fit import Fit, fit
@@ -21,6 +22,8 @@ from rwn.fit.residuals import statistics
 from rwn.model.vocabulary import motor_index, motor_parameters
 from rwn.simulate.own_unknowns import LevelShare
 from rwn.simulate.run import Run
+
+Array = NDArray[np.float64]
 
 # prior deviation of a level's logarithm: friction that halves, as a gear warms up, is 2.3 of it; of a load, as a share
 # of the largest torque
@@ -84,6 +87,19 @@ def all_levels(problem: Problem) -> list[Level]:
     return [*frictions(problem), load(problem), *lasting]
 
 
+def level_off(level: Level, machine: Array, own: Array) -> float:
+    """The quantity of parameters (all,) over that of others; less it, of what is added."""
+    if level.adds:
+        return float(own[level.parameters[0]] - machine[level.parameters[0]])
+    scaled = [p for p in level.parameters if machine[p] != 0.0]
+    return float(own[scaled[0]] / machine[scaled[0]]) if scaled else 1.0
+
+
+def level_spread(problem: Problem, level: Level) -> float:
+    """Prior deviation of a level."""
+    return SPREAD * problem.scales["torque"] if level.adds else SPREAD
+
+
 def _in_words(names: Sequence[str]) -> str:
     return " and ".join(name.replace("_", " ") for name in names)
 
@@ -112,7 +128,7 @@ def with_levels(problem: Problem, level: Level) -> Problem:
     """
     first = _core.parameter_count() + len(problem.prior.of_runs)
     names = dict.fromkeys(run.name for run in problem.whole)
-    spread = SPREAD * problem.scales["torque"] if level.adds else SPREAD
+    spread = level_spread(problem, level)
     own = [
         RunUnknown(
             name=level.of(name), unit=level.unit, place=first + k, parameters=level.parameters, spread=spread,
@@ -165,8 +181,4 @@ def uneven(problem: Problem, this: Fit, level: Level) -> dict[str, tuple[float, 
 
 def level_beside(problem: Problem, this: Fit, level: Level, run: Run) -> float:
     """The quantity of one recording over that of the machine, as a fit has both; less it, of what is added."""
-    mean, own = this.vector, problem.started(run, this.vector, this.active)
-    if level.adds:
-        return float(own[level.parameters[0]] - mean[level.parameters[0]])
-    scaled = [p for p in level.parameters if mean[p] != 0.0]
-    return float(own[scaled[0]] / mean[scaled[0]]) if scaled else 1.0
+    return level_off(level, this.vector, problem.started(run, this.vector, this.active))
