@@ -10,6 +10,7 @@ from rwn.fit.driving_force import BalancedRun, DrivingForceProblem, balanced
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.residuals import statistics
+from rwn.recording.intersample import INTERSAMPLE
 from rwn.recording.smoothing import LENGTHS
 from rwn.simulate.run import Run
 
@@ -89,3 +90,11 @@ def test_what_is_smoothed_away_of_the_force_and_the_noise_of_the_acceleration_ar
     position = np.sin(30.0 * time) + noise * np.random.default_rng(5).standard_normal(time.size)
     run = Run(name="run", time=time, input=np.sin(rate * time), position=position)
     assert np.median(np.diff(balanced(run, 1e-3).time)) == pytest.approx(length * STEP)
+
+
+def test_a_balance_stays_as_it_is_whatever_the_law_between_rows() -> None:
+    """Also where its thinned rows lie beside the ticks of a clock."""
+    time = STEP * (np.arange(2000) + 0.2 * np.abs(np.random.default_rng(8).standard_normal(2000)))
+    run = Run(name="run", time=time, input=np.sin(9.0 * time), position=np.sin(2.0 * time), angle=np.sin(2.0 * time))
+    of = balanced(run, 1e-3)
+    assert all(of.with_intersample(law) is of for law in INTERSAMPLE)

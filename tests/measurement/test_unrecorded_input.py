@@ -157,7 +157,8 @@ def test_the_driving_force_of_an_axis_tells_nothing_of_what_drove_it() -> None:
     position = rwn.simulate(axis, bare).signals["position"]
     run = rwn.Recording(name="run", time=time[::2], signals={"torque": torque[::2], "position": position[::2]})
     problem = of_driving_force(prepare([run], axis))
-    halves = replace(problem, runs=tuple(r.with_intersample("halves") for r in problem.runs))
+    between = INTERSAMPLE["halves"].applied
+    halves = replace(problem, runs=tuple(replace(r, applied_input=between(r.time, r.input)) for r in problem.runs))
     (told,), (given,) = with_inferred_input(halves, fit_nominal(halves)).runs, halves.runs
     assert given.applied_input is not None
     assert given.applied_input.spread.any()
