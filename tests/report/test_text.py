@@ -287,3 +287,9 @@ def test_parameters_have_the_symbol_of_their_law() -> None:
 )
 def test_a_sentence_begins_large_and_a_file_keeps_its_name(text: str, begun: str) -> None:
     assert words.capital(text) == begun
+
+
+def test_an_interval_of_decades_is_said_in_words() -> None:
+    told = words.estimate(Estimate(value=0.486, unit="N m/rad", interval=(3.6e-5, 36000.0)))
+    assert told == "0.486 N m/rad, not told to a factor of ten"
+    assert "[" in words.estimate(Estimate(value=0.486, unit="N m/rad", interval=(0.0, 4.0)))

@@ -33,9 +33,13 @@ class FittedParameter:
     @property
     def moved(self) -> float:
         """By how many declared standard deviations the refit moved it, relative or in its logarithm; 0 where exact."""
+        return self.off(self.refitted)
+
+    def off(self, fitted: Estimate) -> float:
+        """By how many declared standard deviations a fit of it is off what was given (see `moved`)."""
         if not self.uncertainty or self.nominal <= 0.0:
             return 0.0
-        ratio = self.best.value / self.nominal
+        ratio = fitted.value / self.nominal
         return min(abs(ratio - 1.0), abs(math.log(ratio)) if ratio > 0.0 else math.inf) / self.uncertainty
 
     def only_declared(self, fitted: Estimate) -> bool:

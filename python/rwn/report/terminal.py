@@ -89,10 +89,10 @@ def _parameters(found: DiagnosisData) -> Iterator[str]:
 def _off_the_data_sheet(found: DiagnosisData) -> Iterator[str]:
     """The parameters whose given values lie outside what the recordings say, the farthest first."""
     fitted = [(name, p) for name, p in found.nominal_fit.parameters.items() if p.uncertainty]
-    for name, p in sorted(fitted, key=lambda pair: -pair[1].moved):
+    for name, p in sorted(fitted, key=lambda pair: -pair[1].off(pair[1].best)):
         low, high = p.best.interval or (p.nominal, p.nominal)
         if not low <= p.nominal <= high:
-            off = f"{number(p.moved, 2)} declared deviations from the data sheet"
+            off = f"{number(p.off(p.best), 2)} declared deviations from the data sheet"
             yield f"{capital(parameter_in_words(name))} = {estimate(p.best)}, {off}"
 
 

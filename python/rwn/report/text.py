@@ -25,6 +25,7 @@ _PREFIXABLE = (
     "J",
     "m",
 )  # the first factor of a unit that takes a prefix
+DECADE = 10.0
 _SYMBOLS = (("ohm", "Ω"), ("^2", "²"), ("^3", "³"))
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -73,7 +74,10 @@ def quantity(value: float, unit: str, digits: int = 3) -> str:
 
 
 def estimate(value: Estimate) -> str:
-    """A value with its 95 % interval: "20.4 ± 0.3 N", or "20.4 N [19.0, 25.1]" where that is lopsided."""
+    """A value with its 95 % interval: "20.4 ± 0.3 N", or "20.4 N [19.0, 25.1]" where that is lopsided.
+
+    In words where it reaches over more than a decade to both sides.
+    """
     if value.interval is None:
         return quantity(value.value, value.unit)
     low, high = value.interval
@@ -82,6 +86,8 @@ def estimate(value: Estimate) -> str:
     half = (high - low) / 2
     if not math.isfinite(half) or half <= 0:
         return quantity(value.value, value.unit)
+    if 0.0 <= low < value.value / DECADE and high > DECADE * value.value:
+        return f"{quantity(value.value, value.unit)}, not told to a factor of ten"
     middle, half_text, power = _rounded_together(value.value * scale, half * scale)
     if min(below, above) < 0 or max(below, above) > 2 * min(below, above):
         bounds = ", ".join(number(bound * scale) for bound in (low, high))
