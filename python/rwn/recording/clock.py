@@ -21,6 +21,7 @@ AS_WELL = 1.0 / float(np.sinc(0.5 / PER_CYCLE))  # agreement at a period over th
 ENOUGH = 8 * FIRST  # rows, evenly spread, that tell between periods which are nearly right
 ROUNDING = 1e-6  # of times as numbers, relatively
 JITTER = 0.01  # deviation of the rows from their clock, in samples, from which its ticks are other instants
+AT_RANDOM = float(np.sqrt(1.0 / 12.0))  # jitter of rows that keep no clock
 CLEAR = 4.0  # deviations of a tick beyond which a row is certainly before or after it
 REMEMBERED = 16  # clocks kept, of a few recordings and parts of them: a search asks for each thousands of times
 
@@ -82,8 +83,9 @@ def _clock_of(times: bytes) -> Clock:
         rows = min(2 * rows, time.size)
         two_cycles = 2.0 / rows
         _, period, start = _agreeing(time[: rows : -(-rows // ENOUGH)], period, two_cycles)
-    ticks = _one_each((time - start) / period)
-    if np.any(np.diff(ticks) < 1):
+    cycles = (time - start) / period
+    ticks = _one_each(cycles)
+    if np.any(np.diff(ticks) < 1) or np.std(cycles - ticks) > AT_RANDOM:
         ticks, period = np.arange(time.size, dtype=np.float64), usual
     else:
         period = float(np.polyfit(ticks, time, 1)[0])
