@@ -33,3 +33,16 @@ def test_a_shaft_that_is_held_names_nothing_and_leaves_the_data_sheet() -> None:
     assert not found.corrected.effects
     assert "Nothing moved under up to" in found.next_experiment
     assert found.corrected.parameters["inertia"] == pytest.approx(model.parameters["inertia"], rel=0.1)
+
+
+@pytest.mark.slow
+def test_a_voltage_and_a_current_alone_are_explained_too() -> None:
+    """Of a shaft that is held and not looked at: no back-EMF shows."""
+    model = rwn.read_model(DEMO / "model.toml")
+    right = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    voltage = 0.2 * np.asarray(right.signals["voltage"])
+    holding = replace(model, effects={"coulomb-friction": {"coulomb_torque": 0.3}})
+    stalled = rwn.simulate(holding, replace(right, signals={"voltage": voltage})).signals["current"]
+    noisy = stalled + 1e-2 * np.random.default_rng(2).standard_normal(len(right))
+    found = rwn.diagnose([replace(right, signals={"voltage": voltage, "current": noisy})], model)
+    assert [e.name for e in found.effects] == ["coulomb-friction"]

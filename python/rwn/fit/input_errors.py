@@ -72,4 +72,4 @@ def _error(values: bytes, noise: float) -> Array:
     given = np.frombuffer(values)
     drawn = given + noise * np.random.default_rng(0).standard_normal(given.size)
     found = denoised(drawn)
-    return np.zeros(given.size) if found is None else found - given
+    return np.zeros(given.size) if found is None else found.values - given

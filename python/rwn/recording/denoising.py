@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.noise import noise_of_differences
 from rwn.recording.quantisation import quantum
-from rwn.recording.smoothing import LENGTHS, ORDER, smooth, smoothing_length
+from rwn.recording.smoothing import LENGTHS, ORDER, smooth
 
 Array = NDArray[np.float64]
 
@@ -18,11 +19,19 @@ ALIKE = 8.0  # over sqrt(n): relative difference of two estimates of white noise
 RETURNS = 8.0  # over sqrt(m): excess of m squares of means over their noise, whose deviation is sqrt(2)
 STEADY = 3.0  # deviations of the sum of squares of noise, beyond which a stretch is not steady
 STEP = 6.0  # deviations of the noise beyond which a change from row to row is a step: one in 5e8 by chance
-LEVEL = 0.01  # chance that values which bend nowhere are taken to
+LEVEL = 0.01  # chance that values which bend nowhere are taken to, and steady ones to step
+NUMBERS = 2.25  # of a cubic smoother over so many rows, by its noise: 9 / 4 of one over the same number
 NOWHERE: NDArray[np.intp] = np.empty(0, dtype=np.intp)
 
 
-def denoised(values: Array) -> Array | None:
+class Denoised(NamedTuple):
+    """Values (n,) without white noise, and the deviation of that."""
+
+    values: Array
+    noise: float
+
+
+def denoised(values: Array) -> Denoised | None:
     """Values (n,) without white noise; None where they show none beyond their rounding."""
     if values.size <= LENGTHS[0]:
         return None
@@ -34,19 +43,80 @@ def denoised(values: Array) -> Array | None:
     if noise <= least or abs(other / noise - 1.0) > ALIKE / np.sqrt(values.size):
         return None
     between = np.split(values, _steps(values, noise))
-    stretches = [part for x in between for part in ([x] if _is_steady(x, noise) else np.split(x, _bends(x, noise)))]
-    steady = [_is_steady(x, noise) for x in stretches]
-    levels = iter(_levels([x for x, is_steady in zip(stretches, steady, strict=True) if is_steady], noise))
+    parts = [part for x in between for part in ([_Part(x, x)] if _is_steady(x, noise) else _parts(x, noise))]
+    steady = [_is_steady(part.values, noise) for part in parts]
+    levels = iter(_levels([part.values for part, is_steady in zip(parts, steady, strict=True) if is_steady], noise))
     without = [
-        np.full(x.size, next(levels)) if is_steady else smooth(x, smoothing_length(x, resolution=noise))
-        for x, is_steady in zip(stretches, steady, strict=True)
+        np.full(part.values.size, next(levels)) if is_steady else part.course
+        for part, is_steady in zip(parts, steady, strict=True)
     ]
-    return np.concatenate(without)
+    return Denoised(np.concatenate(without), noise)
+
+
+class _Part(NamedTuple):
+    """Values (n,) with a course through them, and how many numbers that takes."""
+
+    values: Array
+    course: Array
+    numbers: float = 1.0
+
+    def cost(self, noise: float, rows: int) -> float:
+        """What it leaves in units of the noise, and its numbers among so many rows (BIC)."""
+        left = float(np.sum((self.values - self.course) ** 2)) / noise**2
+        return left + self.numbers * float(np.log(rows))
 
 
 def _steps(values: Array, noise: float) -> NDArray[np.intp]:
     """The first samples after steps of values (n,)."""
     return np.flatnonzero(np.abs(np.diff(values)) > STEP * np.sqrt(2.0) * noise) + 1
+
+
+def _parts(x: Array, noise: float) -> list[_Part]:
+    """Values (n,) along lines with steps and bends between, or smooth between bends, whichever is likelier (BIC)."""
+    straight = [_line(part) for part in np.split(x, _corners(x, noise))]
+    smoothed = [_smoothed(part, noise) for part in np.split(x, _bends(x, noise))]
+    costs = [sum(part.cost(noise, x.size) for part in parts) for parts in (straight, smoothed)]
+    return straight if costs[0] < costs[1] else smoothed
+
+
+def _line(x: Array) -> _Part:
+    """Values (n,) along a line, which also takes where it begins."""
+    place = np.arange(x.size)
+    return _Part(x, np.asarray(np.polyval(np.polyfit(place, x, 1), place)) if x.size > 1 else x, 3.0)
+
+
+def _smoothed(x: Array, noise: float) -> _Part:
+    """Values (n,) along cubics over so many rows as predict others best (Mallows 1973)."""
+    found = [_Part(x, smooth(x, n), max(x.size * NUMBERS / n, ORDER + 1)) for n in LENGTHS]
+    return min(found, key=lambda part: part.cost(noise, 1) + 2.0 * part.numbers)
+
+
+def _corners(x: Array, noise: float) -> NDArray[np.intp]:
+    """Where values (n,) that follow lines step or bend: each part is two lines rather than one, by no chance."""
+    place = np.arange(x.size, dtype=np.float64)
+    columns = np.stack([np.ones(x.size), place, place**2, x, place * x, x**2])
+    sums = np.concatenate([np.zeros((6, 1)), np.cumsum(columns, axis=1)], axis=1)
+    corners, open_parts = list[int](), [(0, x.size)]
+    while open_parts:
+        begin, end = open_parts.pop()
+        k = np.arange(begin + 2, end - 1)
+        if not k.size:
+            continue
+        apart = _off_a_line(sums[:, k] - sums[:, [begin]]) + _off_a_line(sums[:, [end]] - sums[:, k])
+        gained = float(_off_a_line(sums[:, [end]] - sums[:, [begin]])[0]) - apart
+        best = int(np.argmax(gained))
+        if gained[best] > 2.0 * np.log(x.size / LEVEL) * noise**2:
+            corners.append(int(k[best]))
+            open_parts += [(begin, corners[-1]), (corners[-1], end)]
+    return np.sort(np.array(corners, dtype=np.intp))
+
+
+def _off_a_line(sums: Array) -> Array:
+    """Sum of squares (m,) that a line leaves, of the sums (6, m) of 1, t, t^2, x, t x and x^2."""
+    n, t, tt, x, tx, xx = sums
+    spread, slope = tt - t**2 / n, tx - t * x / n
+    left: Array = xx - x**2 / n - slope**2 / np.maximum(spread, 1e-300)
+    return np.maximum(left, 0.0)
 
 
 def _bends(values: Array, noise: float) -> NDArray[np.intp]:

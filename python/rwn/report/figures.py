@@ -87,6 +87,7 @@ def _speed_regions(inputs: Sequence[UnknownInputs]) -> list[Mark]:
 
 def _mean_curve(x: Array, y: Array) -> Trace:
     edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, 41)))
+    edges = edges if edges.size > 1 else np.array([edges[0], edges[0]])  # one speed, as of a run that told none
     place = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, edges.size - 2)
     n = np.maximum(np.bincount(place, minlength=edges.size - 1), 1)
     means = np.bincount(place, y, edges.size - 1) / n

@@ -235,7 +235,9 @@ class Run:
 
     @cached_property
     def motion(self) -> tuple[Array, Array]:
-        """Smoothed speed [rad/s or m/s] and acceleration [rad/s^2 or m/s^2], (n,) each."""
+        """Smoothed speed [rad/s or m/s] and acceleration [rad/s^2 or m/s^2], (n,) each; 0 where nothing tells them."""
+        if not (self.position.size or self.speed.size):
+            return np.zeros(self.time.size), np.zeros(self.time.size)
         step, length = self.sample_time, self.smoothing_length
         if self.position.size and not self.speed.size:
             speed = smooth(self.position, length, derivative=1, step=step)

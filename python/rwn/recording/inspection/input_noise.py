@@ -31,19 +31,19 @@ def without_input_noise(recording: Recording) -> tuple[Recording, list[Finding]]
     """The recording without the noise of its voltage where that is no part of it, and what was found."""
     given = recording.signals.get(INPUT)
     beside_a_clock = clock_of(recording.time).jitter > JITTER  # a ramp is then no ramp from row to row
-    steady = None if given is None or beside_a_clock else denoised(np.asarray(given))
+    found = None if given is None or beside_a_clock else denoised(np.asarray(given))
     measured = [s for s in MEASURED if s in recording.signals]
-    if given is None or steady is None or not measured:
+    if given is None or found is None or not measured:
         return recording, []
-    noise = given - steady
+    noise = given - found.values
     if any(_goes_with(noise, _departures(recording, s)) < LEVEL / len(measured) for s in measured):
         return recording, []
-    rms = float(np.sqrt(np.mean(noise**2)))
-    found = Finding(
+    said = Finding(
         kind="input-noise", recording=recording.name, signals=(INPUT,), count=len(recording),
-        words=f"the {INPUT} has a noise of {rms:.3g} V rms that no signal answers", done="simulated without it",
+        words=f"the {INPUT} has a noise of {found.noise:.3g} V rms that no signal answers", done="simulated without it",
     )  # fmt: skip
-    return replace(recording, signals={**recording.signals, INPUT: steady}, input_noise=rms), [found]
+    signals = {**recording.signals, INPUT: found.values}
+    return replace(recording, signals=signals, input_noise=found.noise), [said]
 
 
 def _departures(recording: Recording, signal: str) -> Array:
