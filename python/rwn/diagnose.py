@@ -14,9 +14,10 @@ from rwn.correct.correction import correct
 from rwn.decide.decision import decide
 from rwn.errors import InputError
 from rwn.faults.fault import without_all
+from rwn.faults.held_shaft import without_held
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
 from rwn.faults.sensor_errors import without_sensor_errors
-from rwn.faults.uneven_files import contradicting_unseen, uneven_unseen
+from rwn.faults.uneven_files import at_own_levels, uneven_unseen
 from rwn.fit.nominal import check_it_runs
 from rwn.fit.preparation import prepare
 from rwn.measurement.unrecorded_input import inferred_input_findings, with_inferred_input
@@ -76,6 +77,7 @@ def diagnose(
     refuse_doubles([*fitted, *judged])
     common, said = tuple(overlaps(fitted, judged)), remarks((*fitted, *judged))
     (fitted, seen_in_fitted), (judged, seen_in_judged) = inspected(fitted), inspected(judged)
+    (judged, held_back), (fitted, held) = without_held(judged, model, fitted), without_held(fitted, model)
     if model.effects:
         check_declared(model, [prepare(fitted, model).scales])
     with thread_pool(jobs or os.cpu_count() or 1):
@@ -90,7 +92,7 @@ def diagnose(
         say("drawing", 0.95)
         elapsed = time.perf_counter() - began
         made = assemble(correction, found.faults, found.model, unseen.runs, seed=seed, elapsed=elapsed)
-    findings = (*seen_in_fitted, *found.findings, *seen_in_judged, *common, *unseen.findings(found))
+    findings = (*seen_in_fitted, *held, *held_back, *found.findings, *seen_in_judged, *common, *unseen.findings(found))
     layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
     corrected = replace(made.corrected, recording=layout)
     return replace(made, corrected=corrected, findings=findings, warnings=(*made.warnings, *said))
@@ -103,6 +105,7 @@ class _Unseen:
     runs: Sequence[Run]
     late: tuple[LateEnable, ...]
     sensor_errors: tuple[Finding, ...]
+    contradicting: tuple[Finding, ...]
 
     def findings(self, found: SearchResult) -> tuple[Finding, ...]:
         """What their own motion told: errors of sensors, late enables, an input between rows, levels of their own."""
@@ -110,7 +113,7 @@ class _Unseen:
         enabled = (one.as_finding(given) for one in self.late)
         ranking = found.ranking
         told = (*inferred_input_findings(self.runs, given), *uneven_unseen(ranking, self.runs))
-        return (*self.sensor_errors, *enabled, *told, *contradicting_unseen(ranking, self.runs))
+        return (*self.sensor_errors, *enabled, *told, *self.contradicting)
 
 
 def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
@@ -125,7 +128,9 @@ def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
 
     right, found_in = without_sensor_errors(right, problem.on(runs(right)), best.fit)
     kept_back = replace(problem.in_free_run(), runs=runs(right))
-    return _Unseen(runs=with_inferred_input(kept_back, best.final).runs, late=late, sensor_errors=found_in)
+    told = with_inferred_input(kept_back, best.final).runs
+    told, contradicting = at_own_levels(found.ranking, told)
+    return _Unseen(runs=told, late=late, sensor_errors=found_in, contradicting=contradicting)
 
 
 def _check_options(seed: int, jobs: int | None, effort: float, progress: Any) -> None:

@@ -9,8 +9,9 @@ import pytest
 import rwn
 from made_up_files import files_of
 from ranked import ranked, ranked_from
-from rwn.faults.uneven_files import contradicting_unseen, uneven_files, uneven_unseen
+from rwn.faults.uneven_files import at_own_levels, uneven_files, uneven_unseen
 from rwn.fit.preparation import prepare
+from rwn.fit.residuals import statistics
 from rwn.measurement.levels import all_levels, load, with_levels
 from rwn.model.model import Model
 from rwn.model.own_effects import OwnEffect, OwnParameter
@@ -60,8 +61,11 @@ def test_a_recording_kept_back_that_contradicts_the_others_is_said(
 ) -> None:
     known = files_of(MODEL, [], (1.0,))
     (_, unseen) = files_of(MODEL, names, (1.0, factor), loads=(0.0, load))
-    found = contradicting_unseen(ranked_from(known, MODEL, ["coulomb-friction"]), [judging_run(unseen, MODEL)])
+    ranking = ranked_from(known, MODEL, ["coulomb-friction"])
+    ((run,), found) = at_own_levels(ranking, [judging_run(unseen, MODEL)])
     assert [f.words.startswith(said or "") for f in found] == ([True] if said else [])
+    judged = ranking.problem.in_free_run().on([run])
+    assert statistics(judged, ranking.nominal_fit).at_the_floor or load
 
 
 @pytest.mark.slow

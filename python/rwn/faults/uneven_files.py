@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
@@ -39,19 +40,27 @@ def uneven_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
     return found
 
 
-def contradicting_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
-    """What is said of recordings that were not fitted and contradict those that were in one number alone."""
+def at_own_levels(ranking: Ranking, unseen: Sequence[Run]) -> tuple[tuple[Run, ...], tuple[Finding, ...]]:
+    """Recordings that were not fitted, those that contradict the fitted ones in one number alone at their own of it.
+
+    With what is said of them.
+    """
     problem, best = ranking.weighted.in_free_run(), ranking.fits[0].final
-    pairs = [(run.name, explained_by_a_level(problem, best, run)) for run in unseen]
-    return [
-        Finding(
-            kind=_kind(one.level), recording=name, signals=(), count=0, done="judged as it is",
-            words=f"its {one.level.quantity} is {_off(one.level, one.off)} off that of the fitted recordings, which "
-            "explains all of its error",
-        )
-        for name, one in pairs
-        if one is not None
-    ]  # fmt: skip
+    runs, found = list(unseen), []
+    for k, run in enumerate(unseen):
+        one = explained_by_a_level(problem, best, run)
+        if one is None:
+            continue
+        runs[k] = replace(run, own_levels=(one.prior,))
+        found.append(
+            Finding(
+                kind=_kind(one.level), recording=run.name, signals=(), count=0,
+                done="judged with its own; corrected.toml has that of the fitted recordings",
+                words=f"its {one.level.quantity} is {_off(one.level, one.off)} off that of the fitted recordings, "
+                "which explains all of its error",
+            )
+        )  # fmt: skip
+    return tuple(runs), tuple(found)
 
 
 def _said(problem: Problem, this: Fit, level: Level) -> list[Finding]:

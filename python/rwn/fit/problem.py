@@ -97,8 +97,9 @@ class Problem:
         what differs from recording to recording.
         """
         begun = self.simulator.started(run, vector)
-        if self.prior.levels and not run.levels:
-            begun = nearest_levels(self.simulator, run, begun, active, self.prior.levels, noise=self.noise)
+        levels = (*(() if run.levels else self.prior.levels), *run.own_levels)
+        if levels:
+            begun = nearest_levels(self.simulator, run, begun, active, levels, noise=self.noise)
         if not run.angle_unknown or motor_index(INITIAL_POSITION) in {u.parameter for u in run.start_unknowns}:
             return begun
         effects = [effect for effect in self.prior.table.values() if effect.index in active]

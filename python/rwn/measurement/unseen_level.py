@@ -25,6 +25,7 @@ class UnseenLevel(NamedTuple):
     """A recording that was not fitted, at the level of a quantity that fits it best."""
 
     level: Level
+    prior: LevelPrior
     off: float  # the quantity over that of the machine; less it, of what is added
     left: Statistics
 
@@ -45,7 +46,7 @@ def explained_by_a_level(problem: Problem, this: Fit, run: Run) -> UnseenLevel |
         spread = level_spread(problem, level)
         prior = LevelPrior(level.parameters, ANYTHING * spread, level.adds)
         vector = nearest_levels(on.simulator, judged, begun, switched, [prior], noise=on.noise)
-        found.append(UnseenLevel(level, level_off(level, begun, vector), _left(on, vector, switched)))
+        found.append(UnseenLevel(level, prior, level_off(level, begun, vector), _left(on, vector, switched)))
     explaining = [one for one in found if one.left.at_the_floor]
     return min(explaining, key=lambda one: one.left.variance, default=None)
 

@@ -93,7 +93,7 @@ def heldout_rows(
         begin = max(first, run.judged_from)
         late = np.arange(run.time.size) >= begin
         slow = _slow(run) & late
-        floor = {s: n.deviation for s, n in noise_of([run], [errors[-1]]).items()}
+        floor = _floor(problem, run, errors[-1])
         for signal in run.recorded:
             for region, chosen in (("all", late), ("low speed", slow)):
                 judged = chosen & ~run.not_compared(signal)  # the error of what was not measured is no zero
@@ -104,6 +104,13 @@ def heldout_rows(
         if problem.drive.force and first == 0:
             rows += _force_row(problem, run, compared, seed)
     return tuple(rows)
+
+
+def _floor(problem: Problem, run: Run, errors: Mapping[str, Array]) -> dict[str, float]:
+    """The noise of each signal; of noise that lasts, or that an input leaves, all of it, not what is new in a row."""
+    floor = {s: n.deviation for s, n in noise_of([run], [errors]).items()}
+    lasting = {s for s, n in problem.noise.items() if s in problem.coloured or n.of_sensor is not None}
+    return {s: max(x, problem.noise[s].deviation) if s in lasting else x for s, x in floor.items()}
 
 
 def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed: int) -> list[HeldoutRow]:

@@ -14,15 +14,17 @@ from rwn.model.initial_state import INITIAL_POSITION, is_moving
 from rwn.recording.filters import before_filter
 from rwn.recording.interpolated import InterpolatedRows
 from rwn.recording.intersample import INTERSAMPLE, PiecewiseInput
+from rwn.recording.noise import noise_from_differences
 from rwn.recording.quantisation import quantum
 from rwn.recording.signals import MEASURED
 from rwn.recording.smoothing import LENGTHS, smooth, smoothing_length
 from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral
-from rwn.simulate.own_unknowns import LevelShare, StartUnknown
+from rwn.simulate.own_unknowns import LevelPrior, LevelShare, StartUnknown
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 _NONE: Array = np.empty(0)
+STANDS = 3.0  # deviations of the noise of a speed, within which a shaft may stand still
 LOST_ROW = 1.5  # median intervals between two rows, from which on one is missing between them
 
 
@@ -47,6 +49,7 @@ class Run:
     start_samples: int = 0  # first samples that show the motion; 0: it was stated, or it starts at rest
     start_unknowns: tuple[StartUnknown, ...] = ()
     levels: tuple[LevelShare, ...] = ()
+    own_levels: tuple[LevelPrior, ...] = ()  # of what is other than in the fitted runs: those that fit it best
     input_before: float = 0.0
     input_noise: float = 0.0  # deviation of the white noise that was taken off the input
     applied_input: PiecewiseInput | None = None  # the input as it acted; None: each row's own, from its time on
@@ -129,6 +132,14 @@ class Run:
     def angle_unknown(self) -> bool:
         """Whether nothing tells the angle of the shaft at the first sample."""
         return INITIAL_POSITION in self.start_spread and not self.position.size
+
+    @property
+    def moves(self) -> bool:
+        """Whether it shows that the shaft turned; where neither a speed nor a position was recorded that is assumed."""
+        if not (self.speed.size or self.position.size):
+            return True
+        noise = noise_from_differences(self.speed) if self.speed.size else 0.0
+        return float(np.percentile(np.abs(self.motion[0]), 99.5)) > STANDS * noise
 
     @property
     def can_restart(self) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import rwn
+from rwn.faults.held_shaft import without_held
 
 DEMO = Path(rwn.__file__).parent / "demo"
 
@@ -46,3 +47,20 @@ def test_a_voltage_and_a_current_alone_are_explained_too() -> None:
     noisy = stalled + 1e-2 * np.random.default_rng(2).standard_normal(len(right))
     found = rwn.diagnose([replace(right, signals={"voltage": voltage, "current": noisy})], model)
     assert [e.name for e in found.effects] == ["coulomb-friction"]
+
+
+def test_a_recording_whose_shaft_is_held_is_left_out_where_others_move() -> None:
+    model = rwn.read_model(DEMO / "model.toml")
+    moving = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    rng, n = np.random.default_rng(3), len(moving)
+    still = {
+        "voltage": moving.signals["voltage"], "current": 0.5 * np.ones(n) + 0.01 * rng.standard_normal(n),
+        "speed": 0.5 * rng.standard_normal(n),
+    }  # fmt: skip
+    held = replace(moving, name="held", signals=still)
+    kept, found = without_held([moving, held], model)
+    assert kept == [moving]
+    assert [f.recording for f in found] == ["held"]
+    assert "nothing moves in it, under up to 0.0" in found[0].words
+    assert without_held([held], model) == ([held], [])
+    assert without_held([held], model, [moving])[0] == []
