@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from rwn.recording.check import _check_time
 from rwn.recording.clock import clock_of
 
 
@@ -81,3 +82,11 @@ def test_rows_that_catch_up_with_an_overrun_keep_their_ticks() -> None:
 def test_rows_at_random_times_have_no_clock() -> None:
     time = np.sort(np.random.default_rng(5).uniform(0.0, 10.0, 1000))
     assert clock_of(time).lost == 0
+
+
+def test_late_rows_are_not_said_to_be_missing() -> None:
+    ticks = np.arange(1000, dtype=float)
+    late = 0.02 * np.abs(np.random.default_rng(7).standard_normal(1000))
+    late[500:502] = 1.9, 0.95  # the next one follows at once
+    assert _check_time(0.01 * (ticks + late), str) == ()
+    assert _check_time(np.delete(0.01 * (ticks + late), [700, 701, 702]), str)

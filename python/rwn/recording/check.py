@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError
+from rwn.recording.clock import clock_beside
 
 MIN_SAMPLES = 50
 SMALLEST, LARGEST = 1e-12, 1e12  # of the largest value of a signal in SI that moves: no drive comes near either
@@ -91,7 +92,11 @@ def _check_time(time: Array, row: Row) -> tuple[str, ...]:
             expected=f"no gap above {GAP_REFUSED:g} sample times",
             fix="cut the recording in two there",
         )
-    gaps = int(np.count_nonzero(steps > GAP_WARNED * usual))
+    if np.max(steps) <= GAP_WARNED * usual:
+        return ()
+    clock = clock_beside(time)  # a row that came late is none that is missing
+    steps = np.diff(clock.ticks).astype(np.float64) if clock else steps / usual
+    gaps, k = int(np.count_nonzero(steps > GAP_WARNED)), int(np.argmax(steps))
     if gaps == 0:
         return ()
-    return (f"{row(k + 1)}: {gaps} gap(s) of up to {steps[k] / usual:.1f} sample times, where rows are missing",)
+    return (f"{row(k + 1)}: {gaps} gap(s) of up to {steps[k]:.1f} sample times, where rows are missing",)

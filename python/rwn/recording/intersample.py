@@ -124,7 +124,8 @@ def _at_ticks(time: Array, values: Array, *, begin: float | None = None) -> Piec
     begin, first_time = (clock.start, time[0]) if begin is None else (begin, begin)
     last, unclear = _last_ticks(clock, values)
     ticks = np.arange(last[0], last[-1] + 1)
-    after, before = (_shown_at(ticks, np.where(unclear, clock.ticks - k, last), values) for k in (0, 1))
+    of_rows = (np.maximum.accumulate(np.where(unclear, clock.ticks - k, last)) for k in (0, 1))
+    after, before = (_shown_at(ticks, shown, values) for shown in of_rows)
     mixed, spread = _mixed(_chance_after(clock, unclear, ticks), after, before)
     gaps = np.where(after[0] == before[0], _gaps(ticks, last), -1 - ticks)  # one that may be another is by itself
     instants = begin + clock.period * ticks
