@@ -35,6 +35,10 @@ def test_what_files_disagree_on_is_said_by_file(quantity: str) -> None:
     assert {"run_0", "run_2"} <= set(said)
     assert said["run_0"].startswith(f"its {quantity} is -")
     assert said["run_2"].startswith(f"its {quantity} is +")
+    value, unit = {"resistance": (1.12, "ohm"), "inertia": (2.24e-5, "kg m^2")}[quantity]
+    shown = said["run_2"].split("(")[1].split(", deviation")[0]
+    assert float(shown.split(" ")[0]) == pytest.approx(value, rel=0.05)
+    assert shown.endswith(unit)
 
 
 def test_loads_are_said_by_file_also_of_one_that_was_not_fitted() -> None:

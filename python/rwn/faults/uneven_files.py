@@ -9,6 +9,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.measurement.levels import Level, known_levels, level_beside, uneven
 from rwn.measurement.unseen_level import explained_by_a_level
+from rwn.model.vocabulary import motor_index
 from rwn.name.ranking import Ranking
 from rwn.recording.inspection import Finding
 from rwn.simulate.run import Run
@@ -71,7 +72,7 @@ def _said(problem: Problem, this: Fit, level: Level) -> list[Finding]:
         Finding(
             kind=_kind(level), recording=name, signals=(), count=0, done=fitted,
             words=f"its {level.quantity} is {_off(level, off)} off the mean of the recordings "
-            f"(deviation {_size(level, deviation)})",
+            f"({_value(problem, this, level, off)}deviation {_size(level, deviation)})",
         )
         for name, (off, deviation) in uneven(problem, this, level).items()
     ]  # fmt: skip
@@ -83,6 +84,18 @@ def _kind(level: Level) -> str:
 
 def _off(level: Level, off: float) -> str:
     return f"{off:+.3g} {level.unit}" if level.adds else f"{float(f'{100.0 * (off - 1.0):.2g}'):+g} %"
+
+
+def _value(problem: Problem, this: Fit, level: Level, off: float) -> str:
+    """The quantity itself where it is one number: "0.000217 kg m^2, "; else nothing."""
+    if len(level.parameters) != 1:
+        return ""
+    mean, drive = float(this.vector[level.parameters[0]]), problem.drive
+    if level.adds:
+        return f"{mean + off:.3g} {level.unit}, "
+    known = next(p for p in drive.parameters if motor_index(p.name) == level.parameters[0])
+    unit = known.linear_unit if drive.linear and known.linear_unit else known.unit
+    return f"{mean * off:.3g} {unit}, "
 
 
 def _size(level: Level, deviation: float) -> str:
