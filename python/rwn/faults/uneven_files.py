@@ -70,7 +70,7 @@ def _said(problem: Problem, this: Fit, level: Level) -> list[Finding]:
         fitted += ": leave out what was recorded of another machine, load or temperature"
     return [
         Finding(
-            kind=_kind(level), recording=name, signals=(), count=0, done=fitted,
+            kind=_kind(level), recording=name, signals=(), count=0, done=fitted, quantity=level.quantity,
             words=f"its {level.quantity} is {_off(level, off)} off the mean of the recordings "
             f"({_value(problem, this, level, off)}deviation {_size(level, deviation)})",
         )

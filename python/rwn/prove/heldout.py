@@ -89,7 +89,9 @@ def heldout_rows(
     compared = [h for h in (nominal, refitted, corrected) if h is not None]
     rows = []
     for run in runs:
-        errors = [_errors(problem, run, h) for h in compared]
+        # the model as given knows no levels of single recordings, as `rwn simulate` does not
+        given = _errors(_without_levels(problem), replace(run, levels=(), own_levels=()), nominal)
+        errors = [given, *(_errors(problem, run, h) for h in compared[1:])]
         begin = max(first, run.judged_from)
         late = np.arange(run.time.size) >= begin
         slow = _slow(run) & late
@@ -129,6 +131,11 @@ def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed:
             gain_interval=gain_interval(errors[1], errors[2], seed=seed) if found else None,
         )
     ]  # fmt: skip
+
+
+def _without_levels(problem: Problem) -> Problem:
+    of_runs = tuple(own for own in problem.prior.of_runs if not own.level)
+    return replace(problem, prior=replace(problem.prior, of_runs=of_runs))
 
 
 def _errors(problem: Problem, run: Run, this: Hypothesis) -> dict[str, Array]:

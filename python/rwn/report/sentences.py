@@ -37,13 +37,21 @@ def verdict_sentence(found: DiagnosisData) -> str:
 
 def sentences(found: DiagnosisData) -> tuple[str, ...]:
     """The verdict in one sentence, then what goes with it."""
-    return {
+    said = {
         "missing-physics": _missing,
         "adequate": _adequate,
         "unexplained": _unexplained,
         "insufficient-excitation": _insufficient,
         "recording-mistake": _mistake,
     }[found.verdict](found)
+    return (*said, *_by_file(found))
+
+
+def _by_file(found: DiagnosisData) -> Iterator[str]:
+    """What differs between the recordings."""
+    differ = tuple(dict.fromkeys(f.quantity for f in found.findings if f.quantity))
+    if differ:
+        yield f"The recordings differ in {listing(differ)}: each is fitted with its own, corrected.toml holds the mean."
 
 
 def _missing(found: DiagnosisData) -> tuple[str, ...]:

@@ -24,6 +24,7 @@ class Finding:
     count: int  # samples
     words: str  # what was found, for people
     done: str = ""  # what was done about it
+    quantity: str = ""  # what differs between the recordings that were fitted
 
 
 @dataclass(frozen=True, kw_only=True)
