@@ -75,5 +75,17 @@ def test_uneven_times_are_said_as_what_they_are() -> None:
     wandering = np.cumsum(1e-3 * draw.uniform(0.75, 1.25, len(recording)))
     runs = [replace(recording, time=time) for time in (about, wandering)]
     said = [next(line for line in checked([run], MODEL) if "every" in line) for run in runs]
-    assert said[0] == "  a sample every 0.001 s; each is off even times by 5.8% of that, rms"
+    assert said[0] == "  a sample every 0.001 s; the rows are off even times by 5.8% of that, rms"
     assert "on average; from row to row it varies by 14.4%, rms" in said[1]
+
+
+def test_a_load_that_is_held_is_no_motion_and_a_shaft_that_is_held_is_said() -> None:
+    recording = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
+    draw, n = np.random.default_rng(6), len(recording)
+    held = {
+        "voltage": 1.2 * np.ones(n), "current": 1.0 + 0.01 * draw.standard_normal(n),
+        "speed": 0.3 * draw.standard_normal(n),
+    }  # fmt: skip
+    said = list(checked([replace(recording, signals=held)], MODEL))
+    assert any("starts at standstill, held by its drive" in line for line in said)
+    assert any("nothing moves in it, under up to 0.03" in line for line in said)

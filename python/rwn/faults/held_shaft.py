@@ -27,16 +27,17 @@ def without_held(
     held = [not run.moves for run in runs]
     if not any(held) or (all(held) and not any(run_of(r, model).moves for r in others)):
         return list(recordings), []
-    found = [_said(run, model) for run, still in zip(runs, held, strict=True) if still]
+    found = [held_finding(run, model) for run, still in zip(runs, held, strict=True) if still]
     return [r for r, still in zip(recordings, held, strict=True) if not still], found
 
 
-def _said(run: Run, model: Model) -> Finding:
+def held_finding(run: Run, model: Model) -> Finding:
+    """What is said of a run in which nothing moves."""
     torque = ""
     if model.drive.force or run.current.size:
         most = float(np.percentile(np.abs(model.drive.driving_torque(model.motor, run.current, run.input)), 99.5))
         torque = f", under up to {most:.3g} {'N' if model.linear else 'N m'}"
     return Finding(
-        kind="held-shaft", recording=run.name, signals=(), count=len(run.time), done="left out",
+        kind="held-shaft", recording=run.name, signals=(), count=len(run.time), done="left out where others move",
         words=f"nothing moves in it{torque}, as with a brake on",
     )  # fmt: skip

@@ -154,7 +154,7 @@ def _next_experiment(
         wanted = excitation.advice(problem.whole)
         if torque := excitation.held_against(problem):
             unit = "N" if problem.drive.linear else "N m"
-            wanted += f" Nothing moved under up to {quantity(torque, unit)}: friction or a brake holds it."
+            wanted = f"Nothing moved under up to {quantity(torque, unit)}: friction or a brake holds it. {wanted}"
     elif shaft is not None and not shaft.moves_as_recorded:
         wanted = f"Look at the shaft first: {shaft_in_words(shaft)}."
     elif drive.verdict == "unexplained" and shaft is None and all(r.current.size for r in problem.whole):

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from rwn.faults.held_shaft import held_finding
 from rwn.faults.late_enable import late_enables, powered
 from rwn.faults.plain_faults import plain_faults
 from rwn.model.model import Model
@@ -30,7 +31,8 @@ def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
         enabled = [one.as_finding(model.drive.input) for one in late if one.place == place]
         yield f"{recording.name}: {len(recording)} samples of {signals}, {recording.duration:.4g} s"
         yield from (f"  {words}" for words in (*_sampling(run), _start(run, model), *_speed(run)))
-        yield from (f"  {finding.words}: {finding.done}" for finding in (*findings, *enabled))
+        held = [] if run.moves or model.drive.coefficients else [held_finding(run, model)]
+        yield from (f"  {finding.words}: {finding.done}" for finding in (*findings, *enabled, *held))
         yield from (f"  {warning}" for warning in recording.warnings)
     on = powered([recording for (recording,), _ in usable], late, model)
     faults = [] if model.drive.coefficients else plain_faults(on, model)[0]
@@ -41,7 +43,7 @@ def _sampling(run: Run) -> Iterator[str]:
     at = clock_of(run.time)
     period = f"a sample every {at.period:.4g} s"
     if at.jitter < HALF:
-        yield period + (f"; each is off even times by {at.jitter:.1%} of that, rms" if at.irregular else "")
+        yield period + (f"; the rows are off even times by {at.jitter:.1%} of that, rms" if at.irregular else "")
     else:  # no even times lie beside these rows
         yield f"{period} on average; from row to row it varies by {np.std(np.diff(run.time)) / at.period:.1%}, rms"
     if at.lost:
@@ -54,7 +56,8 @@ def _start(run: Run, model: Model) -> str:
     linear = model.linear
     current, speed, _ = run.start
     parts = [f"{speed:.4g} {'m/s' if linear else 'rad/s'}"] + ([f"{current:.3g} A"] if model.drive.winding else [])
-    return f"starts in motion, at about {' and '.join(parts)}; the exact state is fitted with it"
+    how = "in motion" if run.begins_turning else "at standstill, held by its drive"
+    return f"starts {how}, at about {' and '.join(parts)}; the exact state is fitted with it"
 
 
 def _speed(run: Run) -> Iterator[str]:

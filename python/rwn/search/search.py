@@ -55,7 +55,8 @@ class SearchResult:
         found = [*self.sensor_errors, *(late.as_finding(given) for late in self.late)]
         found += [
             Finding(
-                kind="in-motion", recording=run.name, signals=(), count=0, words="it starts in motion",
+                kind="in-motion", recording=run.name, signals=(), count=0,
+                words="it starts in motion" if run.begins_turning else "it starts at standstill, held by its drive",
                 done="the exact state is fitted with it",
             )
             for run in self.ranking.problem.whole

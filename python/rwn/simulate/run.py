@@ -142,6 +142,12 @@ class Run:
         return float(np.percentile(np.abs(self.motion[0]), 99.5)) > STANDS * noise
 
     @property
+    def begins_turning(self) -> bool:
+        """Whether its first speed is more than noise: a load that is held makes a current flow at standstill."""
+        noise = noise_from_differences(self.speed) if self.speed.size else 0.0
+        return self.in_motion and abs(self.start[1]) > STANDS * noise
+
+    @property
     def can_restart(self) -> bool:
         """Whether its motion was recorded and it is not in windows already."""
         return bool(self.angle.size) and not self.restart_every
