@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import rwn
+from rwn.recording.denoising import denoised
 from rwn.recording.inspection import inspected
 from rwn.recording.inspection.input_noise import _goes_with, without_input_noise
 from rwn.recording.noise import noise_of_differences
@@ -141,3 +142,13 @@ def test_what_rounding_makes_negative_is_a_chance_of_one(monkeypatch: pytest.Mon
     pinv = np.linalg.pinv
     monkeypatch.setattr(np.linalg, "pinv", lambda *of, **how: -pinv(*of, **how))
     assert _goes_with(noise, other) == 1.0
+
+
+def test_long_courses_are_followed_in_pieces_as_well_as_short_ones() -> None:
+    """Lines with bends, over several times the rows in which lines are sought at once."""
+    rng, rows = np.random.default_rng(7), np.arange(10_000)
+    course = np.interp(rows, rows[::400], rng.uniform(-5.0, 5.0, rows[::400].size))
+    found = denoised(course + 0.2 * rng.standard_normal(rows.size))
+    assert found is not None
+    assert found.noise == pytest.approx(0.2, rel=0.05)
+    assert np.sqrt(np.mean((found.values - course) ** 2)) < 0.2 * 0.25

@@ -20,7 +20,8 @@ RETURNS = 8.0  # over sqrt(m): excess of m squares of means over their noise, wh
 STEADY = 3.0  # deviations of the sum of squares of noise, beyond which a stretch is not steady
 STEP = 6.0  # deviations of the noise beyond which a change from row to row is a step: one in 5e8 by chance
 LEVEL = 0.01  # chance that values which bend nowhere are taken to, and steady ones to step
-NUMBERS = 2.25  # of a cubic smoother over so many rows, by its noise: 9 / 4 of one over the same number
+NUMBERS = 2.25  # that cubics over so many rows take, for each time that these go into all: the noise that they keep
+TOGETHER = 4096  # rows in which lines are sought at once
 NOWHERE: NDArray[np.intp] = np.empty(0, dtype=np.intp)
 
 
@@ -60,10 +61,9 @@ class _Part(NamedTuple):
     course: Array
     numbers: float = 1.0
 
-    def cost(self, noise: float, rows: int) -> float:
-        """What it leaves in units of the noise, and its numbers among so many rows (BIC)."""
-        left = float(np.sum((self.values - self.course) ** 2)) / noise**2
-        return left + self.numbers * float(np.log(rows))
+    def cost(self, noise: float, number: float) -> float:
+        """What it leaves in units of the noise, and for each number that it takes as much as a `number` costs."""
+        return float(np.sum((self.values - self.course) ** 2)) / noise**2 + self.numbers * number
 
 
 def _steps(values: Array, noise: float) -> NDArray[np.intp]:
@@ -75,7 +75,7 @@ def _parts(x: Array, noise: float) -> list[_Part]:
     """Values (n,) along lines with steps and bends between, or smooth between bends, whichever is likelier (BIC)."""
     straight = [_line(part) for part in np.split(x, _corners(x, noise))]
     smoothed = [_smoothed(part, noise) for part in np.split(x, _bends(x, noise))]
-    costs = [sum(part.cost(noise, x.size) for part in parts) for parts in (straight, smoothed)]
+    costs = [sum(part.cost(noise, float(np.log(x.size))) for part in parts) for parts in (straight, smoothed)]
     return straight if costs[0] < costs[1] else smoothed
 
 
@@ -88,11 +88,22 @@ def _line(x: Array) -> _Part:
 def _smoothed(x: Array, noise: float) -> _Part:
     """Values (n,) along cubics over so many rows as predict others best (Mallows 1973)."""
     found = [_Part(x, smooth(x, n), max(x.size * NUMBERS / n, ORDER + 1)) for n in LENGTHS]
-    return min(found, key=lambda part: part.cost(noise, 1) + 2.0 * part.numbers)
+    return min(found, key=lambda part: part.cost(noise, 2.0))
 
 
 def _corners(x: Array, noise: float) -> NDArray[np.intp]:
-    """Where values (n,) that follow lines step or bend: each part is two lines rather than one, by no chance."""
+    """Where values (n,) that follow lines step or bend: each part is two lines rather than one, by no chance.
+
+    Long ones are cut, since what it costs grows as the square of the rows at worst.
+    """
+    begins = range(0, x.size, TOGETHER)
+    enough = 2.0 * float(np.log(x.size / LEVEL)) * noise**2
+    found = [[begin, *(begin + k for k in _corners_of(x[begin : begin + TOGETHER], enough))] for begin in begins]
+    return np.array([k for corners in found for k in corners][1:], dtype=np.intp)
+
+
+def _corners_of(x: Array, enough: float) -> list[int]:
+    """The corners of values (n,), each of which takes more than `enough` off the squares that a line leaves."""
     place = np.arange(x.size, dtype=np.float64)
     columns = np.stack([np.ones(x.size), place, place**2, x, place * x, x**2])
     sums = np.concatenate([np.zeros((6, 1)), np.cumsum(columns, axis=1)], axis=1)
@@ -105,10 +116,10 @@ def _corners(x: Array, noise: float) -> NDArray[np.intp]:
         apart = _off_a_line(sums[:, k] - sums[:, [begin]]) + _off_a_line(sums[:, [end]] - sums[:, k])
         gained = float(_off_a_line(sums[:, [end]] - sums[:, [begin]])[0]) - apart
         best = int(np.argmax(gained))
-        if gained[best] > 2.0 * np.log(x.size / LEVEL) * noise**2:
+        if gained[best] > enough:
             corners.append(int(k[best]))
             open_parts += [(begin, corners[-1]), (corners[-1], end)]
-    return np.sort(np.array(corners, dtype=np.intp))
+    return sorted(corners)
 
 
 def _off_a_line(sums: Array) -> Array:
