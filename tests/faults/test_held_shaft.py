@@ -64,3 +64,12 @@ def test_a_recording_whose_shaft_is_held_is_left_out_where_others_move() -> None
     assert "nothing moves in it, under up to 0.0" in found[0].words
     assert without_held([held], model) == ([held], [])
     assert without_held([held], model, [moving])[0] == []
+
+
+def test_a_small_input_that_moves_nothing_to_be_seen_is_no_brake() -> None:
+    model = rwn.read_model(DEMO / "model.toml")
+    moving = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    rng, n = np.random.default_rng(3), len(moving)
+    still = {"voltage": 1e-3 * moving.signals["voltage"], "speed": 0.5 * rng.standard_normal(n)}
+    small = replace(moving, name="small", signals=still)
+    assert without_held([moving, small], model) == ([moving, small], [])

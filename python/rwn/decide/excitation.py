@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.hypothesis import Hypothesis
-from rwn.fit.problem import Problem
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -39,16 +38,6 @@ def advice(runs: Sequence[Run]) -> str:
 def moves(runs: Sequence[Run]) -> bool:
     """Whether any recording shows that the shaft turned."""
     return any(run.moves for run in runs)
-
-
-def held_against(problem: Problem) -> float:
-    """The largest torque [N m] (force [N]) under which nothing moved; 0 where something did, or none was recorded."""
-    drive, motor = problem.drive, problem.prior.motor
-    runs = [r for r in problem.whole if drive.force or r.current.size]
-    if moves(problem.whole) or not runs:
-        return 0.0
-    torques = [np.abs(drive.driving_torque(motor, r.current, r.input)) for r in runs]
-    return max(float(np.percentile(torque, 99.5)) for torque in torques)
 
 
 def missing(runs: Sequence[Run]) -> list[str]:

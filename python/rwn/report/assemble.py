@@ -17,6 +17,7 @@ from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.statement import Statement, statement
 from rwn.faults.fault import Fault
+from rwn.faults.held_shaft import withstood
 from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import with_uncertainty
 from rwn.fit.intervals import Widening, estimates
@@ -152,7 +153,8 @@ def _next_experiment(
     problem, shaft = decision.ranking.problem, decision.shaft
     if drive.verdict == "insufficient-excitation":
         wanted = excitation.advice(problem.whole)
-        if torque := excitation.held_against(problem):
+        torque = withstood(problem.whole, problem.drive, problem.prior.motor)
+        if torque and not excitation.moves(problem.whole):
             unit = "N" if problem.drive.linear else "N m"
             wanted = f"Nothing moved under up to {quantity(torque, unit)}: friction or a brake holds it. {wanted}"
     elif shaft is not None and not shaft.moves_as_recorded:

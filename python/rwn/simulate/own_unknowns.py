@@ -26,7 +26,7 @@ class LevelPrior(NamedTuple):
 
     def of(self, values: Array, level: float) -> Array:
         """Values (p,) of its parameters under a level."""
-        return values + level if self.adds else values * np.exp(level)
+        return _at(values, level, self.adds)
 
 
 class LevelShare(NamedTuple):
@@ -39,4 +39,8 @@ class LevelShare(NamedTuple):
 
     def of(self, values: Array, level: float) -> Array:
         """Values (p,) of its parameters under a level."""
-        return values + self.share * level if self.adds else values * np.exp(self.share * level)
+        return _at(values, self.share * level, self.adds)
+
+
+def _at(values: Array, level: float, adds: bool) -> Array:
+    return values + level if adds else values * np.exp(level)

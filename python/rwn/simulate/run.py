@@ -136,16 +136,22 @@ class Run:
     @property
     def moves(self) -> bool:
         """Whether it shows that the shaft turned; where neither a speed nor a position was recorded that is assumed."""
-        if not (self.speed.size or self.position.size):
-            return True
-        noise = noise_from_differences(self.speed) if self.speed.size else 0.0
-        return float(np.percentile(np.abs(self.motion[0]), 99.5)) > STANDS * noise
+        known = bool(self.speed.size or self.position.size)
+        return not known or float(np.percentile(np.abs(self.motion[0]), 99.5)) > self._standing_speed
 
     @property
     def begins_turning(self) -> bool:
         """Whether its first speed is more than noise: a load that is held makes a current flow at standstill."""
-        noise = noise_from_differences(self.speed) if self.speed.size else 0.0
-        return self.in_motion and abs(self.start[1]) > STANDS * noise
+        return self.in_motion and abs(self.start[1]) > self._standing_speed
+
+    @property
+    def turning(self) -> Flags:
+        """The samples (n,) in which its smoothed speed is more than noise."""
+        return np.asarray(np.abs(self.motion[0]) > self._standing_speed)
+
+    @property
+    def _standing_speed(self) -> float:
+        return STANDS * noise_from_differences(self.speed) if self.speed.size else 0.0
 
     @property
     def can_restart(self) -> bool:
