@@ -66,8 +66,9 @@ enum class Hook : unsigned {
 constexpr Hook operator|(Hook a, Hook b) { return Hook{static_cast<unsigned>(a) | static_cast<unsigned>(b)}; }
 constexpr bool has(Hook all, Hook one) { return (static_cast<unsigned>(all) & static_cast<unsigned>(one)) != 0; }
 
-/// Where first guesses come from: what the parameters scan; a spectrum over the angle; a change of the residual in time,
-/// as of every effect with `breaks`; a resonance of the residual; or nowhere, as no residual is searched for the effect.
+/// Where first guesses come from: what the parameters scan; a spectrum over the angle; a change of the residual in
+/// time, as of every effect with `breaks`; a resonance of the residual, as of every spring; or nowhere, as no residual
+/// is searched for the effect.
 enum class Guess { scan, spectrum, window, resonance, none };
 
 constexpr std::string_view to_string(Guess guess) {
@@ -128,6 +129,19 @@ consteval bool is_steady_torque() {
          equation_of(E::info.site) == "mechanical";
 }
 
+/// Whether it is a spring with a mass behind it, which rings: both, and the damping, are numbers of its own.
+template <class E>
+consteval bool is_spring() {
+  const auto measured_by = [](const Scale& scale) {
+    for (const Parameter& p : E::parameters) {
+      if (p.scale == scale) return true;
+    }
+    return false;
+  };
+  return has(E::traits.hooks, Hook::joint) && measured_by(scale::stiffness) && measured_by(scale::damping) &&
+         measured_by(scale::inertia);
+}
+
 /// Refuses, with a sentence, what would compile and do nothing.
 template <class E>
 consteval bool is_effect() {
@@ -140,6 +154,7 @@ consteval bool is_effect() {
   static_assert((E::traits.filters.empty() && !is_steady_torque<E>()) || E::parameters.size() == 1,
                 "a filter of a sensor and a steady torque have one parameter");
   static_assert(E::traits.guess != Guess::window, "an effect with `breaks` is sought in time without saying so");
+  static_assert(E::traits.guess != Guess::resonance, "a spring is sought by its resonance without saying so");
   static_assert(!has(hooks, Hook::delay) || E::parameters.size() == 1, "a delay has one parameter");
   static_assert(E::traits.memories >= 0 && E::traits.memories <= max_memories, "an effect has at most max_memories");
   static_assert(static_cast<unsigned>(hooks) != 0, "an effect does something: it lists at least one hook");
@@ -167,8 +182,9 @@ consteval bool is_effect() {
   } else {
     static_assert(E::traits.special_case.empty(), "a special case is named in traits and `specialise` is not there");
   }
-  static_assert(E::traits.memories == 0 || has(hooks, Hook::finish) || has(hooks, Hook::begin) || has(hooks, Hook::follow),
-                "an effect that remembers something says how its memory changes");
+  static_assert(
+      E::traits.memories == 0 || has(hooks, Hook::finish) || has(hooks, Hook::begin) || has(hooks, Hook::follow),
+      "an effect that remembers something says how its memory changes");
   return true;
 }
 
@@ -177,7 +193,8 @@ concept Effect = is_effect<E>();
 
 template <Effect E>
 constexpr Guess guess_of() {
-  return has(E::traits.hooks, Hook::breaks) ? Guess::window : E::traits.guess;
+  if (has(E::traits.hooks, Hook::breaks)) return Guess::window;
+  return is_spring<E>() ? Guess::resonance : E::traits.guess;
 }
 
 /// The speed that a sensor shows of a true one, where it shows it at once, with its parameters at `start`.

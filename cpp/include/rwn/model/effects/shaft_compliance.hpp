@@ -37,7 +37,7 @@ struct ShaftCompliance {
                                                    .scale = scale::inertia,
                                                    .scan = {0.25, 0.6}},
                                          load_viscous_share};
-  static constexpr EffectTraits traits{.hooks = Hook::joint, .guess = Guess::resonance};
+  static constexpr EffectTraits traits{.hooks = Hook::joint};
 
   template <class S>
   static Joint<S> joint(const S* p, const Motor<S>& m) {
