@@ -108,6 +108,18 @@ def test_no_file_is_long() -> None:
     assert not {name: count for name, count in lines.items() if count > LONGEST_FILE}
 
 
+def test_no_line_of_c_plus_plus_is_long() -> None:
+    """By .clang-format; ruff has the same limit for Python."""
+    limit = int(re.search(r"ColumnLimit: (\d+)", (ROOT / ".clang-format").read_text(encoding="utf-8"))[1])  # type: ignore[index]
+    lines = {
+        f"{path.relative_to(ROOT)}:{k}": len(line)
+        for path in SOURCES
+        if path.suffix in (".cpp", ".hpp")
+        for k, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+    }
+    assert not {place: length for place, length in lines.items() if length > limit}
+
+
 def test_no_function_is_long() -> None:
     """Of Python; `.clang-tidy` has the same limit for C++."""
     found = {

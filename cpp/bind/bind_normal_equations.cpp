@@ -90,11 +90,12 @@ Sums sums(const Task& task, const Measured& seen, const Array& parameters, const
 
 void bind_normal_equations(py::module_& m) {
   py::class_<Measured>(m, "Measurements", "Recorded signals (n) of one run; empty: not recorded, NaN: does not count.")
-      .def(py::init(&measured_from), py::kw_only(), "current"_a = Array(0), "speed"_a = Array(0), "position"_a = Array(0),
-           "weights"_a = std::array<double, 3>{1.0, 1.0, 1.0}, "speed_difference"_a = std::array<std::size_t, 2>{},
-           "reflection"_a = std::array<std::vector<double>, 3>{},
+      .def(py::init(&measured_from), py::kw_only(), "current"_a = Array(0), "speed"_a = Array(0),
+           "position"_a = Array(0), "weights"_a = std::array<double, 3>{1.0, 1.0, 1.0},
+           "speed_difference"_a = std::array<std::size_t, 2>{}, "reflection"_a = std::array<std::vector<double>, 3>{},
            "weights: 1 / standard deviation of current, speed and position; speed_difference: samples before and after "
-           "between whose positions the speed was taken; reflection: partial autocorrelations of the noise of each, whose "
+           "between whose positions the speed was taken; reflection: partial autocorrelations of the noise of each, "
+           "whose "
            "errors then count as what is new in them.");
   m.def("innovations", &innovations_of, "errors"_a, "reflection"_a, "restart"_a = 0,
         "What is new in errors (n) whose noise has these partial autocorrelations; NaN is passed over.");

@@ -8,11 +8,13 @@ void bind_rates(py::module_& m) {
   m.def("rate_rules", &rate_rules, "Name and guarantee of every learning-rate rule.");
   m.def("rate_defaults", [] {
     py::dict all;
-    all["thesis"] = defaults_of<ThesisRates>(std::pair{"fraction", &ThesisRates::fraction}, std::pair{"shared", &ThesisRates::shared},
-                                             std::pair{"misprint", &ThesisRates::misprint}, std::pair{"eigen", &ThesisRates::eigen});
+    all["thesis"] = defaults_of<ThesisRates>(
+        std::pair{"fraction", &ThesisRates::fraction}, std::pair{"shared", &ThesisRates::shared},
+        std::pair{"misprint", &ThesisRates::misprint}, std::pair{"eigen", &ThesisRates::eigen});
     all["thesis"]["maxima"] = std::string(to_string(ThesisRates{}.maxima));
     all["tightened"] = defaults_of<TightenedRates>(std::pair{"fraction", &TightenedRates::fraction},
-                                                   std::pair{"shared", &TightenedRates::shared}, std::pair{"eigen", &TightenedRates::eigen});
+                                                   std::pair{"shared", &TightenedRates::shared},
+                                                   std::pair{"eigen", &TightenedRates::eigen});
     all["tightened"]["maxima"] = std::string(to_string(TightenedRates{}.maxima));
     all["impulse-response"] = defaults_of<ImpulseResponseRates>(std::pair{"shared", &ImpulseResponseRates::shared});
     all["normalised"] = defaults_of<NormalisedRates>(std::pair{"fraction", &NormalisedRates::fraction},

@@ -12,13 +12,16 @@ void bind_recurrent_network(py::module_& m) {
            }),
            "theta"_a.noconvert(), "inputs"_a, "wavelet"_a)
       .def_property_readonly("theta", [](const RecurrentNetwork& n) { return Vector(n.theta()); })
-      .def("simulate", [](const RecurrentNetwork& n, const Inputs& x) { return simulate(n, x); }, "x"_a.noconvert(), release)
-      .def("sensitivities",
-           [](const RecurrentNetwork& n, const Inputs& x) {
-             RecurrentSensitivities s = sensitivities(n, x);
-             return std::make_pair(std::move(s.output), std::move(s.jacobian));
-           },
-           "x"_a.noconvert(), release);
+      .def(
+          "simulate", [](const RecurrentNetwork& n, const Inputs& x) { return simulate(n, x); }, "x"_a.noconvert(),
+          release)
+      .def(
+          "sensitivities",
+          [](const RecurrentNetwork& n, const Inputs& x) {
+            RecurrentSensitivities s = sensitivities(n, x);
+            return std::make_pair(std::move(s.output), std::move(s.jacobian));
+          },
+          "x"_a.noconvert(), release);
 }
 
 }  // namespace rwn::bind

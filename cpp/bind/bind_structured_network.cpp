@@ -11,17 +11,19 @@ void bind_structured_network(py::module_& m) {
            "theta"_a.noconvert(), "wavelet"_a)
       .def_property_readonly("theta", [](const StructuredNetwork& n) { return Vector(n.theta()); })
       .def_property_readonly("plant", &StructuredNetwork::plant)
-      .def("simulate",
-           [](const StructuredNetwork& n, const VectorRef& input, const VectorRef& speed, const Eigen::Vector2d& start) {
-             return simulate(n, {input, speed, start});
-           },
-           "input"_a.noconvert(), "speed"_a.noconvert(), "start"_a, release)
-      .def("sensitivities",
-           [](const StructuredNetwork& n, const VectorRef& input, const VectorRef& speed, const Eigen::Vector2d& start) {
-             StructuredSensitivities s = sensitivities(n, {input, speed, start});
-             return std::make_pair(std::move(s.speed), std::move(s.jacobian));
-           },
-           "input"_a.noconvert(), "speed"_a.noconvert(), "start"_a, release);
+      .def(
+          "simulate",
+          [](const StructuredNetwork& n, const VectorRef& input, const VectorRef& speed, const Eigen::Vector2d& start) {
+            return simulate(n, {input, speed, start});
+          },
+          "input"_a.noconvert(), "speed"_a.noconvert(), "start"_a, release)
+      .def(
+          "sensitivities",
+          [](const StructuredNetwork& n, const VectorRef& input, const VectorRef& speed, const Eigen::Vector2d& start) {
+            StructuredSensitivities s = sensitivities(n, {input, speed, start});
+            return std::make_pair(std::move(s.speed), std::move(s.jacobian));
+          },
+          "input"_a.noconvert(), "speed"_a.noconvert(), "start"_a, release);
 
   m.def("plant_gain",
         [](double a11, double a12, double a21, double a22) {

@@ -27,16 +27,24 @@ void bind_wavelets(py::module_& m) {
       .def_property_readonly("max_value", &Wavelet::max_value)
       .def_property_readonly("max_derivative", &Wavelet::max_derivative)
       .def_property_readonly("max_scaled_derivative", &Wavelet::max_scaled_derivative)
-      .def("value", [](const Wavelet& w, const Array& z) { return over(w, z, [](const auto& k, double x) { return k.value(x); }); },
-           "z"_a.noconvert())
-      .def("derivative",
-           [](const Wavelet& w, const Array& z) { return over(w, z, [](const auto& k, double x) { return k.derivative(x); }); },
-           "z"_a.noconvert())
-      .def("second_derivative",
-           [](const Wavelet& w, const Array& z) {
-             return over(w, z, [](const auto& k, double x) { return k.second_derivative(x); });
-           },
-           "z"_a.noconvert());
+      .def(
+          "value",
+          [](const Wavelet& w, const Array& z) {
+            return over(w, z, [](const auto& k, double x) { return k.value(x); });
+          },
+          "z"_a.noconvert())
+      .def(
+          "derivative",
+          [](const Wavelet& w, const Array& z) {
+            return over(w, z, [](const auto& k, double x) { return k.derivative(x); });
+          },
+          "z"_a.noconvert())
+      .def(
+          "second_derivative",
+          [](const Wavelet& w, const Array& z) {
+            return over(w, z, [](const auto& k, double x) { return k.second_derivative(x); });
+          },
+          "z"_a.noconvert());
 }
 
 }  // namespace rwn::bind

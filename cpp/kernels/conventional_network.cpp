@@ -6,7 +6,8 @@
 namespace rwn::RWN_ISA {
 namespace {
 
-/// Phi = prod_i phi(z_i) (2.5), returned; slope_i = phi'(z_i) prod_{l != i} phi(z_l) (2.19), by products from both ends.
+/// Phi = prod_i phi(z_i) (2.5), returned; slope_i = phi'(z_i) prod_{l != i} phi(z_l) (2.19), by products from both
+/// ends.
 template <class W, class Z>
 RWN_INLINE Pack product(const W& wavelet, int inputs, const Z& z, double* row, double* slope, int stride) {
   Pack before = 1.0;
@@ -26,7 +27,8 @@ RWN_INLINE Pack product(const W& wavelet, int inputs, const Z& z, double* row, d
 }
 
 template <class W>
-double evaluate_with(const W& wavelet, const ConventionalView& n, const PatternsView& patterns, const BatchView& batch) {
+double evaluate_with(const W& wavelet, const ConventionalView& n, const PatternsView& patterns,
+                     const BatchView& batch) {
   const int stride = patterns.padded;
   Pack squares = 0.0;
   for (int p = 0; p < stride; p += width) {
@@ -71,8 +73,8 @@ RWN_INLINE double dot(const double* u, const double* v, int padded) {
 }
 
 /// The m and d gradients of one wavelet and input (2.17, 2.18), summed over outputs.
-void shape_gradient(const ConventionalView& n, const PatternsView& patterns, const BatchView& batch, int j, int i, double* gm,
-                    double* gd) {
+void shape_gradient(const ConventionalView& n, const PatternsView& patterns, const BatchView& batch, int j, int i,
+                    double* gm, double* gd) {
   const int stride = patterns.padded;
   const int at = j * n.inputs + i;
   const double* slope = batch.slope + at * stride;

@@ -97,7 +97,8 @@ struct Run {
       for (long i = 0; i < inputs(); ++i) {
         double* at = input(v, i);
         for (int k = 0; k < 3; ++k) {
-          store(at + (kShape + k) * width, load(at + (kShape + k) * width) + step[k] * load(at + (kSlopes + k) * width));
+          store(at + (kShape + k) * width,
+                load(at + (kShape + k) * width) + step[k] * load(at + (kSlopes + k) * width));
         }
       }
     }

@@ -25,7 +25,8 @@ int run(int drive, const SimulationSlice& slice) {
     if constexpr ((N == 0 || N == width_of_two_masses) && !Drive::coefficients) {
       if (slice.masses == 2) return run_masses<N, Drive, 2>(slice);
     }
-    constexpr int whole = (N + RWN_VECTOR_WIDTH - 1) / RWN_VECTOR_WIDTH * RWN_VECTOR_WIDTH;  // vectors, the last half empty
+    constexpr int whole =
+        (N + RWN_VECTOR_WIDTH - 1) / RWN_VECTOR_WIDTH * RWN_VECTOR_WIDTH;  // vectors, the last half empty
     constexpr int width = N > 0 && few_widths ? width_for<Drive>(1000) : whole;
     if constexpr (width_for<Drive>(N) == N) return run_masses<width, Drive, 1>(slice);
     return 0;  // never called: no run of this drive asks for so many

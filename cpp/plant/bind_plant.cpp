@@ -33,7 +33,9 @@ py::array_t<double> sampled(const std::map<std::string, double>& values, const A
   double* rows = out.mutable_data();
   {
     const py::gil_scoped_release free_others;
-    const double scale = n == 0 ? 0.0 : std::abs(*std::max_element(v, v + n, [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    const double scale =
+        n == 0 ? 0.0
+               : std::abs(*std::max_element(v, v + n, [](double a, double b) { return std::abs(a) < std::abs(b); }));
     Plant plant(parameters_from(values), sample_time, scale, substeps, fineness);
     for (py::ssize_t k = 0; k < n; ++k) {
       std::ranges::copy(row_of(plant.sample()), rows + k * static_cast<py::ssize_t>(plant_sample_width));
@@ -63,12 +65,15 @@ PYBIND11_MODULE(_plant, m, pybind11::mod_gil_not_used()) {
   m.def("run", &sampled, "parameters"_a, "voltage"_a.noconvert(), "sample_time"_a, "substeps"_a, "fineness"_a,
         "Rows of (current, speed, position, sensed current, sensed speed, temperature rise), one per voltage.");
   py::class_<Plant>(m, "Plant", "The blind trials' motor, one sample at a time.")
-      .def(py::init([](const std::map<std::string, double>& values, double sample_time, double voltage_scale, int substeps,
-                       double fineness) { return Plant(parameters_from(values), sample_time, voltage_scale, substeps, fineness); }),
+      .def(py::init([](const std::map<std::string, double>& values, double sample_time, double voltage_scale,
+                       int substeps, double fineness) {
+             return Plant(parameters_from(values), sample_time, voltage_scale, substeps, fineness);
+           }),
            "parameters"_a, "sample_time"_a, "voltage_scale"_a, "substeps"_a, "fineness"_a)
       .def("step", py::overload_cast<double>(&Plant::step), "voltage"_a)
       .def("step", &watched, "voltage"_a, "instants"_a,
-           "The same; returns (current, speed, position, sensed current, sensed speed, temperature rise) at `instants` even\n"
+           "The same; returns (current, speed, position, sensed current, sensed speed, temperature rise) at `instants` "
+           "even\n"
            "places of the step, the first at its beginning.")
       .def("wait", &Plant::wait)
       .def("sample", [](const Plant& plant) { return row_of(plant.sample()); })

@@ -25,14 +25,16 @@ Plant::Plant(const PlantParameters& parameters, double sample_time, double volta
   }
   const double elsewhere = p_.load_inertia + p_.absorber_inertia + std::abs(p_.inertia_variation);
   if (!(p_.inductance > 0.0) || !(p_.inertia > elsewhere) || !(p_.delay >= 0.0)) {
-    throw std::invalid_argument("plant: inductance and the inertia left on the motor side must be positive, delay not negative");
+    throw std::invalid_argument(
+        "plant: inductance and the inertia left on the motor side must be positive, delay not negative");
   }
   two_mass_ = p_.load_inertia > 0.0;
   lugre_ = p_.bristle_stiffness > 0.0;
-  dry_ = !lugre_ && (p_.coulomb_plus > 0.0 || p_.coulomb_minus > 0.0 || p_.stribeck_excess > 0.0 || p_.friction_ratio > 0.0 ||
-                     p_.iron_loss > 0.0);
-  const double stiff = 1.0 / std::max(p_.speed_lag, 1e-12) * (p_.speed_lag > 0.0) +
-                       (lugre_ ? p_.bristle_stiffness * 1.2 * voltage_scale / p_.back_emf_constant / p_.coulomb_plus : 0.0);
+  dry_ = !lugre_ && (p_.coulomb_plus > 0.0 || p_.coulomb_minus > 0.0 || p_.stribeck_excess > 0.0 ||
+                     p_.friction_ratio > 0.0 || p_.iron_loss > 0.0);
+  const double stiff =
+      1.0 / std::max(p_.speed_lag, 1e-12) * (p_.speed_lag > 0.0) +
+      (lugre_ ? p_.bristle_stiffness * 1.2 * voltage_scale / p_.back_emf_constant / p_.coulomb_plus : 0.0);
   const double needed = sample_time * std::max(fastest_rate(voltage_scale) / fineness, stiff / 1.5);
   substeps_ = static_cast<int>(std::clamp(std::ceil(needed), double(substeps), double(most_substeps)));
   whole_delay_ = static_cast<std::size_t>(p_.delay / sample_time);
@@ -54,7 +56,8 @@ double Plant::fastest_rate(double voltage_scale) const {
   if (p_.ripple_amplitude != 0.0) angular = std::max(angular, p_.ripple_harmonic);
   if (p_.inertia_variation != 0.0) angular = std::max(angular, 2.0);
   if (p_.friction_wave != 0.0) angular = std::max(angular, 5.0);
-  double rate = std::max({electrical, coupled, angular * top_speed, two_pi * p_.periodic_frequency * (p_.periodic_amplitude != 0.0)});
+  double rate = std::max(
+      {electrical, coupled, angular * top_speed, two_pi * p_.periodic_frequency * (p_.periodic_amplitude != 0.0)});
   const double motor_side = rotor_inertia();
   const double supply = two_pi * p_.supply_ripple_frequency * (p_.supply_ripple != 0.0);
   rate = std::max({rate, supply, std::sqrt(p_.load_spring / motor_side)});

@@ -39,7 +39,19 @@ class Plant {
   int substeps() const { return substeps_; }
 
  private:
-  enum Index : std::size_t { current, speed, position, load_speed, load_position, bristle, heat, lagged, absorber_speed, absorber_position, size };
+  enum Index : std::size_t {
+    current,
+    speed,
+    position,
+    load_speed,
+    load_position,
+    bristle,
+    heat,
+    lagged,
+    absorber_speed,
+    absorber_position,
+    size
+  };
   using State = std::array<double, size>;
   enum class Contact { backward = -1, sticks = 0, forward = 1, frictionless = 2 };
 

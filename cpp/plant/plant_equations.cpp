@@ -77,10 +77,12 @@ double Plant::loads(const State& x, double t) const {
   double torque = (p_.viscous_friction - p_.load_viscous) * w;
   torque += (p_.quadratic_drag * speed_now + p_.cubic_drag * w * w) * w;
   if (p_.root_drag != 0.0) torque += p_.root_drag * sign(w) * std::sqrt(speed_now);
-  if (p_.cogging_amplitude != 0.0) torque += p_.cogging_amplitude * std::sin(p_.cogging_periods * x[position] + p_.cogging_phase);
+  if (p_.cogging_amplitude != 0.0)
+    torque += p_.cogging_amplitude * std::sin(p_.cogging_periods * x[position] + p_.cogging_phase);
   if (p_.unbalance_amplitude != 0.0) torque += p_.unbalance_amplitude * std::sin(x[position] + p_.unbalance_phase);
   if (loaded_) torque += p_.load_torque;
-  if (p_.periodic_amplitude != 0.0) torque += p_.periodic_amplitude * std::sin(two_pi * p_.periodic_frequency * t + p_.periodic_phase);
+  if (p_.periodic_amplitude != 0.0)
+    torque += p_.periodic_amplitude * std::sin(two_pi * p_.periodic_frequency * t + p_.periodic_phase);
   if (p_.viscous_excess != 0.0) torque += p_.viscous_excess * std::exp(-t / p_.viscous_time) * w;
   if (p_.reluctance_torque != 0.0) torque += p_.reluctance_torque * x[current] * x[current];
   if (p_.inertia_variation != 0.0) torque -= p_.inertia_variation * std::sin(2.0 * x[position]) * w * w;
@@ -100,7 +102,8 @@ Plant::State Plant::derivative(const State& x, double t) const {
   State d{};
   const Electrics e = electrics(x, t);
   d[current] = e.current_rate;
-  if (p_.temperature_coefficient != 0.0 || p_.flux_temperature != 0.0) d[heat] = (e.heating - x[heat] / p_.thermal_resistance) / p_.heat_capacity;
+  if (p_.temperature_coefficient != 0.0 || p_.flux_temperature != 0.0)
+    d[heat] = (e.heating - x[heat] / p_.thermal_resistance) / p_.heat_capacity;
   if (contact_ != Contact::sticks) {
     double torque = e.torque - loads(x, t);
     if (contact_ != Contact::frictionless) {

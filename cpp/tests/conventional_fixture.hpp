@@ -17,7 +17,8 @@ inline ConventionalNetwork random_network(const Wavelet& wavelet, const Conventi
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> dilation(0.5, 1.5);
   Eigen::VectorXd theta = random_matrix(shape.size(), 1, random);
-  theta.tail(shape.wavelets * shape.inputs) = Eigen::VectorXd::NullaryExpr(shape.wavelets * shape.inputs, [&] { return dilation(random); });
+  theta.tail(shape.wavelets * shape.inputs) =
+      Eigen::VectorXd::NullaryExpr(shape.wavelets * shape.inputs, [&] { return dilation(random); });
   return {wavelet, shape, theta};
 }
 

@@ -31,15 +31,16 @@ Patterns::Patterns(const RowMatrixRef& x, const RowMatrixRef& y)
       x_(by_column(x)),
       y_(by_column(y)),
       mask_(static_cast<std::size_t>(padded(count_)), 0.0) {
-  expect(x.rows() == y.rows(), "x and y must hold the same number of patterns, got " + std::to_string(x.rows()) + " and " +
-                                   std::to_string(y.rows()));
+  expect(x.rows() == y.rows(), "x and y must hold the same number of patterns, got " + std::to_string(x.rows()) +
+                                   " and " + std::to_string(y.rows()));
   expect(count_ > 0, "at least one pattern is needed");
   std::fill_n(mask_.begin(), count_, 1.0);
 }
 
 ConventionalNetwork::ConventionalNetwork(Wavelet wavelet, ConventionalShape shape, Eigen::VectorXd parameters)
     : wavelet_(wavelet), shape_(shape), parameters_(std::move(parameters)) {
-  expect(shape.inputs > 0 && shape.outputs > 0 && shape.wavelets >= 0, "a network needs at least one input and one output");
+  expect(shape.inputs > 0 && shape.outputs > 0 && shape.wavelets >= 0,
+         "a network needs at least one input and one output");
   expect(parameters_.size() == shape.size(), "a network with " + std::to_string(shape.inputs) + " inputs, " +
                                                  std::to_string(shape.wavelets) + " wavelets and " +
                                                  std::to_string(shape.outputs) + " outputs has " +
@@ -90,8 +91,8 @@ Batch::Batch(const ConventionalShape& shape, const Patterns& patterns)
       slope_(static_cast<std::size_t>(shape.wavelets * shape.inputs * stride_)),
       error_(static_cast<std::size_t>(shape.outputs * stride_)),
       row_(static_cast<std::size_t>(shape.inputs * lanes)) {
-  expect(patterns.inputs() == shape.inputs, "the network has " + std::to_string(shape.inputs) + " inputs, the patterns " +
-                                                std::to_string(patterns.inputs()));
+  expect(patterns.inputs() == shape.inputs, "the network has " + std::to_string(shape.inputs) +
+                                                " inputs, the patterns " + std::to_string(patterns.inputs()));
   expect(patterns.outputs() == shape.outputs, "the network has " + std::to_string(shape.outputs) +
                                                   " outputs, the patterns " + std::to_string(patterns.outputs()));
 }

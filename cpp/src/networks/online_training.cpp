@@ -26,13 +26,16 @@ std::string_view to_string(OnlineStatus status) {
 std::string_view advice(OnlineStatus status) {
   switch (status) {
     case OnlineStatus::stalled:
-      return "The parameters no longer move though an error is left: see the report for a defective M or |c/d| >= 1, take "
+      return "The parameters no longer move though an error is left: see the report for a defective M or |c/d| >= 1, "
+             "take "
              "rates from a pre-pass, or the recursive Gauss-Newton trainer.";
     case OnlineStatus::unstable:
-      return "The learned plant has an eigenvalue on or outside the unit circle, so no rate bound holds: start nearer to "
+      return "The learned plant has an eigenvalue on or outside the unit circle, so no rate bound holds: start nearer "
+             "to "
              "the truth, lower the fraction, or sample faster.";
     case OnlineStatus::diverged:
-      return "The error grew without bound and the parameters before that cycle are returned: lower the fraction, share "
+      return "The error grew without bound and the parameters before that cycle are returned: lower the fraction, "
+             "share "
              "the rates, follow the state, or take the recursive Gauss-Newton trainer.";
     case OnlineStatus::completed:
       break;
@@ -103,8 +106,8 @@ bool same_bits(const Vector& a, const Vector& b) {
   return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
-/// The cycles of a run. A cycle that ends, bit for bit, with the parameters and the memory of the rule that it began with
-/// would be repeated by every later one, so that those are not run.
+/// The cycles of a run. A cycle that ends, bit for bit, with the parameters and the memory of the rule that it began
+/// with would be repeated by every later one, so that those are not run.
 template <class Rates>
 class Cycles {
  public:

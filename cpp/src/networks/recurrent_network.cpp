@@ -48,7 +48,13 @@ RecurrentRun::RecurrentRun(const RecurrentNetwork& network)
   const long vectors = (network.wavelets() + width - 1) / width;
   stride_ = (kOutputRows + network.inputs() * kInputRows) * width;
   lanes_.resize(static_cast<std::size_t>(vectors * stride_));
-  block_ = {linear_.data(), lanes_.data(), vectors, network.inputs(), network.wavelet().index(), network.wavelet().omega0(), {}};
+  block_ = {linear_.data(),
+            lanes_.data(),
+            vectors,
+            network.inputs(),
+            network.wavelet().index(),
+            network.wavelet().omega0(),
+            {}};
   for (Eigen::Index j = 0; j < vectors * width; ++j) {
     for (Eigen::Index i = 0; i < network.inputs(); ++i) {
       lanes_[at(i, kShape, j)] = kPaddingTranslation;
@@ -141,7 +147,8 @@ void check(const RecurrentNetwork& network, const RecurrentSignals& signals) {
       signals.output.size() < 1) {
     throw std::invalid_argument("inputs: expected (" + std::to_string(signals.output.size()) + ", " +
                                 std::to_string(network.inputs()) + ") to go with the output, got (" +
-                                std::to_string(signals.inputs.rows()) + ", " + std::to_string(signals.inputs.cols()) + ")");
+                                std::to_string(signals.inputs.rows()) + ", " + std::to_string(signals.inputs.cols()) +
+                                ")");
   }
 }
 

@@ -46,7 +46,9 @@ class Batch {
   }
 
  private:
-  std::size_t size(Eigen::Index rows) const { return static_cast<std::size_t>(std::max<Eigen::Index>(rows, 1) * width_); }
+  std::size_t size(Eigen::Index rows) const {
+    return static_cast<std::size_t>(std::max<Eigen::Index>(rows, 1) * width_);
+  }
   std::size_t at(Eigen::Index k, Eigen::Index lane) const {
     const Eigen::Index group = k / wavelets_;
     return static_cast<std::size_t>(((k % wavelets_) * kNetworkRows + kTheta + group) * width_ + lane);

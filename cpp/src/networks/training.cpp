@@ -26,7 +26,8 @@ std::string_view advice(TrainingStatus status) {
     case TrainingStatus::stalled:
       return "The error no longer changes: start from another initialisation (selection), or add wavelets.";
     case TrainingStatus::diverged:
-      return "The error grew without bound and the best network met is returned: lower the rate or the momentum, or scale "
+      return "The error grew without bound and the best network met is returned: lower the rate or the momentum, or "
+             "scale "
              "the inputs to [-1, 1].";
     case TrainingStatus::iteration_limit:
       break;

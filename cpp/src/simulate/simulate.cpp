@@ -62,7 +62,8 @@ bool has_coefficients(int drive) {
 
 void check_own(const SimulationTask& task) {
   require(task.own.size() <= max_own_effects, "simulate: too many own effects");
-  require(!has_coefficients(task.drive) || task.own.empty(), "simulate: a transfer function has no equations for own effects");
+  require(!has_coefficients(task.drive) || task.own.empty(),
+          "simulate: a transfer function has no equations for own effects");
   const int effects = effect_count + static_cast<int>(task.own.size());
   for (int effect : task.active) require(effect >= 0 && effect < effects, "simulate: no such effect");
 }
@@ -85,7 +86,8 @@ void check(const SimulationTask& task, const SimulationOutput& output) {
           "simulate: windows need the recorded motion at every sample");
   require(task.parameters.size() == static_cast<std::size_t>(parameter_count()),
           "simulate: wrong number of parameters");
-  require(!has_coefficients(task.drive) || (task.order >= 1 && task.order <= max_order), "simulate: order out of range");
+  require(!has_coefficients(task.drive) || (task.order >= 1 && task.order <= max_order),
+          "simulate: order out of range");
   require(task.active.size() <= max_active_effects, "simulate: too many effects at once");
   check_own(task);
   require(joint_count(task.active) <= 1, "simulate: two effects bring a second mass");
@@ -123,7 +125,8 @@ std::string_view advice(SimulationStatus status) {
       "The simulation ran to the end.",
       "The simulation left the finite numbers: look for a negative inertia or inductance, or an unstable model.",
       "The formula of an own effect has no finite value somewhere on the way: look for a division by zero, a root or "
-      "logarithm of what may be negative, or an overflow; abs, max and tighter bounds of its parameters keep it in range."};
+      "logarithm of what may be negative, or an overflow; abs, max and tighter bounds of its parameters keep it in "
+      "range."};
   return texts[static_cast<std::size_t>(status)];
 }
 

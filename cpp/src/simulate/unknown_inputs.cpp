@@ -27,7 +27,8 @@ class TaskEffects {
       if (effect >= effect_count) {
         const int slot = effect - effect_count;
         const auto& formula = own_.at(static_cast<std::size_t>(slot));
-        active.push_back({functions_of(formula), at(first_own_parameter() + slot * max_own_parameters), memories, &formula});
+        active.push_back(
+            {functions_of(formula), at(first_own_parameter() + slot * max_own_parameters), memories, &formula});
         continue;
       }
       const auto& call = all_effect_functions<Real>[static_cast<std::size_t>(effect)];
@@ -55,8 +56,8 @@ class TaskEffects {
 template <class Drive, int masses>
 void along(const SimulationTask& task, const GivenMotion& motion, std::span<double> torque, std::span<double> voltage) {
   TaskEffects effects(task);
-  Equations<Real, Drive, masses> equations(effects.motor, effects.active.data(), static_cast<int>(effects.active.size()),
-                                           task.angle_per_position);
+  Equations<Real, Drive, masses> equations(effects.motor, effects.active.data(),
+                                           static_cast<int>(effects.active.size()), task.angle_per_position);
   using State = DriveState<Real, Drive, masses>;
   const auto move = [&](State& s, std::size_t k) {
     s.x[State::w] = motion.speed[k];
@@ -94,13 +95,15 @@ void along(const SimulationTask& task, const GivenMotion& motion, std::span<doub
 void unknown_inputs(const SimulationTask& task, const GivenMotion& motion, std::span<double> torque,
                     std::span<double> voltage) {
   const std::size_t n = task.time.size();
-  require(n > 0 && task.input.size() == n && task.input_time.empty() && motion.speed.size() == n && motion.position.size() == n &&
-              motion.acceleration.size() == n && torque.size() == n,
+  require(n > 0 && task.input.size() == n && task.input_time.empty() && motion.speed.size() == n &&
+              motion.position.size() == n && motion.acceleration.size() == n && torque.size() == n,
           "unknown_inputs: the signals differ in length");
-  require(motion.current.size() == motion.current_slope.size() && (motion.current.empty() || motion.current.size() == n),
-          "unknown_inputs: the current and its slope differ in length from time");
+  require(
+      motion.current.size() == motion.current_slope.size() && (motion.current.empty() || motion.current.size() == n),
+      "unknown_inputs: the current and its slope differ in length from time");
   require(voltage.empty() || voltage.size() == n, "unknown_inputs: voltage differs in length from time");
-  require(task.parameters.size() == static_cast<std::size_t>(parameter_count()), "unknown_inputs: wrong number of parameters");
+  require(task.parameters.size() == static_cast<std::size_t>(parameter_count()),
+          "unknown_inputs: wrong number of parameters");
   const bool two = joint_count(task.active) > 0;
   with_drive(task.drive, [&](auto d) {
     using Drive = decltype(d);

@@ -59,7 +59,8 @@ TEST(Formula, OperationsOfTwoTakeTheirValueAndItsSlopes) {
     left.push_back(op(operation));
     return value(left);
   };
-  const Steps speed{variable(Variable::speed)}, current{variable(Variable::current)}, two{number(2.0)}, three{number(3.0)};
+  const Steps speed{variable(Variable::speed)}, current{variable(Variable::current)}, two{number(2.0)},
+      three{number(3.0)};
   const Steps lost{number(-1.0), op(Operation::log)};  // not a number
   expect_equal(of(speed, current, Operation::min), i);
   expect_equal(of(current, speed, Operation::min), i);

@@ -53,7 +53,9 @@ TEST(DyadicGrid, TakesTheRestFromTheFinestScale) {
   EXPECT_THROW(dyadic_grid(line, 10, {0}), std::invalid_argument);
 }
 
-TEST(Initialisation, RefusesAConstantInput) { EXPECT_THROW(heuristic(RowMatrix::Ones(5, 1), 3), std::invalid_argument); }
+TEST(Initialisation, RefusesAConstantInput) {
+  EXPECT_THROW(heuristic(RowMatrix::Ones(5, 1), 3), std::invalid_argument);
+}
 
 TEST(Selection, FindsThePlantedWavelets) {
   const Wavelet wavelet("mexican-hat");

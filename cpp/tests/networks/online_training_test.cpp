@@ -28,7 +28,9 @@ struct Ending : StructuredRates {
     return run.train(signals, rates.data());
   }
   StructuredRateValues rates() const override { return {}; }
-  std::vector<double> memory() const override { return remembers ? std::vector<double>{double(run_cycles)} : std::vector<double>{}; }
+  std::vector<double> memory() const override {
+    return remembers ? std::vector<double>{double(run_cycles)} : std::vector<double>{};
+  }
 };
 
 TEST(OnlineTraining, CyclesThatCanOnlyRepeatAreInTheHistoryAndNotRun) {

@@ -44,8 +44,10 @@ TEST(RecurrentNetwork, GradientsMatchFiniteDifferences) {
         Vector plus = net.theta(), minus = net.theta();
         plus[k] += 1e-6;
         minus[k] -= 1e-6;
-        const Vector difference = (simulate({plus, columns, net.wavelet()}, x) - simulate({minus, columns, net.wavelet()}, x)) / 2e-6;
-        EXPECT_LT((s.jacobian.col(k) - difference).cwiseAbs().maxCoeff(), 1e-6 * std::max(1.0, difference.cwiseAbs().maxCoeff()));
+        const Vector difference =
+            (simulate({plus, columns, net.wavelet()}, x) - simulate({minus, columns, net.wavelet()}, x)) / 2e-6;
+        EXPECT_LT((s.jacobian.col(k) - difference).cwiseAbs().maxCoeff(),
+                  1e-6 * std::max(1.0, difference.cwiseAbs().maxCoeff()));
       }
     }
   }
@@ -61,7 +63,8 @@ Vector by_hand(const RecurrentNetwork& net, const RowMatrix& x) {
       double product = 1.0;
       for (Eigen::Index i = 0; i < net.inputs(); ++i) {
         const Eigen::Index k = j * net.inputs() + i;
-        phi[k] = net.wavelet().value((x(n, i) + at.parameters(kLoop)[k] * phi[k] - at.parameters(kShift)[k]) / at.parameters(kScale)[k]);
+        phi[k] = net.wavelet().value((x(n, i) + at.parameters(kLoop)[k] * phi[k] - at.parameters(kShift)[k]) /
+                                     at.parameters(kScale)[k]);
         product *= phi[k];
       }
       out[n] += at.parameters(kOutput)[j] * product;

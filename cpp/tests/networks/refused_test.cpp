@@ -85,11 +85,17 @@ TEST(RecursiveGaussNewton, OptionsThatNoRecursionRunsWithAreRefused) {
   const testing::Recording r(samples);
   const StructuredNetwork network = testing::network(1, 1);
   const Vector spread = Vector::Constant(9, 0.1);
-  const auto train = [&](RecursiveGaussNewton trainer, const Vector& by) { return trainer.train(network, r.signals(), by); };
+  const auto train = [&](RecursiveGaussNewton trainer, const Vector& by) {
+    return trainer.train(network, r.signals(), by);
+  };
   EXPECT_NO_THROW(train({.cycles = 1}, spread));
-  for (const RecursiveGaussNewton& wrong : std::vector<RecursiveGaussNewton>{
-           {.noise = 0.0}, {.forgetting = 0.0}, {.forgetting = 1.1}, {.forgetting_decay = -0.1}, {.forgetting_decay = 1.1},
-           {.underweighting = -1.0}, {.cycles = 0}}) {
+  for (const RecursiveGaussNewton& wrong : std::vector<RecursiveGaussNewton>{{.noise = 0.0},
+                                                                             {.forgetting = 0.0},
+                                                                             {.forgetting = 1.1},
+                                                                             {.forgetting_decay = -0.1},
+                                                                             {.forgetting_decay = 1.1},
+                                                                             {.underweighting = -1.0},
+                                                                             {.cycles = 0}}) {
     expect_refused([&] { train(wrong, spread); });
   }
   Vector negative = spread, lost = spread;
@@ -124,7 +130,8 @@ TEST(StructuredLevenbergMarquardt, MeasurementsThatDoNotFitAreRefused) {
   const StructuredNetwork still(theta, Wavelet()), fed_back = testing::network(1, 1);
   const Vector full = r.speed, cut = r.speed.head(samples - 1), none;
   const std::vector<bool> all(9, true);
-  const auto fit = [](const StructuredNetwork& network, const StructuredMeasurements& data, const std::vector<bool>& learn) {
+  const auto fit = [](const StructuredNetwork& network, const StructuredMeasurements& data,
+                      const std::vector<bool>& learn) {
     return StructuredLevenbergMarquardt{.iterations = 1}.fit(network, data, learn);
   };
   EXPECT_NO_THROW(fit(still, {r.signals(), full, none}, all));

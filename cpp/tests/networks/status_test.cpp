@@ -29,7 +29,8 @@ void expect_words(std::initializer_list<Status> all) {
 TEST(Status, EachHasItsWordAndItsAdvice) {
   expect_words({OnlineStatus::stalled, OnlineStatus::unstable, OnlineStatus::diverged, OnlineStatus::completed});
   expect_words({FitStatus::converged, FitStatus::stuck, FitStatus::iteration_limit});
-  expect_words({TrainingStatus::converged, TrainingStatus::stalled, TrainingStatus::diverged, TrainingStatus::iteration_limit});
+  expect_words(
+      {TrainingStatus::converged, TrainingStatus::stalled, TrainingStatus::diverged, TrainingStatus::iteration_limit});
 }
 
 TEST(Watch, ARunThatLeavesTheNumbersReturnsTheBestThatItMet) {

@@ -28,7 +28,8 @@ Vector by_hand(const StructuredNetwork& net, const StructuredSignals& s) {
   for (Eigen::Index n = 1; n < s.samples(); ++n) {
     double tau = 0.0;
     for (Eigen::Index j = 0; j < net.wavelets(); ++j) {
-      const double z = (s.speed[n - 1] + net.group(kFeedback)[j] * phi[j] - net.group(kTranslation)[j]) / net.group(kDilation)[j];
+      const double z =
+          (s.speed[n - 1] + net.group(kFeedback)[j] * phi[j] - net.group(kTranslation)[j]) / net.group(kDilation)[j];
       phi[j] = net.wavelet().value(z);
       tau += net.group(kWeight)[j] * phi[j];
     }
@@ -56,9 +57,10 @@ TEST_P(StructuredWavelets, SensitivitiesMatchFiniteDifferences) {
     const double step = 1e-6 * std::max(std::abs(net.theta()[k]), k < 5 ? 0.0 : 1e-2);
     plus[k] += step;
     minus[k] -= step;
-    const Vector difference = (simulate({plus, net.wavelet()}, r.signals()) - simulate({minus, net.wavelet()}, r.signals())) /
-                              (2.0 * step);
-    EXPECT_LT((s.jacobian.col(k) - difference).cwiseAbs().maxCoeff(), 2e-6 * difference.cwiseAbs().maxCoeff() + 2e-8) << k;  // the difference is good to 1e-8
+    const Vector difference =
+        (simulate({plus, net.wavelet()}, r.signals()) - simulate({minus, net.wavelet()}, r.signals())) / (2.0 * step);
+    EXPECT_LT((s.jacobian.col(k) - difference).cwiseAbs().maxCoeff(), 2e-6 * difference.cwiseAbs().maxCoeff() + 2e-8)
+        << k;  // the difference is good to 1e-8
   }
 }
 

@@ -67,8 +67,8 @@ TEST(StructuredLevenbergMarquardt, FindsEveryLinearParameterWithTheCurrent) {
   }
   Vector wrong = plant.theta();
   wrong.array() *= Eigen::Array<double, 5, 1>(1.2, 0.85, 1.1, 0.9, 0.99);
-  const auto fit = StructuredLevenbergMarquardt{.gauge = false}.fit({wrong, Wavelet()}, {r.signals(), r.speed, current, 1.0},
-                                                                    std::vector<bool>(5, true));
+  const auto fit = StructuredLevenbergMarquardt{.gauge = false}.fit(
+      {wrong, Wavelet()}, {r.signals(), r.speed, current, 1.0}, std::vector<bool>(5, true));
   EXPECT_EQ(fit.status, FitStatus::converged);
   EXPECT_LT((fit.network.theta() - plant.theta()).cwiseQuotient(plant.theta()).cwiseAbs().maxCoeff(), 1e-8);
 }
@@ -144,8 +144,8 @@ TEST(StructuredLevenbergMarquardt, RefusesToFeedBackANetworkWithMemory) {
   Vector theta = with_friction().theta();
   theta[5 + 21] = 0.1;
   const Vector none;
-  EXPECT_THROW(StructuredLevenbergMarquardt{}.fit({theta, Wavelet()}, {r.signals(), r.speed, none, 1.0, Feed::simulated},
-                                                  std::vector<bool>(33, true)),
+  EXPECT_THROW(StructuredLevenbergMarquardt{}.fit(
+                   {theta, Wavelet()}, {r.signals(), r.speed, none, 1.0, Feed::simulated}, std::vector<bool>(33, true)),
                std::invalid_argument);
   EXPECT_THROW(feed_by_name("other"), std::invalid_argument);
 }

@@ -42,7 +42,8 @@ struct Largest {
 };
 
 /// Bounds of (4.51), (4.63), (4.75), (E.11), (E.23), (4.87), (4.99), (4.111), (4.123).
-StructuredRateValues by_hand(const StructuredNetwork& net, const StructuredSignals& s, const Constants& k, bool misprint) {
+StructuredRateValues by_hand(const StructuredNetwork& net, const StructuredSignals& s, const Constants& k,
+                             bool misprint) {
   const Largest x(net, s);
   const Vector v = net.theta().head(5).cwiseAbs();
   const PlantGain plant = plant_gain_by_eigen(net.plant());

@@ -22,7 +22,10 @@ struct Problem {
 /// Patterns made by a network, and a start a little off it.
 Problem planted(const ConventionalShape& shape) {
   std::mt19937 random(5);
-  Problem p{random_network(Wavelet(), shape, 8), random_network(Wavelet(), shape, 8), random_matrix(60, shape.inputs, random), {}};
+  Problem p{random_network(Wavelet(), shape, 8),
+            random_network(Wavelet(), shape, 8),
+            random_matrix(60, shape.inputs, random),
+            {}};
   p.y = p.truth.output(p.x);
   p.start.parameters() += 0.05 * Eigen::VectorXd(random_matrix(shape.size(), 1, random));
   return p;
@@ -41,10 +44,13 @@ TEST(GradientDescent, MomentumRepeatsTheLastStep) {
   const Problem p = planted({1, 4, 1});
   const Patterns patterns(p.x, p.y);
   const auto after = [&](int n) {
-    return GradientDescent{.rate = 1e-3, .momentum = 0.7, .iterations = n}.train(p.start, patterns).network.parameters();
+    return GradientDescent{.rate = 1e-3, .momentum = 0.7, .iterations = n}
+        .train(p.start, patterns)
+        .network.parameters();
   };
   const ConventionalNetwork one(p.start.wavelet(), p.start.shape(), after(1));
-  const Eigen::VectorXd want = after(1) - 1e-3 / 60.0 * one.gradient(p.x, p.y) + 0.7 * (after(1) - p.start.parameters());
+  const Eigen::VectorXd want =
+      after(1) - 1e-3 / 60.0 * one.gradient(p.x, p.y) + 0.7 * (after(1) - p.start.parameters());
   EXPECT_LT((after(2) - want).norm(), 1e-14);
 }
 

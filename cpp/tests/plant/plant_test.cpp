@@ -45,7 +45,8 @@ TEST(Plant, StepResponseIsThatOfTheLinearMotor) {
   const double mean = 0.5 * (a + d), root = std::sqrt(0.25 * (a - d) * (a - d) + b * c);
   const double slow = mean + root, fast = mean - root;
   const double v = 6.0, t = 20 * sample_time;
-  const double settled = v * p.torque_constant / (p.resistance * p.viscous_friction + p.torque_constant * p.back_emf_constant);
+  const double settled =
+      v * p.torque_constant / (p.resistance * p.viscous_friction + p.torque_constant * p.back_emf_constant);
   // w(0) = 0 and dw/dt(0) = 0.
   const double expected = settled * (1.0 + (fast * std::exp(slow * t) - slow * std::exp(fast * t)) / (slow - fast));
   EXPECT_NEAR(after(p, v, 20).speed, expected, 1e-7 * settled);
@@ -155,7 +156,8 @@ TEST(Plant, CoastsDownThroughTheShortedWinding) {
   const PlantParameters p = motor();
   const double first = coasting(p, 5.0, 20).sample().speed, second = coasting(p, 5.0, 40).sample().speed;
   const double electrical = p.inductance / p.resistance;
-  const double mechanical = p.inertia * p.resistance / (p.torque_constant * p.back_emf_constant + p.resistance * p.viscous_friction);
+  const double mechanical =
+      p.inertia * p.resistance / (p.torque_constant * p.back_emf_constant + p.resistance * p.viscous_friction);
   EXPECT_NEAR(std::log(first / second), 20 * sample_time / (mechanical - electrical), 0.01);
 }
 

@@ -18,7 +18,8 @@ constexpr std::size_t samples = 10;
 
 /// A run of a small motor, and a motion that it is given; every array has a value for each sample.
 struct Case {
-  std::vector<double> time, input = std::vector<double>(samples, 6.0), input_time, angle, restart_speed, restart_position;
+  std::vector<double> time, input = std::vector<double>(samples, 6.0), input_time, angle, restart_speed,
+                            restart_position;
   std::vector<double> parameters = std::vector<double>(static_cast<std::size_t>(parameter_count()), 0.0);
   std::vector<int> active, by;
   std::vector<double> speed = std::vector<double>(samples, 0.0), d_speed;

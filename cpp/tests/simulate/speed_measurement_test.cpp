@@ -8,7 +8,8 @@ namespace rwn {
 namespace {
 
 constexpr std::array time{0.0, 1.0, 3.0, 4.0};
-constexpr std::array position{0.0, 0.0, 1.0, 10.0, 5.0, 50.0, 6.0, 60.0};  // two columns, the second ten times the first
+constexpr std::array position{0.0, 0.0,  1.0, 10.0,
+                              5.0, 50.0, 6.0, 60.0};  // two columns, the second ten times the first
 
 std::array<double, 8> speed_of(SpeedMeasurement measurement) {
   std::array<double, 8> speed{};

@@ -46,7 +46,8 @@ TEST(Work, AddsUp) {
 TEST(Work, OfARunGrowsWithItsLengthAndItsDerivatives) {
   EXPECT_GT(cost(400, 0), 0);
   EXPECT_EQ(cost(400, 4), cost(400, 4));
-  EXPECT_NEAR(static_cast<double>(cost(800, 4)), 2.0 * static_cast<double>(cost(400, 4)), 0.2 * static_cast<double>(cost(400, 4)));
+  EXPECT_NEAR(static_cast<double>(cost(800, 4)), 2.0 * static_cast<double>(cost(400, 4)),
+              0.2 * static_cast<double>(cost(400, 4)));
   EXPECT_GT(cost(400, 4), cost(400, 0));
   EXPECT_GT(cost(400, 6), cost(400, 4));
 }

@@ -12,14 +12,15 @@ struct ConventionalView {
   const double *b, *a, *w, *m, *d;
 };
 
-/// Patterns lie along the lanes: x (inputs, padded), y (outputs, padded), mask (padded) is 1 for a pattern, 0 for padding.
+/// Patterns lie along the lanes: x (inputs, padded), y (outputs, padded), mask (padded) is 1 for a pattern, 0 for
+/// padding.
 struct PatternsView {
   int count, padded;
   const double *x, *y, *mask;
 };
 
-/// What a pass over all patterns leaves behind: phi (wavelets, padded), slope = dPhi_j/dz_ji (wavelets, inputs, padded),
-/// error (outputs, padded), row (inputs, lanes) is scratch.
+/// What a pass over all patterns leaves behind: phi (wavelets, padded), slope = dPhi_j/dz_ji (wavelets, inputs,
+/// padded), error (outputs, padded), row (inputs, lanes) is scratch.
 struct BatchView {
   double *phi, *slope, *error, *row;
 };
@@ -42,7 +43,8 @@ struct ConventionalKernels {
   double (*evaluate)(const ConventionalView&, const PatternsView&, const BatchView&);
   /// g = sum over patterns and outputs of error * dyhat/dtheta, in the order b, a, w, m, d.
   void (*gradient)(const ConventionalView&, const PatternsView&, const BatchView&, double* g);
-  /// One pass with an update after every pattern (x and y time-first); returns the sum of squared errors met on the way.
+  /// One pass with an update after every pattern (x and y time-first); returns the sum of squared errors met on the
+  /// way.
   double (*descend)(const DescentView&, int count, const double* x, const double* y);
 };
 

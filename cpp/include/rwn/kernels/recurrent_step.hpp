@@ -7,8 +7,8 @@ namespace rwn {
 /// Parameter groups of the recurrent network, in the order of rates and of the flat parameter vector.
 enum RecurrentGroup { kBias, kDirect, kOutput, kShift, kScale, kLoop, kRecurrentGroups };
 
-/// Rows of a vector of wavelets: weight and product Phi_j (3.2); then for every input m d c, phi, V1-V3, the derivatives
-/// by m d c, and the product of the factors before this input.
+/// Rows of a vector of wavelets: weight and product Phi_j (3.2); then for every input m d c, phi, V1-V3, the
+/// derivatives by m d c, and the product of the factors before this input.
 enum RecurrentRow { kWeightRow, kProduct, kOutputRows };
 enum RecurrentInputRow { kShape = 0, kFactor = 3, kRecursion = 4, kSlopes = 7, kAhead = 10, kInputRows = 11 };
 
@@ -52,7 +52,8 @@ struct RecurrentKernels {
   void (*correct)(RecurrentBlock&, double error);
   /// One cycle without learning: output[n] = y(n).
   void (*simulate)(RecurrentBlock&, const RecurrentCycle&, double* output);
-  /// One cycle of training, with the rates of the block or with the `thesis` rule at every sample; the sum of squared errors.
+  /// One cycle of training, with the rates of the block or with the `thesis` rule at every sample; the sum of squared
+  /// errors.
   double (*train)(RecurrentBlock&, const RecurrentCycle&);
   double (*train_thesis)(RecurrentBlock&, const RecurrentCycle&, RecurrentBounds&);
 };

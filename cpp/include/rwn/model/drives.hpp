@@ -1,5 +1,5 @@
-// The table of the kinds of drive. A new one is a file in drives/, its include and its entry in the tuple; its counterpart in
-// Python is a file in python/rwn/model/drives/.
+// The table of the kinds of drive. A new one is a file in drives/, its include and its entry in the tuple; its
+// counterpart in Python is a file in python/rwn/model/drives/.
 //
 // What a drive says of itself is in drive.hpp. The integrator, the effects and the second mass know no more.
 #pragma once

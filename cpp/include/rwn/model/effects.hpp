@@ -49,8 +49,9 @@ using Effects =
                PowerLawDrag, LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque,
                Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation,
                BrushVoltageDrop, CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone,
-               VoltageSaturation, SupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag,
-               SpeedMovingAverage, CurrentSensorLag, SensorRectification, SensorGain, SensorBias, SensorQuantization>;
+               VoltageSaturation, SupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay,
+               SpeedSensorLag, SpeedMovingAverage, CurrentSensorLag, SensorRectification, SensorGain, SensorBias,
+               SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

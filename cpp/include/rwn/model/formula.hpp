@@ -234,7 +234,8 @@ bool apply_number(Operation operation, S& a, double b) {
 /// Value of a checked program whose values `push` puts on the stack, which has room for `formula_depth`.
 /// `curve_of`: value of the curve that begins at a step; `sum_of`: of a sum of wavelets.
 template <class S, class Push, class CurveOf, class SumOf>
-S run(const Instruction* program, int length, S* stack, const Push& push, const CurveOf& curve_of, const SumOf& sum_of) {
+S run(const Instruction* program, int length, S* stack, const Push& push, const CurveOf& curve_of,
+      const SumOf& sum_of) {
   S* top = stack;  // one past the last
   for (int k = 0; k < length; ++k) {
     const Instruction& step = program[k];
@@ -264,7 +265,9 @@ Dual<N, Isa> curve_at(const Instruction* curve, const WaveletSum* sums, const Du
   using One = Dual<(N > 0), Isa>;
   Room<One, formula_depth> stack;
   const One at = One::variable(x.v, 0);
-  const auto push = [&](const Instruction& step) { return step.operation == Operation::number ? One(step.number) : at; };
+  const auto push = [&](const Instruction& step) {
+    return step.operation == Operation::number ? One(step.number) : at;
+  };
   const auto none = [](const Instruction*) { return One(0.0); };
   const auto sum_of = [&](const Instruction& step) { return sum_at(sums[step.place], at, &at); };
   const One y = run(curve + 1, static_cast<int>(curve->number), stack.numbers, push, none, sum_of);
@@ -272,8 +275,8 @@ Dual<N, Isa> curve_at(const Instruction* curve, const WaveletSum* sums, const Du
   return x.chain(y.v, y.d[0]);
 }
 
-/// Value of a checked program; `stack` has room for `formula_depth`. p: the effect's own parameters; those and the motor's
-/// count by their values where they are of another kind than the motion.
+/// Value of a checked program; `stack` has room for `formula_depth`. p: the effect's own parameters; those and the
+/// motor's count by their values where they are of another kind than the motion.
 template <class S, class P>
 S evaluate(const Program& program, const P* p, const Motor<P>& motor, const Motion<S>& x, S* stack) {
   const auto over = [&](int place) { return variable_of(static_cast<Variable>(place), x); };

@@ -5,8 +5,8 @@
 //   dtheta/dt = w
 //
 // v passes the actuator effects, what is recorded passes the sensor effects. Other drives (drives/) have
-// something else before the shaft: an axis a known torque (or force) u in place of Kt i. Dry friction is a level that opposes motion and
-// holds at standstill (a set-valued law, integrated exactly by `integrator.hpp`).
+// something else before the shaft: an axis a known torque (or force) u in place of Kt i. Dry friction is a level that
+// opposes motion and holds at standstill (a set-valued law, integrated exactly by `integrator.hpp`).
 #pragma once
 
 #include <array>

@@ -14,7 +14,8 @@ namespace rwn {
 inline constexpr int max_wavelets = 16;  // of one sum
 
 /// sum_k w_k hat(z_k), hat(z) = (1 - z^2) exp(-z^2 / 2), z_k = a_k x + c_k, or a_k sin(f x) + b_k cos(f x) + c_k for a
-/// frequency f that is not 0. w_k is factor_k, times an own parameter where parameter_k is not -1. What is not used is 0.
+/// frequency f that is not 0. w_k is factor_k, times an own parameter where parameter_k is not -1. What is not used is
+/// 0.
 struct WaveletSum {
   int over = 0;  // the variable x
   int count = 0;
@@ -38,7 +39,8 @@ struct WaveletSum {
 template <int N, class Isa, class P>
 Dual<N, Isa> sum_at(const WaveletSum& sum, const Dual<N, Isa>& x, const P* p) {
   using RWN_ISA::load, RWN_ISA::Pack;
-  const double f = sum.frequency, sine = f != 0.0 ? std::sin(f * x.v) : x.v, cosine = f != 0.0 ? std::cos(f * x.v) : 0.0;
+  const double f = sum.frequency, sine = f != 0.0 ? std::sin(f * x.v) : x.v,
+               cosine = f != 0.0 ? std::cos(f * x.v) : 0.0;
   const double of_sine = f != 0.0 ? f * cosine : 1.0, of_cosine = f != 0.0 ? -f * sine : 0.0;
   alignas(64) Room<double, max_wavelets> weights, hats;
   for (int k = 0; k < max_wavelets; ++k) {

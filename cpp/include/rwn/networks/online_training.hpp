@@ -16,7 +16,7 @@ std::string_view advice(OnlineStatus status);
 
 struct OnlineOptions {
   int cycles = 1;
-  int frozen_every = 0;       // cycles between evaluations with frozen parameters; 0: before the first and after the last
+  int frozen_every = 0;  // cycles between evaluations with frozen parameters; 0: before the first and after the last
   bool follow_state = false;  // after each correction x += (dx/dtheta) dtheta (structured network only)
 };
 
@@ -57,8 +57,8 @@ struct StructuredTraining {
   OnlineHistory history;
 };
 
-/// A cycle that leaves the parameters and the rule as they were, bit for bit, is repeated by all that follow: they are in
-/// the history and are not run. `rules.hpp` makes the rates.
+/// A cycle that leaves the parameters and the rule as they were, bit for bit, is repeated by all that follow: they are
+/// in the history and are not run. `rules.hpp` makes the rates.
 /// \throws std::invalid_argument for signals of different lengths or cycles < 1.
 StructuredTraining train(const StructuredNetwork& network, const StructuredSignals& signals, StructuredRates& rates,
                          const StructuredMask& learn, const OnlineOptions& options);

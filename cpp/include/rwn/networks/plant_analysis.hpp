@@ -7,7 +7,8 @@
 
 namespace rwn {
 
-/// The reference for plant_gain: rho(A), and cond(M) in the 2-norm from Eigen's eigendecomposition with unit eigenvectors.
+/// The reference for plant_gain: rho(A), and cond(M) in the 2-norm from Eigen's eigendecomposition with unit
+/// eigenvectors.
 PlantGain plant_gain_by_eigen(const Eigen::Matrix2d& a);
 
 /// Sums over r >= 0 of |C A^r e1| and |C A^r e2|, C = [1 0]: the peak of the speed when a unit drive enters the first

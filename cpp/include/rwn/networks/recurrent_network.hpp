@@ -13,7 +13,8 @@ namespace rwn {
 /// m, d, c (N_w, N_i) row-major.
 class RecurrentNetwork {
  public:
-  /// \throws std::invalid_argument if theta does not have 1 + N_i + N_w + 3 N_w N_i finite entries, or a dilation is zero.
+  /// \throws std::invalid_argument if theta does not have 1 + N_i + N_w + 3 N_w N_i finite entries, or a dilation is
+  /// zero.
   RecurrentNetwork(Vector theta, Eigen::Index inputs, Wavelet wavelet);
 
   Eigen::Index inputs() const { return inputs_; }

@@ -33,8 +33,8 @@ template <class W>
   }
 }
 
-/// m and d of the wavelets that fill a vector up: z = -1e10 wherever the input is, so that they neither answer nor learn,
-/// and 1/|d| is nothing, so that they do not count among the steepest.
+/// m and d of the wavelets that fill a vector up: z = -1e10 wherever the input is, so that they neither answer nor
+/// learn, and 1/|d| is nothing, so that they do not count among the steepest.
 inline constexpr double kPaddingTranslation = 1e60;
 inline constexpr double kPaddingDilation = 1e50;
 

@@ -9,8 +9,8 @@
 
 namespace rwn {
 
-/// Vectors of derivatives one after the other. Members, not an array: the compiler keeps members in registers and copies
-/// them whole, where an array of three is copied in pieces that wait for what has just been stored.
+/// Vectors of derivatives one after the other. Members, not an array: the compiler keeps members in registers and
+/// copies them whole, where an array of three is copied in pieces that wait for what has just been stored.
 template <int count, class Isa>
 struct Vectors {
   using Vector [[gnu::vector_size(RWN_VECTOR_WIDTH * sizeof(double))]] = double;

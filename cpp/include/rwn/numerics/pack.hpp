@@ -41,11 +41,13 @@ RWN_INLINE double max(double a, double b) { return a > b ? a : b; }
 template <class Fold, int lanes = width>
 RWN_INLINE double fold(Pack a, Fold op) {
   if constexpr (lanes == 8) {
-    const auto four = op(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3), __builtin_shufflevector(a.v, a.v, lanes - 4, lanes - 3, lanes - 2, lanes - 1));
+    const auto four = op(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3),
+                         __builtin_shufflevector(a.v, a.v, lanes - 4, lanes - 3, lanes - 2, lanes - 1));
     const auto two = op(__builtin_shufflevector(four, four, 0, 1), __builtin_shufflevector(four, four, 2, 3));
     return op(two[0], two[1]);
   } else if constexpr (lanes == 4) {
-    const auto two = op(__builtin_shufflevector(a.v, a.v, 0, 1), __builtin_shufflevector(a.v, a.v, lanes - 2, lanes - 1));
+    const auto two =
+        op(__builtin_shufflevector(a.v, a.v, 0, 1), __builtin_shufflevector(a.v, a.v, lanes - 2, lanes - 1));
     return op(two[0], two[1]);
   } else {
     return op(a.v[0], a.v[1]);
@@ -89,14 +91,16 @@ RWN_INLINE SinCos sin_cos(Pack a) {
   const Vector k = t - shift;
   const Vector r = ((x - k * 1.5707963267341256142) - k * 6.0771005063039659766e-11) - k * 2.0222662487959507324e-21;
   const Vector s = r * r;
-  const Vector p = -0.16666666666666664621 +
-                   s * (0.0083333333333309461029 +
-                        s * (-0.00019841269836754970014 +
-                             s * (2.755731610068302914e-6 + s * (-2.5051131455427947391e-8 + s * 1.5918101230274120348e-10))));
-  const Vector c = 0.041666666666666665387 +
-                   s * (-0.0013888888888887395746 +
-                        s * (2.4801587298763433164e-5 +
-                             s * (-2.7557317270560324065e-7 + s * (2.0876146024689746601e-9 - s * 1.1382614868556324576e-11))));
+  const Vector p =
+      -0.16666666666666664621 +
+      s * (0.0083333333333309461029 +
+           s * (-0.00019841269836754970014 +
+                s * (2.755731610068302914e-6 + s * (-2.5051131455427947391e-8 + s * 1.5918101230274120348e-10))));
+  const Vector c =
+      0.041666666666666665387 +
+      s * (-0.0013888888888887395746 +
+           s * (2.4801587298763433164e-5 +
+                s * (-2.7557317270560324065e-7 + s * (2.0876146024689746601e-9 - s * 1.1382614868556324576e-11))));
   const Vector sine = r + r * s * p;
   const Vector cosine = (1.0 - 0.5 * s) + s * s * c;
   const Bits quadrant = reinterpret_cast<Bits>(t);

@@ -25,7 +25,8 @@ class Division {
   Division(double h, double effects, double rate, int level) {
     double length = angle_of_a_winding / (rate * resistances_of(level));
     const int most = std::min(2 + level, most_transients);
-    for (; transients_ < most && h - gone_ > length && effects * length <= angle_of_a_step; ++transients_, length *= 2.0) {
+    for (; transients_ < most && h - gone_ > length && effects * length <= angle_of_a_step;
+         ++transients_, length *= 2.0) {
       transient_[static_cast<std::size_t>(transients_)] = length;
       gone_ += length;
     }

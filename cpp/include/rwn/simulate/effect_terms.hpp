@@ -18,7 +18,11 @@ class EffectTerms {
 
   EffectTerms(const Motor<S>& motor, const Electrics& electrics, const ActiveEffect<S>* effects, int count,
               double angle_per_position)
-      : motor_(motor), electrics_(electrics), effects_(effects), count_(count), angle_per_position_(angle_per_position) {}
+      : motor_(motor),
+        electrics_(electrics),
+        effects_(effects),
+        count_(count),
+        angle_per_position_(angle_per_position) {}
 
   /// Input and time of what is integrated next.
   void begin(const S& input, double time) {

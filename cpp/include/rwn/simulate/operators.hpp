@@ -127,8 +127,10 @@ class Operators {
     const bool again = std::any_of(missed_.begin(), missed_.end(), [h](double m) { return same(h, m); });
     if (!again) next_of(missed_, next_missed_) = h;
     const System& s = system(regime);
-    const bool at_rest = s.fastest == 0.0;  // as a shaft without electrics that friction holds: a grid of it has no spacing
-    return again || made_ < most_returning || at_rest || s.fastest * h > longest_between ? over(h, regime) : between(h, s);
+    const bool at_rest =
+        s.fastest == 0.0;  // as a shaft without electrics that friction holds: a grid of it has no spacing
+    return again || made_ < most_returning || at_rest || s.fastest * h > longest_between ? over(h, regime)
+                                                                                         : between(h, s);
   }
 
   /// The step of a length that occurs in one interval alone; it is valid until the next one is asked for.
@@ -204,15 +206,19 @@ class Operators {
   const Step<S>& between(double h, const System& s) {
     const double spacing = spacing_between / s.fastest, at = h / spacing, first = std::floor(at);
     const double t = at - first;
-    const std::array<double, 6> weights{
-        -(t + 1.0) * t * (t - 1.0) * (t - 2.0) * (t - 3.0) / 120.0, (t + 2.0) * t * (t - 1.0) * (t - 2.0) * (t - 3.0) / 24.0,
-        -(t + 2.0) * (t + 1.0) * (t - 1.0) * (t - 2.0) * (t - 3.0) / 12.0, (t + 2.0) * (t + 1.0) * t * (t - 2.0) * (t - 3.0) / 12.0,
-        -(t + 2.0) * (t + 1.0) * t * (t - 1.0) * (t - 3.0) / 24.0, (t + 2.0) * (t + 1.0) * t * (t - 1.0) * (t - 2.0) / 120.0};
+    const std::array<double, 6> weights{-(t + 1.0) * t * (t - 1.0) * (t - 2.0) * (t - 3.0) / 120.0,
+                                        (t + 2.0) * t * (t - 1.0) * (t - 2.0) * (t - 3.0) / 24.0,
+                                        -(t + 2.0) * (t + 1.0) * (t - 1.0) * (t - 2.0) * (t - 3.0) / 12.0,
+                                        (t + 2.0) * (t + 1.0) * t * (t - 2.0) * (t - 3.0) / 12.0,
+                                        -(t + 2.0) * (t + 1.0) * t * (t - 1.0) * (t - 3.0) / 24.0,
+                                        (t + 2.0) * (t + 1.0) * t * (t - 1.0) * (t - 2.0) / 120.0};
     std::array<const Step<S>*, 6> nodes;
-    for (std::size_t j = 0; j < nodes.size(); ++j) nodes[j] = &node(static_cast<int>(first) + static_cast<int>(j) - 2, spacing, s);
+    for (std::size_t j = 0; j < nodes.size(); ++j)
+      nodes[j] = &node(static_cast<int>(first) + static_cast<int>(j) - 2, spacing, s);
     blend(&Step<S>::e, weights, nodes);
     if (equations_.varies()) {
-      for (const auto matrix : {&Step<S>::eh, &Step<S>::p1h, &Step<S>::f1, &Step<S>::f2, &Step<S>::f3}) blend(matrix, weights, nodes);
+      for (const auto matrix : {&Step<S>::eh, &Step<S>::p1h, &Step<S>::f1, &Step<S>::f2, &Step<S>::f3})
+        blend(matrix, weights, nodes);
     } else {
       for (const auto matrix : {&Step<S>::p1, &Step<S>::p2}) blend(matrix, weights, nodes);
     }
@@ -222,7 +228,8 @@ class Operators {
     return between_;
   }
 
-  void blend(Matrix Step<S>::*matrix, const std::array<double, 6>& weights, const std::array<const Step<S>*, 6>& nodes) {
+  void blend(Matrix Step<S>::* matrix, const std::array<double, 6>& weights,
+             const std::array<const Step<S>*, 6>& nodes) {
     Matrix& sum = between_.*matrix;
     for (std::size_t k = 0; k < sum.size(); ++k) {
       S entry = weights[0] * ((*nodes[0]).*matrix)[k];
@@ -251,7 +258,8 @@ class Operators {
   }
 
   static constexpr double same_length = 1e-9;  // relative
-  // times the fastest rate: Lagrange's remainder, 0.07^6 times 3.5 / 6!, is below 1e-9; a grid to 4 has room in the nodes
+  // times the fastest rate: Lagrange's remainder, 0.07^6 times 3.5 / 6!, is below 1e-9; a grid to 4 has room in the
+  // nodes
   static constexpr double spacing_between = 0.07, longest_between = 4.0;
   static constexpr std::size_t most_returning = 16, most_nodes = 64;
 

@@ -10,7 +10,8 @@ namespace rwn {
 /// Number of samples that stayed finite; each is shown by `show(k, state)`. `rest`: where it begins, and where friction
 /// stops or holds it. `dry`: with friction.
 template <bool dry, class S, class Integrator, class Show>
-int plain_run(Integrator& integrator, typename Integrator::State& rest, const SimulationSlice& slice, const Show& show) {
+int plain_run(Integrator& integrator, typename Integrator::State& rest, const SimulationSlice& slice,
+              const Show& show) {
   typename Integrator::State::Moving s = rest;  // its address goes nowhere, so that it stays in registers
   S steady = integrator.steady_acceleration(rest);
   for (int k = 0; k < slice.samples; ++k) {

@@ -74,7 +74,8 @@ class SecondMass {
 
   /// Takes twist and speed of the load over h while the motor's speed goes evenly from `from` to `to` (midpoint rule).
   void follow(Moving& s, const S& from, const S& to, double h) const {
-    const double asked = std::ceil(h * (rate_ + value_of(joint_.damping * (1.0 / motor_inertia_ + inverse_load_))) / 0.3);
+    const double asked =
+        std::ceil(h * (rate_ + value_of(joint_.damping * (1.0 / motor_inertia_ + inverse_load_))) / 0.3);
     const int steps = asked > 1.0 ? static_cast<int>(std::min(asked, most_steps_along)) : 1;
     const Moving end = s;
     for (int k = 0; k < steps; ++k) {

@@ -37,8 +37,8 @@ int drive_of(std::string_view name);
 /// How many of the effects bring a second mass.
 int joint_count(std::span<const int> active);
 
-/// What to simulate; spans must outlive the call. A new field stands here, or in RunSettings where it is one number, and
-/// in the list of keyword arguments in cpp/bind/bind_task.cpp; an array has its pointer in SimulationSlice.
+/// What to simulate; spans must outlive the call. A new field stands here, or in RunSettings where it is one number,
+/// and in the list of keyword arguments in cpp/bind/bind_task.cpp; an array has its pointer in SimulationSlice.
 struct SimulationTask : RunSettings {
   int drive = 0;                       // place in the table of drives
   std::span<const double> time;        // (n) [s], increasing

@@ -263,7 +263,7 @@ class Simulation {
   }
 
   /// What angle-dependent effects follow minus the simulated position. An integrated speed turns with its sensor's
-  /// errors; the simulated reading, integrated likewise, takes them out. The initial position is the angle it starts at.
+  /// errors; the simulated reading, integrated likewise, takes them out. It starts at the initial position.
   S offset(int k, const S& position) const {
     const double given = slice_.angle[k];
     return slice_.settings.angle_from_speed ? given - turned_ - jumped_ : given + first_angle_ - position;

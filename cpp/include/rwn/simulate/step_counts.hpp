@@ -24,7 +24,8 @@ long cost_of(const StepCounts& c, int samples, int derivatives) {
   const long matrices_of_values = 6 * n * n * n + 20 * n, matrices = matrices_of_values * (1 + N);
   const long between = 6 * n * n * (5 + N);
   return 20L * samples + between * c.between + linear * c.linear + nonlinear * c.nonlinear + electrical * c.electrical +
-         series * c.series + series_of_values * c.series_of_values + matrices * c.matrices + matrices_of_values * c.matrices_of_values;
+         series * c.series + series_of_values * c.series_of_values + matrices * c.matrices +
+         matrices_of_values * c.matrices_of_values;
 }
 
 }  // namespace rwn

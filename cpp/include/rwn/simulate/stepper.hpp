@@ -69,8 +69,8 @@ class Stepper {
     }
   }
 
-  /// Moves x and position by h, an interval between samples of a run in which nothing changes but the input: the step is
-  /// looked up where the length is another one than before. `steady`: what accelerates the shaft besides.
+  /// Moves x and position by h, an interval between samples of a run in which nothing changes but the input: the step
+  /// is looked up where the length is another one than before. `steady`: what accelerates the shaft besides.
   void plain_update(Vector& x, S& position, double h, const S& steady, const S& input) {
     if (!All::same(h, plain_length_)) {
       plain_ = operators_.of_interval(h, Regime(0, false, false));
@@ -121,14 +121,16 @@ class Stepper {
   }
 
   template <class T>
-  static void go(const typename All::template LinearStep<T>& o, const State& s, const Vector& constant, Vector& x, S& position) {
+  static void go(const typename All::template LinearStep<T>& o, const State& s, const Vector& constant, Vector& x,
+                 S& position) {
     position = s.position;
     go(o, s.x, constant, x, position);
   }
 
   /// From the state `from`, which may be `x`; the position goes on from where it is.
   template <class T>
-  static void go(const typename All::template LinearStep<T>& o, const Vector& from, const Vector& constant, Vector& x, S& position) {
+  static void go(const typename All::template LinearStep<T>& o, const Vector& from, const Vector& constant, Vector& x,
+                 S& position) {
     const auto& before = All::template in<T>(from);
     const auto& f = All::template in<T>(constant);
     SmallVector<T, n> after{};
@@ -237,7 +239,8 @@ class Stepper {
   Operators<S, Drive, masses> operators_;
   Vector f0_{};  // at the start of a step, with its terms
   Terms<S> t0_{};
-  typename All::template LinearStep<S> plain_{};  // of intervals as long as this; a copy: the operators' own are replaced
+  typename All::template LinearStep<S>
+      plain_{};  // of intervals as long as this; a copy: the operators' own are replaced
   double plain_length_ = -1.0;
   bool start_known_ = false;
   Use use_ = Use::intervals;

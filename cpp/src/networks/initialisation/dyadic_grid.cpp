@@ -40,8 +40,9 @@ Shapes dyadic_grid(const RowMatrixRef& x, int wavelets, const std::vector<int>& 
   const Domain domain(x);
   const FinestScale last = finest_scale(wavelets);
   if (static_cast<int>(finest.size()) != last.taken) {
-    throw std::invalid_argument("a grid of " + std::to_string(wavelets) + " wavelets takes " + std::to_string(last.taken) +
-                                " nodes of its last scale, got " + std::to_string(finest.size()));
+    throw std::invalid_argument("a grid of " + std::to_string(wavelets) + " wavelets takes " +
+                                std::to_string(last.taken) + " nodes of its last scale, got " +
+                                std::to_string(finest.size()));
   }
   Shapes shapes{RowMatrix(wavelets, x.cols()), RowMatrix(wavelets, x.cols())};
   for (Eigen::Index i = 0; i < x.cols(); ++i) {

@@ -38,7 +38,11 @@ Eigen::MatrixXd candidates(const Wavelet& wavelet, const Shapes& library, const 
 class Remainder {
  public:
   Remainder(const Eigen::MatrixXd& values, const RowMatrixRef& y, Eigen::Index directions)
-      : values_(values), residual_(y), energy_(values.colwise().squaredNorm()), left_(energy_), span_(y.rows(), directions) {}
+      : values_(values),
+        residual_(y),
+        energy_(values.colwise().squaredNorm()),
+        left_(energy_),
+        span_(y.rows(), directions) {}
 
   void take_out(Eigen::VectorXd direction) {
     for (int twice = 0; twice < 2; ++twice) {  // once leaves rounding errors of the size of the overlap

@@ -22,14 +22,18 @@ std::array<double, N> masked(const std::vector<double>& values, const std::array
 struct FixedStructured : StructuredRates {
   StructuredRateValues values;
   explicit FixedStructured(StructuredRateValues v) : values(v) {}
-  double train(StructuredRun& run, const StructuredSignals& signals) override { return run.train(signals, values.data()); }
+  double train(StructuredRun& run, const StructuredSignals& signals) override {
+    return run.train(signals, values.data());
+  }
   StructuredRateValues rates() const override { return values; }
 };
 
 struct FixedRecurrent : RecurrentRates {
   RecurrentRateValues values;
   explicit FixedRecurrent(RecurrentRateValues v) : values(v) {}
-  double train(RecurrentRun& run, const RecurrentSignals& signals) override { return run.train(signals, values.data()); }
+  double train(RecurrentRun& run, const RecurrentSignals& signals) override {
+    return run.train(signals, values.data());
+  }
   RecurrentRateValues rates() const override { return values; }
 };
 

@@ -68,7 +68,9 @@ class ImpulseStructured : public StructuredRates {
     set_rates();
   }
 
-  double train(StructuredRun& run, const StructuredSignals& signals) override { return run.train(signals, rates_.data()); }
+  double train(StructuredRun& run, const StructuredSignals& signals) override {
+    return run.train(signals, rates_.data());
+  }
   StructuredRateValues rates() const override { return rates_; }
   StructuredRateValues bounds() const override { return bounds_; }
 
@@ -124,17 +126,21 @@ class ImpulseRecurrent : public RecurrentRates {
     keep_from_zero(run, signals);
     watch(report, run, slope_);
     ++report.samples;
-    const double top = 2.0 * (rule_.fraction > 0.0 ? rule_.fraction : 0.25) / (rule_.shared ? std::max(count(learn_), 1) : 1);
+    const double top =
+        2.0 * (rule_.fraction > 0.0 ? rule_.fraction : 0.25) / (rule_.shared ? std::max(count(learn_), 1) : 1);
     for (std::size_t g = 0; g < bounds_.size(); ++g) {
       rates_[g] = learn_[g] && bounds_[g] > 0.0 ? top / (bounds_[g] * bounds_[g]) : 0.0;
     }
   }
-  double train(RecurrentRun& run, const RecurrentSignals& signals) override { return run.train(signals, rates_.data()); }
+  double train(RecurrentRun& run, const RecurrentSignals& signals) override {
+    return run.train(signals, rates_.data());
+  }
   RecurrentRateValues rates() const override { return rates_; }
   RecurrentRateValues bounds() const override { return bounds_; }
 
  private:
-  /// A network with w near 0 will not stay there: its m, d, c are bounded as if w had the size of the output / sqrt(N_w).
+  /// A network with w near 0 will not stay there: its m, d, c are bounded as if w had the size of the output /
+  /// sqrt(N_w).
   void keep_from_zero(const RecurrentRun& run, const RecurrentSignals& signals) {
     const auto w = run.parameters(kOutput).array().abs();
     if (w.size() == 0 || w.maxCoeff() == 0.0) {
@@ -159,7 +165,8 @@ std::unique_ptr<StructuredRates> ImpulseResponseRates::on(const StructuredNetwor
   return std::make_unique<ImpulseStructured>(*this, network, learn);
 }
 
-std::unique_ptr<RecurrentRates> ImpulseResponseRates::on(const RecurrentNetwork& network, const RecurrentMask& learn) const {
+std::unique_ptr<RecurrentRates> ImpulseResponseRates::on(const RecurrentNetwork& network,
+                                                         const RecurrentMask& learn) const {
   return std::make_unique<ImpulseRecurrent>(*this, network, learn);
 }
 

@@ -77,7 +77,8 @@ class NormalisedStructured : public StructuredRates {
   StructuredRateValues rates() const override { return rates_; }
 
  private:
-  /// Scales from the network: v1..v5 by their size (v1 at least Kt^2/R, the electrical damping), m, d, c by the dilations.
+  /// Scales from the network: v1..v5 by their size (v1 at least Kt^2/R, the electrical damping), m, d, c by the
+  /// dilations.
   void set_scales(const StructuredNetwork& network) {
     const Vector& v = network.theta();
     for (std::size_t g = 0; g < kWeight; ++g) {
@@ -184,7 +185,8 @@ class NormalisedRecurrent : public RecurrentRates {
 
 }  // namespace
 
-std::unique_ptr<StructuredRates> NormalisedRates::on(const StructuredNetwork& network, const StructuredMask& learn) const {
+std::unique_ptr<StructuredRates> NormalisedRates::on(const StructuredNetwork& network,
+                                                     const StructuredMask& learn) const {
   return std::make_unique<NormalisedStructured>(*this, network, learn);
 }
 

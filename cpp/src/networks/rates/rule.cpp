@@ -18,7 +18,8 @@ std::string_view to_string(Maxima maxima) { return kMaxima[static_cast<std::size
 Maxima maxima_by_name(std::string_view name) {
   const auto found = std::find(kMaxima.begin(), kMaxima.end(), name);
   if (found == kMaxima.end()) {
-    throw std::invalid_argument("maxima must be running, pre-pass or pre-pass-then-running, got '" + std::string(name) + "'");
+    throw std::invalid_argument("maxima must be running, pre-pass or pre-pass-then-running, got '" + std::string(name) +
+                                "'");
   }
   return static_cast<Maxima>(found - kMaxima.begin());
 }

@@ -180,7 +180,8 @@ std::unique_ptr<RecurrentRates> ThesisRates::on(const RecurrentNetwork& network,
   return std::make_unique<AdaptiveRecurrent>(Options(*this), network, learn);
 }
 
-std::unique_ptr<StructuredRates> TightenedRates::on(const StructuredNetwork& network, const StructuredMask& learn) const {
+std::unique_ptr<StructuredRates> TightenedRates::on(const StructuredNetwork& network,
+                                                    const StructuredMask& learn) const {
   return std::make_unique<AdaptiveStructured>(Options(*this), network, learn);
 }
 

@@ -17,13 +17,30 @@ class Lanes {
     };
     const int no = shape_.outputs;
     const int ni = shape_.inputs;
-    view_ = {.wavelet = network.wavelet().index(), .omega0 = network.wavelet().omega0(), .inputs = ni,
-             .wavelets = shape_.wavelets, .outputs = no, .padded = padded_,
-             .b = take(no), .a = take(no * ni), .w = take(no * padded_), .m = take(ni * padded_), .d = take(ni * padded_),
-             .step_b = take(no), .step_a = take(no * ni), .step_w = take(no * padded_), .step_m = take(ni * padded_),
-             .step_d = take(ni * padded_), .z = take(ni * (padded_ + lanes)), .phi = take(padded_),
-             .slope = take(ni * padded_), .error = take(no), .mask = mask_.data(),
-             .rate = options.rate, .momentum = options.momentum, .shape_momentum = options.shape_momentum};
+    view_ = {.wavelet = network.wavelet().index(),
+             .omega0 = network.wavelet().omega0(),
+             .inputs = ni,
+             .wavelets = shape_.wavelets,
+             .outputs = no,
+             .padded = padded_,
+             .b = take(no),
+             .a = take(no * ni),
+             .w = take(no * padded_),
+             .m = take(ni * padded_),
+             .d = take(ni * padded_),
+             .step_b = take(no),
+             .step_a = take(no * ni),
+             .step_w = take(no * padded_),
+             .step_m = take(ni * padded_),
+             .step_d = take(ni * padded_),
+             .z = take(ni * (padded_ + lanes)),
+             .phi = take(padded_),
+             .slope = take(ni * padded_),
+             .error = take(no),
+             .mask = mask_.data(),
+             .rate = options.rate,
+             .momentum = options.momentum,
+             .shape_momentum = options.shape_momentum};
     std::fill_n(view_.d, ni * padded_, 1.0);
     copy(network.parameters(), [](double& lane, const double& flat) { lane = flat; });
   }
@@ -38,7 +55,8 @@ class Lanes {
   std::size_t total() const {
     const int ni = shape_.inputs;
     const int no = shape_.outputs;
-    return size(3 * padded(no) + 2 * padded(no * ni) + 2 * no * padded_ + 6 * ni * padded_ + padded(ni * lanes) + padded_);
+    return size(3 * padded(no) + 2 * padded(no * ni) + 2 * no * padded_ + 6 * ni * padded_ + padded(ni * lanes) +
+                padded_);
   }
 
   template <class Parameters, class Move>

@@ -92,7 +92,8 @@ Vector deviations(const StructuredNetwork& network, const StructuredSignals& sig
   }
   Eigen::MatrixXd information = Eigen::MatrixXd::Identity(p, p);
   information.selfadjointView<Eigen::Lower>().rankUpdate(scaled.transpose());
-  const Eigen::MatrixXd covariance = information.selfadjointView<Eigen::Lower>().llt().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd covariance =
+      information.selfadjointView<Eigen::Lower>().llt().solve(Eigen::MatrixXd::Identity(p, p));
   Vector out = Vector::Zero(spread.size());
   for (Eigen::Index i = 0; i < p; ++i) {
     const Eigen::Index k = which[static_cast<std::size_t>(i)];
@@ -106,23 +107,27 @@ void check_options(const RecursiveGaussNewton& options, const VectorRef& spread,
   if (spread.size() != parameters || !(spread.array() >= 0.0).all() || !(spread.maxCoeff() > 0.0)) {
     throw std::invalid_argument("spread: expected one standard deviation >= 0 per parameter, at least one above 0");
   }
-  if (!(options.noise > 0.0) || !(options.underweighting >= 0.0) || !(options.forgetting > 0.0 && options.forgetting <= 1.0) ||
+  if (!(options.noise > 0.0) || !(options.underweighting >= 0.0) ||
+      !(options.forgetting > 0.0 && options.forgetting <= 1.0) ||
       !(options.forgetting_decay >= 0.0 && options.forgetting_decay <= 1.0) || options.cycles < 1) {
     throw std::invalid_argument(
-        "noise must be positive, underweighting at least 0, forgetting in (0, 1], forgetting_decay in [0, 1] and cycles at "
+        "noise must be positive, underweighting at least 0, forgetting in (0, 1], forgetting_decay in [0, 1] and "
+        "cycles at "
         "least 1");
   }
 }
 
 /// Mean squared error without learning; infinite where a parameter has left the numbers or a wavelet has no width.
 double frozen_error(const Vector& theta, const StructuredNetwork& network, const StructuredSignals& signals) {
-  const bool sound = theta.allFinite() && (theta.segment(network.offset(kDilation), network.wavelets()).array() != 0.0).all();
+  const bool sound =
+      theta.allFinite() && (theta.segment(network.offset(kDilation), network.wavelets()).array() != 0.0).all();
   return sound ? mean_squared_error({theta, network.wavelet()}, signals) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
-RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork& network, const StructuredSignals& signals,
+RecursiveGaussNewton::Result RecursiveGaussNewton::train(const StructuredNetwork& network,
+                                                         const StructuredSignals& signals,
                                                          const VectorRef& spread) const {
   check(signals);
   check_options(*this, spread, network.theta().size());

@@ -29,7 +29,8 @@ std::string_view advice(FitStatus status) {
     case FitStatus::converged:
       return "The squared error no longer falls: a minimum was reached.";
     case FitStatus::stuck:
-      return "No damping lowers the error: the start is too far off, or the parameters are not determined by this recording "
+      return "No damping lowers the error: the start is too far off, or the parameters are not determined by this "
+             "recording "
              "(see condition and deviation); free fewer groups or excite more.";
     case FitStatus::iteration_limit:
       break;
@@ -116,8 +117,8 @@ Vector moved(const StructuredNetwork& net, const std::vector<Eigen::Index>& whic
 }
 
 /// The output is linear in w: one ridge least-squares step finds it.
-StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const StructuredMeasurements& data, bool gauge,
-                                             double ridge, const std::vector<bool>& learn) {
+StructuredNetwork with_least_squares_weights(const StructuredNetwork& net, const StructuredMeasurements& data,
+                                             bool gauge, double ridge, const std::vector<bool>& learn) {
   StructuredMeasurements measured = data;
   measured.feed = Feed::measured;  // fed with itself, the output would not be linear in w
   std::vector<bool> weights(learn.size(), false);
@@ -146,7 +147,8 @@ void add_uncertainty(StructuredLevenbergMarquardt::Result& out, const Structured
   out.condition = std::sqrt(most / std::max(spectrum.eigenvalues()[0], floor));
   out.deviation = Vector::Zero(out.network.theta().size());
   const double rows = static_cast<double>(problem.residual().size());  // two for a sample where the current is fitted
-  const double variance = problem.residual().squaredNorm() / std::max(1.0, rows - static_cast<double>(problem.which().size()));
+  const double variance =
+      problem.residual().squaredNorm() / std::max(1.0, rows - static_cast<double>(problem.which().size()));
   const Vector weights = spectrum.eigenvalues().cwiseMax(floor).cwiseInverse();
   for (std::size_t i = 0; i < problem.which().size(); ++i) {
     const auto row = spectrum.eigenvectors().row(static_cast<Eigen::Index>(i)).transpose();
@@ -155,7 +157,8 @@ void add_uncertainty(StructuredLevenbergMarquardt::Result& out, const Structured
   }
 }
 
-void check_lengths(const StructuredNetwork& network, const StructuredMeasurements& data, const std::vector<bool>& learn) {
+void check_lengths(const StructuredNetwork& network, const StructuredMeasurements& data,
+                   const std::vector<bool>& learn) {
   const StructuredSignals& signals = data.signals;
   check(signals);
   if (data.network_speed.size() != signals.samples() ||
@@ -165,7 +168,8 @@ void check_lengths(const StructuredNetwork& network, const StructuredMeasurement
   if (data.feed == Feed::simulated && (network.group(kFeedback).array() != 0.0).any()) {
     throw std::invalid_argument("feed: a network fed with its own speed must be static, c = 0");
   }
-  if (learn.size() != static_cast<std::size_t>(network.theta().size()) || std::count(learn.begin(), learn.end(), true) == 0) {
+  if (learn.size() != static_cast<std::size_t>(network.theta().size()) ||
+      std::count(learn.begin(), learn.end(), true) == 0) {
     throw std::invalid_argument("learn: expected one flag per parameter, at least one true");
   }
 }
@@ -183,7 +187,8 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
   StructuredProblem here(data, learn, gauge, ridge), there(data, learn, gauge, ridge);
   double squares = here.evaluate(out.network);
   if (!std::isfinite(squares)) {
-    throw std::invalid_argument("network: its plant has an eigenvalue on or outside the unit circle; start from a stable one");
+    throw std::invalid_argument(
+        "network: its plant has an eigenvalue on or outside the unit circle; start from a stable one");
   }
   out.mse.push_back(here.residual().squaredNorm() / n);
   double mu = damping, growth = 2.0;
@@ -214,7 +219,8 @@ StructuredLevenbergMarquardt::Result StructuredLevenbergMarquardt::fit(const Str
       growth *= 2.0;
       if (mu > 1e12) {  // at a minimum, or where rounding hides every descent
         const bool exact = squares <= 1e-24 * signals.speed.squaredNorm();
-        out.status = exact || normal.gradient.norm() <= 1e-6 * std::sqrt(squares) ? FitStatus::converged : FitStatus::stuck;
+        out.status =
+            exact || normal.gradient.norm() <= 1e-6 * std::sqrt(squares) ? FitStatus::converged : FitStatus::stuck;
         break;
       }
     }

@@ -10,7 +10,11 @@ namespace rwn {
 
 StructuredProblem::StructuredProblem(const StructuredMeasurements& data, const std::vector<bool>& learn, bool gauge,
                                      double ridge)
-    : data_(data), signals_(data.signals), gauge_(gauge), outputs_(data.current.size() > 0 ? 2 : 1), pull_(ridge * ridge) {
+    : data_(data),
+      signals_(data.signals),
+      gauge_(gauge),
+      outputs_(data.current.size() > 0 ? 2 : 1),
+      pull_(ridge * ridge) {
   for (std::size_t k = 0; k < learn.size(); ++k) {
     if (learn[k]) {
       which_.push_back(static_cast<Eigen::Index>(k));
@@ -85,7 +89,8 @@ void StructuredProblem::filter(const StructuredNetwork& net, Feed& feed, const E
 }
 
 /// Residual and Jacobian rows of one sample: the speed's, and behind all of those the weighted current's.
-void StructuredProblem::keep(Eigen::Index n, const Eigen::Vector2d& x, const Eigen::RowVectorXd& P, const Eigen::RowVectorXd& Q) {
+void StructuredProblem::keep(Eigen::Index n, const Eigen::Vector2d& x, const Eigen::RowVectorXd& P,
+                             const Eigen::RowVectorXd& Q) {
   jacobian_.row(n) = P;
   residual_[n] = signals_.speed[n] - x[0];
   if (outputs_ == 2) {

@@ -47,7 +47,8 @@ struct DcDrive {
     void drive(auto& f, const S& input) const { f[0] = input * inverse_inductance_; }
 
     /// The same in general.
-    void remainder(auto& f, const auto& x, const S& speed, const Terms<S>& t, const S& input, double resistances) const {
+    void remainder(auto& f, const auto& x, const S& speed, const Terms<S>& t, const S& input,
+                   double resistances) const {
       const S back_emf = winding_.back_emf(speed);
       S rate = voltage_left(x, back_emf, t, input);
       rate *= inverse_inductance_;

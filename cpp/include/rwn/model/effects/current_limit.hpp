@@ -5,7 +5,8 @@
 namespace rwn {
 
 struct CurrentLimit {
-  static constexpr EffectInfo info{"current-limit", Site::voltage, "v = min(u, Ke w + R i + c R (I_m - i)), likewise below",
+  static constexpr EffectInfo info{"current-limit", Site::voltage,
+                                   "v = min(u, Ke w + R i + c R (I_m - i)), likewise below",
                                    "the drive gives no more voltage than brings the current to its limit",
                                    "Leonhard, Control of Electrical Drives: a current loop that takes over at a limit"};
   static constexpr std::array parameters{Parameter{.name = "limit",
@@ -39,8 +40,8 @@ struct CurrentLimit {
     if (sign * value_of(excess) > 0.0) t.drop += excess;
     t.drop_slope += (value_of(p[1]) - 1.0) * value_of(winding.resistance);
   }
-  /// Where it limits throughout, it takes the back-EMF out of the equations, and its damping with it. Where it may begin
-  /// or end to limit within a step: how fast the current then settles.
+  /// Where it limits throughout, it takes the back-EMF out of the equations, and its damping with it. Where it may
+  /// begin or end to limit within a step: how fast the current then settles.
   template <class S>
   static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
     const Winding<S>& winding = *x.winding;

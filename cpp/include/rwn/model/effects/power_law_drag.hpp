@@ -47,7 +47,8 @@ struct PowerLawDrag {
     t.torque -= p[0] * ratio * pow(ratio * ratio + viscous_below * viscous_below, 0.5 * (p[1] - 1.0));
   }
   static void specialise(const double* p, double* quadratic) { quadratic[0] = p[0] / (p[2] * p[2]); }
-  /// By its steepest slope over the speeds of the next h: at the lowest of them below the first power, else the highest.
+  /// By its steepest slope over the speeds of the next h: at the lowest of them below the first power, else the
+  /// highest.
   template <class S>
   static double rate(const S* p, const Motor<S>& m, const Motion<S>& x, double acceleration, double h) {
     const double n = value_of(p[1]), w = std::abs(value_of(x.speed)), change = acceleration * h;

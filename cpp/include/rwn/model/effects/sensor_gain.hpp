@@ -6,7 +6,8 @@ namespace rwn {
 
 struct SensorGain {
   static constexpr EffectInfo info{"sensor-gain", Site::sensor, "y_w = g_w w, y_i = g_i i",
-                                   "the scale of the speed or the current sensor, as its data sheet has it", "standard"};
+                                   "the scale of the speed or the current sensor, as its data sheet has it",
+                                   "standard"};
   static constexpr std::array parameters{Parameter{.name = "speed_gain",
                                                    .symbol = "g_w",
                                                    .unit = "1",

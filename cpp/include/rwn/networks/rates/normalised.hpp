@@ -5,12 +5,14 @@
 namespace rwn {
 
 /// Normalisation by the actual sensitivity (as in NLMS), with one scale s_g per group so that groups of different units
-/// move together: mu_g(n) = fraction s_g^2 / (regularisation M + S(n)), S = sum_g s_g^2 ||P_g||^2, M = max S of a pre-pass.
+/// move together: mu_g(n) = fraction s_g^2 / (regularisation M + S(n)), S = sum_g s_g^2 ||P_g||^2, M = max S of a
+/// pre-pass.
 struct NormalisedRates {
   static constexpr std::string_view name = "normalised";
   static constexpr std::string_view guarantee =
       "sum_g mu_g ||dy/dtheta_g||^2 <= fraction at every sample, whatever the parameters: with follow_state (the state "
-      "moves with its parameters, so that a change acts at once) each correction shrinks the error of its own sample for "
+      "moves with its parameters, so that a change acts at once) each correction shrinks the error of its own sample "
+      "for "
       "0 < fraction < 2, to first order. Without follow_state take a fraction of the order of 1 - rho.";
   double fraction = 0.5;
   double regularisation = 0.01;

@@ -10,7 +10,8 @@ struct ThesisRates {
   static constexpr std::string_view name = "thesis";
   static constexpr std::string_view guarantee =
       "mu_g ||dy/dtheta_g||^2 < 2 for each group by itself, provided rho(A) < 1, |c/d| < 1 and |phi'| <= 1, which the "
-      "Gaussian derivative keeps and the other wavelets do not. That is not convergence: groups move together (share the "
+      "Gaussian derivative keeps and the other wavelets do not. That is not convergence: groups move together (share "
+      "the "
       "rates), and a change of the parameters needs 1/(1 - rho) samples to act, which the derivation ignores. Where "
       "eigenvalues of A meet, the bound is infinite and learning freezes.";
   double fraction = 0.5;

@@ -9,7 +9,8 @@ struct TightenedRates {
   static constexpr std::string_view name = "tightened";
   static constexpr std::string_view guarantee =
       "mu_g ||dy/dtheta_g||^2 < 2 for each group by itself, provided rho(A) < 1 and |c/d| max|phi'| < 1, whatever the "
-      "wavelet. Not convergence, for the reasons of `thesis`; its rates are larger, and so are the starts and fractions "
+      "wavelet. Not convergence, for the reasons of `thesis`; its rates are larger, and so are the starts and "
+      "fractions "
       "from which several groups together diverge.";
   double fraction = 0.5;
   Maxima maxima = Maxima::running;

@@ -4,8 +4,8 @@
 
 namespace rwn {
 
-/// Levenberg-Marquardt on all parameters (2.22-2.24): dtheta = (J^T J + mu I)^-1 J^T e; mu is divided by beta after a step
-/// that lowers the sum of squares, multiplied by beta after one that does not.
+/// Levenberg-Marquardt on all parameters (2.22-2.24): dtheta = (J^T J + mu I)^-1 J^T e; mu is divided by beta after a
+/// step that lowers the sum of squares, multiplied by beta after one that does not.
 struct LevenbergMarquardt {
   static constexpr std::string_view name = "levenberg-marquardt";
   double mu = 0.1;

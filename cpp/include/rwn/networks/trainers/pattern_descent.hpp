@@ -4,7 +4,8 @@
 
 namespace rwn {
 
-/// Steepest descent with momentum (2.20), updating after every pattern in the order given: the thesis's online training.
+/// Steepest descent with momentum (2.20), updating after every pattern in the order given: the thesis's online
+/// training.
 struct PatternDescent {
   static constexpr std::string_view name = "pattern-descent";
   double rate = 0.1;

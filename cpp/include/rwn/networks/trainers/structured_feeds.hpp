@@ -1,5 +1,5 @@
-// Friction torque of a network and its derivatives, sample by sample: from the measured speed or from the simulated one.
-// A new source of speed is a class here and a case of visit_feed.
+// Friction torque of a network and its derivatives, sample by sample: from the measured speed or from the simulated
+// one. A new source of speed is a class here and a case of visit_feed.
 #pragma once
 
 #include "rwn/networks/trainers/structured_levenberg_marquardt.hpp"

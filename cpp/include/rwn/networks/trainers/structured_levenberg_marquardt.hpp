@@ -13,18 +13,19 @@ std::string_view advice(FitStatus status);
 /// Speed (n) of the plant A, [0; v4], [-v2; 0] for the input (n) and a given friction torque (n).
 Vector simulate_plant(const StructuredNetwork& network, const StructuredSignals& signals, const VectorRef& torque);
 
-/// Speed (n) of the network fed with the speed that it simulates itself (a free run; static network, c = 0), its friction
-/// being torque(x) - slope * x.
+/// Speed (n) of the network fed with the speed that it simulates itself (a free run; static network, c = 0), its
+/// friction being torque(x) - slope * x.
 Vector simulate_fed_back(const StructuredNetwork& network, double slope, const StructuredSignals& signals);
 
-/// Where the network takes its speed from: `measured`, whose noise biases the parameters, or `simulated`, the model's own
-/// (output error: no errors in variables, but only a static network and a start from which the free run is close).
+/// Where the network takes its speed from: `measured`, whose noise biases the parameters, or `simulated`, the model's
+/// own (output error: no errors in variables, but only a static network and a start from which the free run is close).
 enum class Feed { measured, simulated };
 /// \throws std::invalid_argument for another name than `measured` or `simulated`.
 Feed feed_by_name(std::string_view name);
 
-/// What the batch fit is given. The network may be fed with another speed than the measured one (a smoothed or a simulated
-/// one), so that noise on its input does not bias the parameters; a measured current, where there is one, is fitted too.
+/// What the batch fit is given. The network may be fed with another speed than the measured one (a smoothed or a
+/// simulated one), so that noise on its input does not bias the parameters; a measured current, where there is one, is
+/// fitted too.
 struct StructuredMeasurements {
   StructuredSignals signals;
   VectorRef network_speed;      // (n)
@@ -33,9 +34,10 @@ struct StructuredMeasurements {
   Feed feed = Feed::measured;   // with `simulated`, network_speed is only what the gauge weighs speeds by
 };
 
-/// Batch Levenberg-Marquardt over the structured network. With `gauge` the network is made orthogonal to the linear physics:
-/// tau_perp = tau - slope * speed, slope = <tau, speed>/<speed, speed> along the recording, so that v1 carries the whole
-/// viscous slope and is determined; without it v1 and the network share the slope, and v1 - B acts as an observer gain.
+/// Batch Levenberg-Marquardt over the structured network. With `gauge` the network is made orthogonal to the linear
+/// physics: tau_perp = tau - slope * speed, slope = <tau, speed>/<speed, speed> along the recording, so that v1 carries
+/// the whole viscous slope and is determined; without it v1 and the network share the slope, and v1 - B acts as an
+/// observer gain.
 struct StructuredLevenbergMarquardt {
   int iterations = 60;
   double damping = 1e-3;       // first mu, relative to the scaled J^T J
@@ -53,7 +55,8 @@ struct StructuredLevenbergMarquardt {
     double condition;          // of the column-scaled Jacobian at the end
   };
   /// `learn`: which parameters move (5 + 4 N_w).
-  Result fit(const StructuredNetwork& network, const StructuredMeasurements& data, const std::vector<bool>& learn) const;
+  Result fit(const StructuredNetwork& network, const StructuredMeasurements& data,
+             const std::vector<bool>& learn) const;
 };
 
 }  // namespace rwn

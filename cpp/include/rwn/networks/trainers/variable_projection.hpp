@@ -5,8 +5,9 @@
 namespace rwn {
 
 /// Levenberg-Marquardt on translations and dilations only; b, a and w are the least-squares solution at every step
-/// (Golub & Pereyra 1973, with the Jacobian of Kaufman 1975). The damping is scaled by the Jacobian's columns. A wavelet
-/// narrower than the distance of the patterns fits one pattern and says nothing between them: dilations are kept wider.
+/// (Golub & Pereyra 1973, with the Jacobian of Kaufman 1975). The damping is scaled by the Jacobian's columns. A
+/// wavelet narrower than the distance of the patterns fits one pattern and says nothing between them: dilations are
+/// kept wider.
 struct VariableProjection {
   static constexpr std::string_view name = "variable-projection";
   double mu = 1e-3;
