@@ -213,6 +213,7 @@ def test_paths_tables_and_recordings_give_the_same(tmp_path: Path) -> None:
         (lambda: rwn.Recording(name="r", time=TIME, signals=None), "signals is a NoneType"),  # type: ignore[arg-type]
         (lambda: rwn.read_model(None), "the path is None"),  # type: ignore[arg-type]
         (lambda: rwn.Diagnosis.load(None), "the path is None"),  # type: ignore[arg-type]
+        (lambda: rwn.Diagnosis.load(Path(__file__).parent), "there is no diagnosis.json in this folder"),
         (lambda: rwn.save(MODEL, None), "the path is None"),  # type: ignore[arg-type]
         (lambda: made_up.found().save(None), "the path is None"),  # type: ignore[arg-type]
         (lambda: made_up.found().plot(3), "unknown figure '3'"),  # type: ignore[arg-type]

@@ -188,10 +188,13 @@ def test_units_work_out_or_the_line_says_which_clash() -> None:
     names = {"speed": "rad/s", "k": "N m s/rad", "t": "N m"}
     read = expression.parse("k * speed + t", names, where="here")
     expression.check_units(read, names, "N m", where="here")
-    for text, unit in (("k + t", "N m"), ("k * speed", "V"), ("sin(t)", "1")):
+    for text, unit, clash in (
+        ("k + t", "N m", "N m s/rad is not N m"), ("k * speed", "V", "N m is not V"),
+        ("sin(t)", "1", "N m is not rad"), ("t + 1", "N m", "N m is not a plain number"),
+    ):  # fmt: skip
         with pytest.raises(InputError) as refused:
             expression.check_units(expression.parse(text, names, where="here"), names, unit, where="here")
-        assert refused.value.what.startswith(f"the units of '{text}' do not work out (")
+        assert refused.value.what == f"the units of '{text}' do not work out ({clash})"
         assert (refused.value.where, refused.value.expected) == ("here", f"a formula in {unit}")
     long = expression.parse("t + " * 30 + "speed", names, where="here")
     with pytest.raises(InputError, match=rf"the units of '{'t . ' * 20}' do not work out"):

@@ -174,9 +174,9 @@ def check_units(expression: Expression, names: Mapping[str, str], unit: str, *, 
     try:
         result = expression.evaluate(values)
         units.same_dimension(result, unit)
-    except Exception as error:  # pint raises several kinds; the text says which units clash
+    except Exception as error:  # pint raises several kinds
         raise InputError(
-            f"the units of '{expression.text[:80]}' do not work out ({error})",
+            f"the units of '{expression.text[:80]}' do not work out ({units.clash(error)})",
             where=where,
             expected=f"a formula in {unit}",
             fix="give plain numbers in it their own parameter with a unit, or correct the units",

@@ -53,7 +53,9 @@ def _registry() -> Any:
 def _made() -> Any:
     import pint
 
-    return pint.UnitRegistry()
+    registry = pint.UnitRegistry()
+    registry.formatter.default_sort_func = lambda factors, _: list(factors)  # as written: m N reads as millinewton
+    return registry
 
 
 _ONE = threading.Lock()
@@ -194,6 +196,17 @@ def same_dimension(result: Any, unit: str) -> None:
     """Raises pint's DimensionalityError unless `result` (a number or a `sample`) is of the kind of `unit`."""
     wanted = _parse(unit if unit not in ("", "1") else "dimensionless", where="units")
     _registry().Quantity(result).to(wanted)
+
+
+def clash(error: Exception) -> str:
+    """Which units do not go together, of what pint says in words of its own."""
+    import pint  # late: the command line starts without it
+
+    if not isinstance(error, pint.DimensionalityError):
+        return str(error)
+    pair = (f"{_registry().Unit(unit):~C}" for unit in (error.units1, error.units2))
+    one, other = (unit.replace("**", "^").replace("*", " ") or "a plain number" for unit in pair)
+    return f"{one} is not {other}"
 
 
 def linear_unit(unit: str) -> str:

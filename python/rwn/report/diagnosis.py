@@ -161,6 +161,11 @@ class Diagnosis(DiagnosisData):
     @classmethod
     def _read(cls, folder: Path) -> Diagnosis:
         result, curves = folder / RESULT, None
+        if folder.is_dir() and not result.exists():
+            raise InputError(
+                f"there is no {RESULT} in this folder", where=folder, expected="the folder of a diagnosis",
+                fix="name the folder that `rwn diagnose --out` or `Diagnosis.save` wrote",
+            )  # fmt: skip
         with input_file(result, "the result of rwn diagnose"):
             text = result.read_bytes()
         if (folder / CURVES).exists():
