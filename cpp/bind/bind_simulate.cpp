@@ -44,6 +44,7 @@ py::dict describe(const Parameter& p) {
   d["idealised"] = p.idealised;
   d["natural"] = p.natural;
   d["replaces"] = name_of_motor_parameter(p.replaces);
+  d["line"] = p.line;
   d["beside"] = name_of_motor_parameter(p.beside);
   return d;
 }

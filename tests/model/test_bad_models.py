@@ -49,6 +49,10 @@ MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
         MODEL + "[effects.coulomb-friction]\ncoulomb_torqe = 1.0\n",
         ("'coulomb_torqe'", "did you mean 'coulomb_torque'"),
     ),
+    "a part of a further line": (
+        MODEL + "[effects.cogging-torque]\namplitude = 0.01\nperiods_per_rev = 7\nphase = 0\nperiods_per_rev_3 = 14\n",
+        ("there is no amplitude_3", "N m", "add amplitude_3"),
+    ),
     "a load that ends before it begins": (
         MODEL + "[effects.load-disturbance]\ntorque = 0.01\nt_start = 1.0\nt_end = 0.5\n",
         ("t_end is 0.5 s, t_start 1: it never acts", "exchange the two"),

@@ -62,7 +62,7 @@ def test_an_effect_compiles(tmp_path: Path) -> None:
             {"TRAITS": '.hooks = Hook::apply, .filters = "speed"', "PARAMETERS": ", ".join([PARAMETER] * 2)},
             "a filter of a sensor and a steady torque have one parameter",
         ),
-        ({"PARAMETERS": ", ".join([PARAMETER] * 9)}, "an effect has one to max_effect_parameters parameters"),
+        ({"PARAMETERS": ", ".join([PARAMETER] * 13)}, "an effect has one to max_effect_parameters parameters"),
         ({"PARAMETERS": PARAMETER.replace('"k"', '"q"')}, "a parameter of an effect has a `symbol`"),
     ],
     ids=["misspelt", "not listed", "signature", "memories", "two of a filter", "parameters", "symbol"],

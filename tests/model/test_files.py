@@ -47,7 +47,12 @@ def models(draw: st.DrawFn) -> Model:
         if takes_over & replaced:
             continue
         replaced |= takes_over
-        effects[name] = {p.name: draw(sizes(p)) for p in table()[name].parameters}
+        effect = table()[name]
+        lines = draw(st.sets(st.sampled_from([p.line for p in effect.further]))) if effect.further else ()
+        parts = (*effect.parameters, *(p for p in effect.further if p.line in lines))
+        effects[name] = {p.name: draw(sizes(p)) for p in parts}
+        for first, last in zip(effect.instants[:1], effect.instants[1:], strict=True):
+            effects[name][last.name] = effects[name][first.name] + draw(st.floats(0.1, 10.0))
     parameters = {n: v for n, v in parameters.items() if n not in replaced}
     uncertainty = {n: v for n, v in uncertainty.items() if n in parameters}
     return Model(kind=kind, parameters=parameters, uncertainty=uncertainty, effects=effects, linear=linear)

@@ -119,7 +119,7 @@ def test_without_its_curves_it_is_read_all_the_same(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "said"),
     [
-        ("diagnosis.json", None, "diagnosis.json: cannot read the file"),
+        ("diagnosis.json", None, "there is no diagnosis.json in this folder"),
         ("diagnosis.json", "{", "no diagnosis of this version"),
         ("diagnosis.json", "[]", "no diagnosis of this version"),
         ("diagnosis.json", '{"verdict": "perhaps"}', "no diagnosis of this version"),

@@ -151,3 +151,18 @@ def test_a_winding_that_saturates_between_two_rows_is_followed(saturation_curren
 
     exact = speed(finer)
     np.testing.assert_allclose(speed(1), exact, atol=0.015 * float(np.abs(exact).max()))
+
+
+def test_a_line_of_a_cogging_torque_is_as_good_as_two_halves_of_it() -> None:
+    """Whichever of the further lines the other half is."""
+    motor = Model(kind="dc", parameters=MOTOR)
+    time = 1e-3 * np.arange(2000)
+    driven = rwn.Recording(name="r", time=time, signals={"voltage": 3.0 + np.sin(5.0 * time)})
+    line = {"amplitude": 0.02, "periods_per_rev": 9.0, "phase": 0.4}
+    whole = rwn.simulate(replace(motor, effects={"cogging-torque": line}), driven)
+    for number in (2, 3, 4):
+        halves = {**line, "amplitude": 0.01} | {f"{k}_{number}": v for k, v in {**line, "amplitude": 0.01}.items()}
+        both = rwn.simulate(replace(motor, effects={"cogging-torque": halves}), driven)
+        np.testing.assert_allclose(both.signals["speed"], whole.signals["speed"], rtol=0.0, atol=1e-9)
+    plain = rwn.simulate(motor, driven)
+    assert np.max(np.abs(plain.signals["speed"] - whole.signals["speed"])) > 1.0

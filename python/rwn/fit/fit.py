@@ -65,7 +65,7 @@ class Fit:
         shapes = {
             f"{effect.name}.{p.name}"
             for effect in (self.hypothesis.table[name] for name in self.added)
-            for p in effect.parameters
+            for p in effect.every
             if not (p.strength or p.replaces or p.cyclic or p.idealised or p.natural or p in effect.instants)
         }
         pairs = zip(self.hypothesis.unknowns, self.minimum.values, strict=True)
@@ -94,7 +94,7 @@ class Fit:
     def periods(self) -> list[float]:
         """Periods per revolution (per metre on a linear axis) of the added effects that have a number of them."""
         table = self.hypothesis.table
-        return [self.value(f"{n}.{p.name}") for n in self.added for p in table[n].parameters if p.order]
+        return [v for n in self.added for p in table[n].every if p.order and (v := self.values_of(n).get(p.name))]
 
     @property
     def motor(self) -> dict[str, float]:
@@ -137,7 +137,8 @@ class Fit:
     def values_of(self, name: str) -> dict[str, float]:
         """Parameters of one effect as fitted."""
         effect = self.hypothesis.table[name]
-        return {p.name: float(self.vector[effect.at(p.name)]) for p in effect.parameters}
+        values = {p.name: float(self.vector[effect.at(p.name)]) for p in effect.every}
+        return {p.name: values[p.name] for p in effect.acting(values)}
 
     def starts(self, names: Iterable[str]) -> dict[str, dict[str, float]]:
         """Where an explanation by some of its effects begins: with their parameters and those of the measurement.

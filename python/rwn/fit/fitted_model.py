@@ -30,10 +30,8 @@ def fitted_model(this: Fit, model: Model) -> Model:
         for name in names
         if name not in replaced
     }
-    effects = {
-        name: {p.name: float(vector[known[name].at(p.name)]) for p in known[name].parameters}
-        for name in active
-    }
+    whole = {name: {p.name: float(vector[known[name].at(p.name)]) for p in known[name].every} for name in active}
+    effects = {name: {p.name: values[p.name] for p in known[name].acting(values)} for name, values in whole.items()}
     now = parameters | {f"{name}.{p}": value for name, values in effects.items() for p, value in values.items()}
     # what came out as zero has no relative uncertainty
     uncertainty = {n: std for n, std in model.uncertainty.items() if n in now and (now[n] != 0.0 or np.isinf(std))}

@@ -84,16 +84,16 @@ def hypothesis(
     for name in active:
         effect = known_effects[name]
         known = prior.effects.get(name)
-        values[name] = {
-            p.name: _first(effect, p, motor_now, scales, starts.get(name, {}), known) for p in effect.parameters
-        }
+        given = starts.get(name, {})
+        acting = effect.acting(given if known is None else known)
+        values[name] = {p.name: _first(effect, p, motor_now, scales, given, known) for p in acting}
         if name in measured:
-            values[name] |= {p: starts.get(name, {}).get(p, v) for p, v in measured[name].values.items()}
+            values[name] |= {p: given.get(p, v) for p, v in measured[name].values.items()}
             unknowns += [_of_measurement(effect, p, measured[name]) for p in effect.parameters if not p.fixed]
         elif known is None:
-            unknowns += [_effect_unknown(effect, p, prior, scales) for p in effect.parameters if not p.fixed]
+            unknowns += [_effect_unknown(effect, p, prior, scales) for p in acting if not p.fixed]
         else:
-            declared = [(p, prior.of_effects.get(f"{name}.{p.name}", 0.0)) for p in effect.parameters]
+            declared = [(p, prior.of_effects.get(f"{name}.{p.name}", 0.0)) for p in acting]
             unknowns += [_declared_unknown(effect, p, known[p.name], std) for p, std in declared if std > 0.0]
     of_runs = [starts.get(OF_RUNS, {}).get(own.name, 0.0) for own in prior.of_runs]
     vector = np.append(parameter_vector(motor_now, values, known_effects), of_runs)
@@ -169,14 +169,14 @@ def _effect_unknown(effect: Effect, p: Parameter, prior: Prior, scales: Mapping[
         logarithmic=p.lower > 0.0 and not p.cyclic,
         prior=known if has_prior else None,
         prior_std=max(uncertain, 1e-3) if has_prior else np.inf,
-        amplitude=_amplitude(effect) if p.cyclic else "",
+        amplitude=_amplitude(effect, p.line) if p.cyclic else "",
         cyclic=p.cyclic,
     )
 
 
-def _amplitude(effect: Effect) -> str:
-    """Name of the unknown that is the amplitude of the effect's oscillation; empty: it has none."""
-    strengths = [p for p in effect.parameters if p.strength and p.lower == 0.0]
+def _amplitude(effect: Effect, line: int) -> str:
+    """Name of the unknown that is the amplitude of a line of the effect's oscillation; empty: it has none."""
+    strengths = [p for p in effect.every if p.line == line and p.strength and p.lower == 0.0]
     return f"{effect.name}.{strengths[0].name}" if len(strengths) == 1 else ""
 
 

@@ -98,7 +98,7 @@ def _systematic(this: Fit, bias: float) -> Array:
     what is not explained moves the phase but once.
     """
     known = this.hypothesis.table
-    of_effects = {f"{name}.{p.name}": p for name in this.hypothesis.effects for p in known[name].parameters}
+    of_effects = {f"{name}.{p.name}": p for name in this.hypothesis.effects for p in known[name].every}
     contacts = nonsmooth_unknowns(this.hypothesis)
     parts = []
     for k, (u, value) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):

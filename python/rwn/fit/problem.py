@@ -166,7 +166,7 @@ class Problem:
         if not run.levels:
             return {}
         switched = (e for e in self.prior.table.values() if e.index in active)
-        acting = {e.first + k for e in switched for k in range(len(e.parameters))} | set(range(len(motor_parameters())))
+        acting = {e.first + k for e in switched for k in range(len(e.every))} | set(range(len(motor_parameters())))
         known = [level for level in run.levels if level.place < vector.size]
         return {u.place: u._replace(parameters=tuple(p for p in u.parameters if p in acting)) for u in known}
 

@@ -87,7 +87,8 @@ def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> 
     Bounds that are relative to what a recording shows (torque, speed, ..) say the sign alone; those of a user's own
     effect are where a fit searches.
     """
-    for p in effect.parameters:
+    begun = {p.line for p in effect.further if p.name in values}
+    for p in (*effect.parameters, *(p for p in effect.further if p.line in begun)):
         if p.name not in values:
             if not p.fixed:
                 raise InputError(

@@ -118,7 +118,7 @@ class Model(Shown):
         _require(self.parameters, "parameter", [p.name for p in self.nominal_parameters], where=motor)
         _require(self.effects, "effect", table, where=f"{where}, [effects]")
         for name, values in self.effects.items():
-            _require(values, "parameter", [p.name for p in table[name].parameters], where=places[name])
+            _require(values, "parameter", [p.name for p in table[name].every], where=places[name])
         known = [*(p.name for p in self.nominal_parameters), *self.effect_values]
         _require(self.uncertainty, "parameter", known, where=doubt)
         _require(self.load, "load", LOADS, where=f"{where}, [load]")
@@ -158,7 +158,7 @@ class Model(Shown):
         return {
             f"{name}.{p.name}": (p, values[p.name])
             for name, values in self.effects.items()
-            for p in self.effect_table[name].parameters
+            for p in self.effect_table[name].every
             if p.name in values and not p.fixed
         }
 

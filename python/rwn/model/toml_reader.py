@@ -148,7 +148,7 @@ def _effects(
         if name in own:
             entries = {p.name: p.unit for p in own[name].parameters}  # as the user has written them
         else:
-            entries = {p.name: drive.unit_of(known[name], p.unit) for p in known[name].parameters}
+            entries = {p.name: drive.unit_of(known[name], p.unit) for p in known[name].every}
         for key in values:
             if key not in entries:
                 raise unrecognised("parameter", key, entries, where=place)

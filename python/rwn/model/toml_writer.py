@@ -32,7 +32,7 @@ def _parameter_lines(model: Model) -> list[str]:
 
 def _effect_lines(model: Model, name: str, values: Mapping[str, float]) -> list[str]:
     effect = model.effect_table[name]
-    return _commented(values, {p.name: model.drive.unit_of(effect, p.unit) for p in effect.parameters})
+    return _commented(values, {p.name: model.drive.unit_of(effect, p.unit) for p in effect.every})
 
 
 def _commented(values: Mapping[str, float], units: Mapping[str, str]) -> list[str]:

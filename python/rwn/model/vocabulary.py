@@ -58,6 +58,7 @@ class Parameter:
     natural: bool
     replaces: str | None
     beside: str | None = None
+    line: int = 0  # of a periodic effect: lines above 0 act where their strength is not 0
     symbol: str = ""  # in the equation of its effect; formulas of own effects are written in the names
 
 
@@ -71,7 +72,7 @@ class Effect:
     equation: str
     meaning: str
     source: str
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[Parameter, ...]  # of a periodic effect: those of its first line
     index: int  # in the C++ table; a user's own effects count on behind it
     first: int  # position of its first parameter in the parameter vector
     turns: bool = False  # whether it depends on the angle
@@ -86,6 +87,17 @@ class Effect:
     guess: str = "scan"  # where first guesses come from, besides what its parameters scan (effect.hpp)
     special_case: str = ""  # the simpler effect that it is at one value of a parameter
     own: bool = False  # defined by the user
+    further: tuple[Parameter, ...] = ()  # those of further lines of a periodic effect
+
+    @property
+    def every(self) -> tuple[Parameter, ...]:
+        """All of its parameters, in the order of the parameter vector."""
+        return (*self.parameters, *self.further)
+
+    def acting(self, values: Mapping[str, float]) -> tuple[Parameter, ...]:
+        """Its parameters, with those of the further lines that act with these values."""
+        lines = {p.line for p in self.further if p.strength and values.get(p.name, 0.0) != 0.0}
+        return (*self.parameters, *(p for p in self.further if p.line in lines))
 
     @property
     def takes_time(self) -> bool:
@@ -114,7 +126,7 @@ class Effect:
 
     def at(self, parameter: str) -> int:
         """Position of one of its parameters in the parameter vector."""
-        return self.first + [p.name for p in self.parameters].index(parameter)
+        return self.first + [p.name for p in self.every].index(parameter)
 
 
 def _parameter(row: Mapping[str, Any]) -> Parameter:
@@ -134,9 +146,10 @@ def table() -> Mapping[str, Effect]:
     effects: dict[str, Effect] = {}
     first = len(motor_parameters())
     for index, row in enumerate(_core.effect_table()):
-        parameters = tuple(_parameter(p) for p in row["parameters"])
-        effects[row["name"]] = Effect(**{**row, "parameters": parameters}, index=index, first=first)
-        first += len(parameters)
+        every = tuple(_parameter(p) for p in row["parameters"])
+        lines = {"parameters": tuple(p for p in every if not p.line), "further": tuple(p for p in every if p.line)}
+        effects[row["name"]] = Effect(**{**row, **lines}, index=index, first=first)
+        first += len(every)
     return effects
 
 
@@ -185,7 +198,7 @@ def parameter_vector(
         vector[motor_index(name)] = value
     for name, values in effects.items():
         effect = (known or table())[name]
-        for k, parameter in enumerate(effect.parameters):
+        for k, parameter in enumerate(effect.every):
             default = parameter.start if parameter.fixed else 0.0
             vector[effect.first + k] = values.get(parameter.name, default)
     return vector

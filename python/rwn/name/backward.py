@@ -94,9 +94,9 @@ def _plain_values(this: Fit, name: str) -> dict[str, float]:
     """A plain law, as friction, of the level that the elaborate one of an explanation has."""
     (plain,) = table()[name].parameters
     levels = [
-        value
+        this.values_of(name)[p.name]
         for name in this.added
-        for p, value in zip(this.hypothesis.table[name].parameters, this.values_of(name).values(), strict=True)
+        for p in this.hypothesis.table[name].parameters
         if p.replaces == plain.replaces
     ]
     return {plain.name: float(np.mean(levels))}

@@ -24,6 +24,7 @@ from rwn.measurement.coarse_speed import as_recorded, recorded_steps, unrounded_
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.name.backward import distinct, replaced, with_simpler
 from rwn.name.degenerate import adds
+from rwn.name.further_lines import with_further_lines
 from rwn.name.measurement import Measurement
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.observable import observable
@@ -133,6 +134,7 @@ def _grown(
     another measurement than theirs.
     """
     problem = alone.problem
+    fits = with_further_lines(problem, fits)
     best, left = _best_of(problem, [alone.nominal_fit, *fits])
     bases, windowed = _diverse([f for f in fits if adds(f, problem)]), alone.windowed
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
@@ -147,7 +149,7 @@ def _grown(
         found, windowed = _beside_and_in_windows(
             alone, best, bases, wanted, fits, known, size=size, windowed=windowed
         )  # fmt: skip
-        more, extensions = found.fits, found if size == 2 else extensions
+        more, extensions = with_further_lines(problem, found.fits), found if size == 2 else extensions
         cut_short = size if found.cut_short else 0
         complete = not _is_worth_it(problem, more, best, rivals=len(wanted))
         if complete:

@@ -43,7 +43,7 @@ def found_effects(
     for name, probability in probabilities.items():
         effect = known[name]
         parameters = {
-            p.name: numbers[f"{name}.{p.name}"] for p in effect.parameters if f"{name}.{p.name}" in numbers
+            p.name: numbers[f"{name}.{p.name}"] for p in effect.every if f"{name}.{p.name}" in numbers
         }
         for p in effect.parameters:
             if p.fixed:

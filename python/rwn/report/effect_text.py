@@ -30,4 +30,7 @@ def _detail(effect: Effect) -> Iterator[str]:
         scale = f" x {p.scale.words} of the drive" if p.scale.powers else ""
         symbol = f" {p.symbol}".rstrip()
         yield f"  {p.name}{symbol} [{p.unit}]: {p.meaning}; {p.lower:g} to {p.upper:g}{scale}"
+    if effect.further:
+        names = ", ".join(p.name for p in effect.further if p.strength)
+        yield f"  further lines, each with the parameters of its number: {names}"
     yield f"source: {effect.source}"

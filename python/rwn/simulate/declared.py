@@ -58,7 +58,7 @@ def _judged(model: Model) -> Iterator[tuple[Effect, Parameter, float]]:
     """The values that are judged."""
     for name, values in model.effects.items():
         effect = model.effect_table[name]
-        for p in effect.parameters:
+        for p in effect.every:
             value = values.get(p.name, 0.0)
             if not effect.own and not p.cyclic and not p.natural and p.scale.powers and value:
                 yield effect, p, value

@@ -31,7 +31,7 @@ def angles_to_try(effects: Iterable[Effect], vector: Array) -> Array:
     `vector`: the parameters (all,), which hold the periods of each per revolution.
     """
     orders = {
-        max([1.0, *(float(vector[effect.at(p.name)]) for p in effect.parameters if p.order)])
+        max([1.0, *(float(vector[effect.at(p.name)]) for p in effect.every if p.order)])
         for effect in effects
         if effect.turns
     }

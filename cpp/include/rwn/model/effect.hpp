@@ -35,7 +35,7 @@
 
 namespace rwn {
 
-inline constexpr int max_effect_parameters = 8;
+inline constexpr int max_effect_parameters = 12;
 inline constexpr int max_breaks = 2;
 
 enum class Site { torque, voltage, flux, actuator, sensor, load };
@@ -113,10 +113,12 @@ consteval bool is_signature() {
   return std::is_same_v<Wanted, Given>;
 }
 
-/// True where every parameter has a symbol that occurs in the equation, or is an idealisation that it does without.
+/// True where every parameter has a symbol that occurs in the equation, or is an idealisation that it does without; the
+/// equation is that of the first line of a periodic effect.
 template <class E>
 consteval bool is_written_in_symbols() {
   for (const Parameter& p : E::parameters) {
+    if (p.line > 0) continue;
     if (p.symbol.empty() ? !p.idealised : E::info.equation.find(p.symbol) == std::string_view::npos) return false;
   }
   return true;

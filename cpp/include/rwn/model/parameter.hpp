@@ -25,6 +25,7 @@ struct Parameter {
   bool idealised = false;        // a limit is an idealisation (abrupt, rigid) that is as good a law
   bool natural = false;          // a limit is one of nature (a share of 0 or 1), at which the law is itself
   int replaces = -1;             // the nominal motor parameter whose role this one takes over
+  int line = 0;                  // of a periodic effect; lines above 0 act where their strength is not 0
   int beside = -1;               // the one that does the same: where that is fitted, this says nothing more
 };
 

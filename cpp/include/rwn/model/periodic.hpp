@@ -1,6 +1,8 @@
 // Parameters that effects which come back with the angle have in common.
 #pragma once
 
+#include <string_view>
+
 #include "rwn/model/parameter.hpp"
 
 namespace rwn::periodic {
@@ -29,5 +31,14 @@ inline constexpr Parameter phase{.name = "phase",
                                  .start = 0.0,
                                  .scan = {0.0, 1.5707963, 3.1415927, -1.5707963},
                                  .cyclic = true};
+
+/// The same parameter of a further line of an effect; what it begins with is read off what the lines before leave.
+constexpr Parameter further(Parameter p, int line, std::string_view name) {
+  p.name = name;
+  p.symbol = {};
+  p.scan = {};
+  p.line = line;
+  return p;
+}
 
 }  // namespace rwn::periodic

@@ -265,5 +265,12 @@ bool is_constant(const Dual<N, Isa>& x) {
   }
   return true;
 }
+constexpr bool is_constant(double) { return true; }
+
+/// False of a zero that nothing is differentiated by: what it multiplies is not there.
+template <class S>
+constexpr bool is_used(const S& x) {
+  return value_of(x) != 0.0 || !is_constant(x);
+}
 
 }  // namespace rwn

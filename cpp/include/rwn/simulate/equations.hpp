@@ -229,8 +229,6 @@ class Equations {
 
   bool sticks(const Moving& s) const { return dry_ && s.direction == 0.0; }
 
-  static bool is_used(const S& x) { return value_of(x) != 0.0 || !is_constant(x); }
-
   const S& input() const { return effects_.input(); }
 
   /// How much faster than R/L the winding is in a state, whose terms are `t`.
