@@ -75,8 +75,8 @@ def test_uneven_times_are_said_as_what_they_are() -> None:
     wandering = np.cumsum(1e-3 * draw.uniform(0.75, 1.25, len(recording)))
     runs = [replace(recording, time=time) for time in (about, wandering)]
     said = [next(line for line in checked([run], MODEL) if "every" in line) for run in runs]
-    assert said[0] == "  a sample every 0.001 s; the rows are off even times by 5.8% of that, rms"
-    assert "on average; from row to row it varies by 14.4%, rms" in said[1]
+    assert said[0] == "  a sample every 0.001 s; rows come early or late by 5.8% of that, rms"
+    assert "on average, which varies from row to row by 14.4%, rms" in said[1]
 
 
 def test_a_load_that_is_held_is_no_motion_and_a_shaft_that_is_held_is_said() -> None:

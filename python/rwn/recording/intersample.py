@@ -251,8 +251,8 @@ def _thinned(ticks_per_row: int, words: str) -> IntersampleLaw:
 INTERSAMPLE: dict[str, IntersampleLaw] = {
     HELD: IntersampleLaw(applied=_held, shown=True, words="each row's own, until the next"),
     "bridged": IntersampleLaw(applied=_bridged, shown=True, words="it went on changing over the rows that are missing"),
-    "halves": _thinned(2, "it changed twice from row to row, as where every second row was kept"),
-    "thirds": _thinned(3, "it changed three times from row to row, as where every third row was kept"),
+    "halves": _thinned(2, "it changed twice from one to the next, as where a logger keeps every second one"),
+    "thirds": _thinned(3, "it changed three times from one to the next, as where a logger keeps every third one"),
     "line": IntersampleLaw(applied=_linear, words="it moved on a line from row to row"),
     "ticks": IntersampleLaw(
         applied=_at_ticks, shown=True, words="it changed at the ticks of a clock beside which the rows were taken"

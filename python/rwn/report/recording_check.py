@@ -43,9 +43,9 @@ def _sampling(run: Run) -> Iterator[str]:
     at = clock_of(run.time)
     period = f"a sample every {at.period:.4g} s"
     if at.jitter < HALF:
-        yield period + (f"; the rows are off even times by {at.jitter:.1%} of that, rms" if at.irregular else "")
+        yield period + (f"; rows come early or late by {at.jitter:.1%} of that, rms" if at.irregular else "")
     else:  # no even times lie beside these rows
-        yield f"{period} on average; from row to row it varies by {np.std(np.diff(run.time)) / at.period:.1%}, rms"
+        yield f"{period} on average, which varies from row to row by {np.std(np.diff(run.time)) / at.period:.1%}, rms"
     if at.lost:
         yield f"{at.lost} rows are missing: how the input acted meanwhile is read off the errors"
 

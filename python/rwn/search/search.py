@@ -70,7 +70,7 @@ class SearchResult:
                     recording="all recordings",
                     signals=(given,),
                     count=0,
-                    words=f"the {given} acted otherwise than held from row to row: {INTERSAMPLE[law].words}",
+                    words=f"between two rows the {given} was not held: {INTERSAMPLE[law].words}",
                     done="simulated so",
                 )
             )
