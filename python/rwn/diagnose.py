@@ -31,6 +31,7 @@ from rwn.recording.inspection.overlap import overlaps
 from rwn.recording.recording import Recording, remarks
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
+from rwn.report.file_units import in_file_units
 from rwn.search.search import SearchResult, search
 from rwn.simulate.declared import check_declared
 from rwn.simulate.recorded_run import judging_run, measured_alike
@@ -95,7 +96,8 @@ def diagnose(
     findings = (*seen_in_fitted, *held, *held_back, *found.findings, *seen_in_judged, *common, *unseen.findings(found))
     layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
     corrected = replace(made.corrected, recording=layout)
-    return replace(made, corrected=corrected, findings=findings, warnings=(*made.warnings, *said))
+    made = replace(made, corrected=corrected, findings=findings, warnings=(*made.warnings, *said))
+    return in_file_units(made, (*fitted, *judged))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -56,7 +56,7 @@ class Mark:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Plot:
-    """One picture in SI units; the report picks prefixes. `slot` says where it belongs.
+    """One picture, in SI or in the units of its file; the report picks prefixes. `slot` says where it belongs.
 
     Pictures over the time of one `recording` share their time axis. `zoom`: the stretch of x that shows most. `shown`:
     the y that are worth seeing, where a few points lie far outside.
