@@ -34,6 +34,9 @@ def page(effect: Effect) -> str:
     lines += [row(p) for p in effect.parameters]
     lines += ["", "In a model file:", "", "```toml", f"[effects.{effect.name}]"]
     lines += [f"{p.name} = ...  # {p.unit or 'a pure number'}" for p in effect.parameters]
+    if effect.further:
+        lines += ["# a further line, where there is one, and so on to line " + str(1 + effect.further[-1].line)]
+        lines += [f"{p.name} = ...  # {p.unit or 'a pure number'}" for p in effect.further if p.line == 1]
     return "\n".join([*lines, "```", "", f"Source: {effect.source}.", "", "[All effects](../effects.md)"]) + "\n"
 
 
