@@ -140,7 +140,9 @@ def test_it_is_small(state: str, tmp_path: Path) -> None:
 
 
 def test_the_stated_explanation_is_the_first_of_the_table_that_others_are_compared_in() -> None:
-    rows = alternative_table(made_up.found()).split("<tr>")
+    shown = alternative_table(made_up.found())
+    assert "Weight by fit alone" in shown, "the page has another probability, that an effect acts"
+    rows = shown.split("<tr>")
     assert "Explanation" in rows[1]
     assert "<b>Coulomb friction</b> <span class=note>(stated)</span>" in rows[2]
     assert "94 %" in rows[2]

@@ -74,6 +74,12 @@ def _parameter(effect: str, parameter: str) -> str:
     return escape(name) + (f" <code>{escape(sign)}</code>" if sign else "")
 
 
+FIT_ALONE = (
+    "By how well each fits what was fitted, less what its parameters cost. That an effect acts is judged by more: "
+    "by what goes with it of what was not fitted, and by whether it is the same in every part."
+)
+
+
 def alternative_table(found: DiagnosisData) -> str:
     """The stated explanation, the others, and what would tell them apart; empty where there are no others."""
     others = [_explanation(other) for other in found.alternatives if other.probability >= UNLIKELY]
@@ -81,7 +87,8 @@ def alternative_table(found: DiagnosisData) -> str:
     rows = [_explanation(stated, stated=True), *others] if stated and others else others
     nameless = "unexplained" in (found.verdict, found.beneath.verdict if found.beneath else "")
     head = "Of what has a name, the likeliest" if nameless else "Explanation" if stated else "Other explanation"
-    return table((head, "Probability among those tried", "What would tell them apart"), rows, numbers_from=9)
+    shown = table((head, "Weight by fit alone", "What would tell them apart"), rows, numbers_from=9)
+    return shown and f'{shown}<p class="note">{FIT_ALONE}</p>'
 
 
 def _explanation(this: Alternative, *, stated: bool = False) -> list[str]:
