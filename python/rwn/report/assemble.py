@@ -213,8 +213,8 @@ def _warnings(
     for f in ranking.at_a_limit[:1]:
         met = [parameter_in_words(name) for name in f.limits_met]
         texts.append(
-            f"{' + '.join(map(plain_name, f.added))} fits better, but {listing(met)} ran into a "
-            "limit: there the law bends towards one that it is not, and it is not named"
+            f"{' + '.join(map(plain_name, f.added))} fits better, but {listing(met)} ended at the end "
+            "of its range, where the law stands in for another one: it is not named"
         )
     return tuple(texts)
 
