@@ -84,7 +84,11 @@ def test_a_friction_is_named_beside_loads_that_differ(loads: tuple[float, float]
 def test_a_friction_is_named_where_files_contradict_each_other() -> None:
     found = rwn.diagnose(files_of(RUBBING, ["inertia"], (0.8, 1.3)), MODEL, jobs=1)
     assert [e.name for e in found.effects][:1] == ["coulomb-friction"]
-    assert {f.recording for f in found.findings if f.kind == "files-disagree"} == {"run_0", "run_1"}
+    (odd,) = [f for f in found.findings if f.kind == "files-disagree"]
+    assert (odd.recording, odd.held) == ("run_1", "that of run_0"), "whose inertia is nearer to that of the model"
+    assert odd.words.startswith("its inertia is +62 % off that of run_0 (")
+    assert found.corrected is not None
+    assert found.corrected.parameters["inertia"] == pytest.approx(0.8 * MODEL.parameters["inertia"], rel=0.02)
 
 
 @pytest.mark.slow

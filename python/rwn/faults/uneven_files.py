@@ -34,8 +34,8 @@ def uneven_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
             found.append(
                 Finding(
                     kind=_kind(level), recording=run.name, signals=(), count=0,
-                    words=f"its {level.quantity} is {_off(level, off)} off the mean of the fitted recordings",
-                    done="judged at this level, which fits it best; rwn simulate has the mean of corrected.toml",
+                    words=f"its {level.quantity} is {_off(level, off)} off {_of_the_machine(level)}",
+                    done="judged at this level, which fits it best; rwn simulate has that of corrected.toml",
                 )
             )  # fmt: skip
     return found
@@ -65,17 +65,22 @@ def at_own_levels(ranking: Ranking, unseen: Sequence[Run]) -> tuple[tuple[Run, .
 
 
 def _said(problem: Problem, this: Fit, level: Level) -> list[Finding]:
-    fitted = "a level of its own is fitted with it; corrected.toml holds the mean"
+    held = f"that of {level.usual}" if level.usual else "the mean"
+    fitted = f"a level of its own is fitted with it; corrected.toml holds {held}"
     if level.lasting:
         fitted += ": leave out what was recorded of another machine, load or temperature"
     return [
         Finding(
-            kind=_kind(level), recording=name, signals=(), count=0, done=fitted, quantity=level.quantity,
-            words=f"its {level.quantity} is {_off(level, off)} off the mean of the recordings "
+            kind=_kind(level), recording=name, signals=(), count=0, done=fitted, quantity=level.quantity, held=held,
+            words=f"its {level.quantity} is {_off(level, off)} off {_of_the_machine(level)} "
             f"({_value(problem, this, level, off)}deviation {_size(level, deviation)})",
         )
         for name, (off, deviation) in uneven(problem, this, level).items()
     ]  # fmt: skip
+
+
+def _of_the_machine(level: Level) -> str:
+    return f"that of {level.usual}" if level.usual else "the mean of the recordings that are fitted"
 
 
 def _kind(level: Level) -> str:

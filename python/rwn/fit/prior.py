@@ -26,6 +26,7 @@ class RunUnknown:
     turns: bool = False  # only effects of the angle depend on it
     level: bool = False
     adds: bool = False
+    usual: str = ""  # the recording whose level is the machine's; none: the mean of all
 
 
 @dataclass(frozen=True, kw_only=True)

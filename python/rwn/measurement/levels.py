@@ -42,10 +42,17 @@ class Level:
     unit: str = "1"  # of what is added
     adds: bool = False
     lasting: bool = False  # it is one number of a machine: recordings in which it differs contradict each other
+    usual: str = ""  # the recording whose quantity is the machine's; none: the mean of all
 
     def of(self, recording: str) -> str:
         """The name of its unknown of one recording."""
         return f"{self.quantity} of {recording}"
+
+    def contrasts(self, recordings: Sequence[str]) -> Array:
+        """What takes levels (n,) of recordings to those beside the machine's, (n, n)."""
+        machine = [float(name == self.usual) for name in recordings] if self.usual else [1.0 / len(recordings)]
+        off: Array = np.eye(len(recordings)) - np.array(machine)
+        return off
 
 
 def friction(problem: Problem) -> Level:
@@ -87,6 +94,23 @@ def all_levels(problem: Problem) -> list[Level]:
     return [*frictions(problem), load(problem), *lasting]
 
 
+def as_described(problem: Problem, this: Fit, level: Level) -> Level:
+    """The level whose machine is the one that was described: the recording that is nearest to what was declared of it.
+
+    The mean is no machine's, and corrected.toml is to hold one that there is. Friction and loads, which change on one
+    machine, keep their mean.
+    """
+    declared = {motor_index(name): value for name, value in problem.prior.motor.items() if level.lasting}
+    given = declared.get(level.parameters[0], 0.0)
+    if given <= 0.0:
+        return level
+    names = list(dict.fromkeys(run.name for run in problem.whole))
+    values = dict(zip((u.name for u in this.hypothesis.unknowns), this.minimum.values, strict=True))
+    beside = level.contrasts(names) @ np.array([values[level.of(name)] for name in names])
+    away = np.abs(np.log(this.vector[level.parameters[0]] / given) + beside)
+    return replace(level, usual=names[int(np.argmin(away))])
+
+
 def level_off(level: Level, machine: Array, own: Array) -> float:
     """The quantity of parameters (all,) over that of others; less it, of what is added."""
     if level.adds:
@@ -106,7 +130,9 @@ def _in_words(names: Sequence[str]) -> str:
 
 def known_levels(problem: Problem) -> list[Level]:
     """What does differ: the levels that are unknowns of a problem."""
-    return [level for level in all_levels(problem) if is_known(problem, level)]
+    usual = {own.name: own.usual for own in problem.prior.of_runs if own.level}
+    known = [(level, level.of(problem.whole[0].name)) for level in all_levels(problem) if is_known(problem, level)]
+    return [replace(level, usual=usual[name]) for level, name in known]
 
 
 def is_known(problem: Problem, level: Level) -> bool:
@@ -124,7 +150,8 @@ def with_levels(problem: Problem, level: Level) -> Problem:
     """The problem with a level of a quantity for each recording among what is unknown.
 
     A recording has the quantity times its own level over their geometric mean, or plus its level less their mean: the
-    mean is the parameter's, which the data sheet knows, and no level's.
+    mean is the parameter's, which the data sheet knows, and no level's. Where one recording is the machine's, its level
+    stands for the mean.
     """
     first = _core.parameter_count() + len(problem.prior.of_runs)
     names = dict.fromkeys(run.name for run in problem.whole)
@@ -132,15 +159,13 @@ def with_levels(problem: Problem, level: Level) -> Problem:
     own = [
         RunUnknown(
             name=level.of(name), unit=level.unit, place=first + k, parameters=level.parameters, spread=spread,
-            level=True, adds=level.adds,
+            level=True, adds=level.adds, usual=level.usual,
         )
         for k, name in enumerate(names)
     ]  # fmt: skip
     shares = {
-        name: tuple(
-            LevelShare(u.place, (u.name == level.of(name)) - 1.0 / len(own), level.parameters, level.adds) for u in own
-        )
-        for name in names
+        name: tuple(LevelShare(u.place, float(x), level.parameters, level.adds) for u, x in zip(own, row, strict=True))
+        for name, row in zip(names, level.contrasts(list(names)), strict=True)
     }
 
     def placed(runs: Sequence[Run]) -> tuple[Run, ...]:
@@ -158,16 +183,16 @@ def beside_levels(problem: Problem, this: Fit, level: Level) -> tuple[Problem, F
 
 
 def uneven(problem: Problem, this: Fit, level: Level) -> dict[str, tuple[float, float]]:
-    """The quantity of each recording over its geometric mean, with a deviation, of those that certainly differ.
+    """The quantity of each recording over the machine's, with a deviation, of those that certainly differ.
 
-    Less its mean, of what is added.
+    Less the machine's, of what is added.
     """
     unknowns = [u.name for u in this.hypothesis.unknowns]
     names = [run.name for run in problem.whole if level.of(run.name) in unknowns]
     places = [unknowns.index(level.of(name)) for name in names]
     if not places:
         return {}
-    contrasts = np.eye(len(places)) - 1.0 / len(places)
+    contrasts = level.contrasts(names)
     off = contrasts @ this.minimum.values[places]
     spread = contrasts @ covariance(this, statistics(problem, this))[np.ix_(places, places)] @ contrasts
     # no level is better known than any other number of a fit

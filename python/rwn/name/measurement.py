@@ -11,7 +11,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.measurement.filter_colour import SensorFilter, coloured_noise
 from rwn.measurement.known_filters import filtered
-from rwn.measurement.levels import Level, all_levels, can_differ, frictions, with_levels
+from rwn.measurement.levels import Level, all_levels, as_described, can_differ, frictions, with_levels
 from rwn.measurement.sensor_filter import filters_again, sensor_filters, shown_in_noise
 from rwn.name.uneven import LevelsTest, uneven_beside
 from rwn.parallel import side_by_side
@@ -69,7 +69,7 @@ class Measurement:
         """
         found = list[Level]()
         while level := self._level(problem, best, simpler):
-            found.append(level[0])
+            found.append(as_described(level[1].problem, level[1].fit, level[0]))
             problem, best, simpler = level[1].problem, level[1].fit, ()
         return found
 

@@ -48,10 +48,11 @@ def sentences(found: DiagnosisData) -> tuple[str, ...]:
 
 
 def _by_file(found: DiagnosisData) -> Iterator[str]:
-    """What differs between the recordings."""
-    differ = tuple(dict.fromkeys(f.quantity for f in found.findings if f.quantity))
-    if differ:
-        yield f"The recordings differ in {listing(differ)}: each is fitted with its own, corrected.toml holds the mean."
+    """What differs between the recordings, and whose of it the corrected model has."""
+    differ = dict.fromkeys((f.held, f.quantity) for f in found.findings if f.quantity)
+    for held in dict.fromkeys(held for held, _ in differ):
+        names = listing([quantity for of, quantity in differ if of == held])
+        yield f"The recordings differ in {names}: each is fitted with its own, corrected.toml holds {held}."
 
 
 def _missing(found: DiagnosisData) -> tuple[str, ...]:

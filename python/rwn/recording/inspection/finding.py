@@ -25,6 +25,7 @@ class Finding:
     words: str  # what was found, for people
     done: str = ""  # what was done about it
     quantity: str = ""  # what differs between the recordings that were fitted
+    held: str = ""  # whose of it the corrected model holds: "that of run1.csv", "the mean"
 
 
 @dataclass(frozen=True, kw_only=True)
