@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import made_up
+from rwn.name.found_effect import FoundEffect
 from rwn.recording.inspection import Finding
 from rwn.report.sentences import sentences
 
@@ -19,3 +20,17 @@ def test_what_differs_from_file_to_file_is_said_after_the_verdict() -> None:
     each = "each is fitted with its own, corrected.toml holds"
     assert one == f"The recordings differ in load and inertia: {each} that of c."
     assert other == f"The recordings differ in friction: {each} the mean."
+
+
+def test_what_makes_next_to_no_difference_is_said_behind_what_does() -> None:
+    """A maker's integrator may be late by half a step, which is there for certain and worth nothing."""
+    found = made_up.found()
+    (friction,) = found.effects
+    delay = FoundEffect(name="input-delay", equation="actuator", probability=0.95)
+    (acts,) = [e for e in found.account if e.name == friction.name]
+    both = (acts, replace(acts, name="input-delay", probability=0.95, together=0.95, share=1e-7))
+    said = sentences(replace(found, effects=(friction, delay), account=both))
+    assert said[0] == sentences(found)[0]
+    assert "Input delay (probability 95 %) shows too, with less than 0.5 % of the mismatch." in said
+    large = (acts, replace(both[1], share=0.2))
+    assert "input delay" in sentences(replace(found, effects=(friction, delay), account=large))[0]

@@ -14,6 +14,7 @@ from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.text import (
+    capital,
     estimate,
     likelihood,
     listing,
@@ -56,14 +57,25 @@ def _by_file(found: DiagnosisData) -> Iterator[str]:
 
 
 def _missing(found: DiagnosisData) -> tuple[str, ...]:
-    parts = [f"{_with_parameters(e)} (probability {likelihood(e.probability)})" for e in found.effects]
+    slight = {e.name for e in found.account if e.share < SLIGHT and e.name not in found.set}
+    effects = [e for e in found.effects if e.name not in slight] or found.effects
+    parts = [f"{_with_parameters(e)} (probability {likelihood(e.probability)})" for e in effects]
     if len(found.set) > 1:
         names = listing([plain_name(name) for name in found.set], "or")
         either = likelihood(acting(found, found.effects[0])[0])
         parts = [f"{names} (probability {either} of one of them; these recordings cannot tell which)", *parts[1:]]
     them = held_part(found) or ("it" if len(found.effects) == 1 else "them")
     said = f"{_contradiction(found)}The model lacks {listing(parts)}."
-    return (said, *_proof(found, f"Adding {them}"), *_left(found))
+    beside = [e for e in found.effects if e not in effects]
+    return (said, *_proof(found, f"Adding {them}"), *_slight(beside), *_left(found))
+
+
+def _slight(effects: Sequence[FoundEffect]) -> Iterator[str]:
+    """What acts for certain and makes next to no difference, as half a sample of delay beside a friction."""
+    if effects:
+        names = listing([f"{_with_parameters(e)} (probability {likelihood(e.probability)})" for e in effects])
+        show, each = ("shows", "") if len(effects) == 1 else ("show", " each")
+        yield f"{capital(names)} {show} too, with less than {percent(SLIGHT)} of the mismatch{each}."
 
 
 def acting(found: DiagnosisData, effect: FoundEffect) -> tuple[float, tuple[str, ...]]:
