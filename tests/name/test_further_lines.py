@@ -10,6 +10,7 @@ from made_up_motor import MOTOR, plant
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
+from rwn.fit.residuals import statistics
 from rwn.model.model import Model
 from rwn.name.further_lines import with_further_lines
 from rwn.name.screening import screen
@@ -41,6 +42,14 @@ def test_poles_beside_slots_are_a_second_line() -> None:
     }  # fmt: skip
     assert [values["amplitude_2"], values["phase_2"]] == pytest.approx([POLES[0], POLES[2]], rel=0.05)
     assert found.cost < 0.1 * one.cost
+
+
+def test_poles_and_slots_may_differ_by_one() -> None:
+    """Such as 8 poles and 9 slots, with what both have in common."""
+    problem, one = _fitted((0.004, 9.0, 0.7), (0.003, 8.0, -1.9), (0.005, 72.0, 2.3))
+    (found,) = with_further_lines(problem, [one])
+    assert sorted(found.periods) == pytest.approx([8.0, 9.0, 72.0], abs=0.02)
+    assert statistics(problem, found).at_the_floor
 
 
 def test_noise_is_no_line() -> None:

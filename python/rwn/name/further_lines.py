@@ -16,6 +16,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.model.vocabulary import Effect
 from rwn.name.initial_guesses import spectra
+from rwn.name.observable import revolutions
 from rwn.name.weights import log_odds
 from rwn.parallel import side_by_side
 
@@ -35,11 +36,20 @@ def with_further_lines(problem: Problem, fits: Sequence[Fit]) -> list[Fit]:
     this = first
     for name in _periodic(first):
         effect = problem.prior.table[name]
-        while affords_more(problem.work) and (more := _with_one_more(problem, this, effect)):
-            this = more
+        this = _most_worth(problem, this, effect)
         while (less := _with_one_less(problem, this, effect)) is not None:
             this = less
     return [this if f is first else f for f in fits]
+
+
+def _most_worth(problem: Problem, base: Fit, effect: Effect) -> Fit:
+    """The explanation with as many lines as are worth most: one alone may be worth nothing while others are missing."""
+    grown, done = [base], False
+    while not done and affords_more(problem.work) and (more := _with_one_more(problem, grown[-1], effect)):
+        grown.append(more)
+        done = statistics(problem, more).at_the_floor
+    worth = [_worth_of_lines(problem, more, base, k + 1) for k, more in enumerate(grown[1:])]
+    return grown[1 + int(np.argmax(worth))] if worth and max(worth) > 0.0 else base
 
 
 def _periodic(this: Fit) -> list[str]:
@@ -48,15 +58,11 @@ def _periodic(this: Fit) -> list[str]:
 
 
 def _with_one_more(problem: Problem, base: Fit, effect: Effect) -> Fit | None:
-    """An explanation with one more line of an effect; None where none is left, or none is worth its parameters."""
-    lines = _lines(effect, base)
-    if len(lines) == 1 + max(p.line for p in effect.further):
+    """An explanation with one more line of an effect; None where there is no room for one, or none explains more."""
+    if len(_lines(effect, base)) == 1 + max(p.line for p in effect.further):
         return None
-    begun = [_begun(problem, base, effect, order) for order in _orders(problem, base, effect)]
-    best = _best(problem, begun)
-    if best is None or best.cost >= base.cost:
-        return None
-    return best if _worth_of_a_line(problem, best, base) > 0.0 else None
+    best = _best(problem, [_begun(problem, base, effect, order) for order in _orders(problem, base, effect)])
+    return best if best is not None and best.cost < base.cost else None
 
 
 def _with_one_less(problem: Problem, base: Fit, effect: Effect) -> Fit | None:
@@ -66,7 +72,7 @@ def _with_one_less(problem: Problem, base: Fit, effect: Effect) -> Fit | None:
         return None
     others = [[*lines[:k], *lines[k + 1 :]] for k in range(len(lines))]
     best = _best(problem, [_with(problem, base, effect, kept) for kept in others])
-    return best if best is not None and _worth_of_a_line(problem, base, best) <= 0.0 else None
+    return best if best is not None and _worth_of_lines(problem, base, best) <= 0.0 else None
 
 
 def _best(problem: Problem, begun: Sequence[Hypothesis]) -> Fit | None:
@@ -77,21 +83,25 @@ def _best(problem: Problem, begun: Sequence[Hypothesis]) -> Fit | None:
     return min(found, key=lambda f: f.cost)
 
 
-def _worth_of_a_line(problem: Problem, more: Fit, less: Fit) -> float:
-    """Log odds of an explanation with a line more, whose order is one of all that were looked at."""
+def _worth_of_lines(problem: Problem, more: Fit, less: Fit, count: int = 1) -> float:
+    """Log odds of an explanation with `count` more lines, the order of each one of all that were looked at."""
     orders = spectra.order_grid(problem).size
-    return log_odds(more, less, statistics(problem, more)) - float(np.log(orders))
+    return log_odds(more, less, statistics(problem, more)) - count * float(np.log(orders))
 
 
 def _orders(problem: Problem, base: Fit, effect: Effect) -> list[float]:
-    """The orders that explain most of what an explanation leaves, other than those that are there."""
+    """The orders that explain most of what an explanation leaves, other than those that are there.
+
+    Poles and slots of a motor often differ by one. What leaks from one order to the next is that of less than a turn.
+    """
     grid = spectra.order_grid(problem)
-    apart = 1.5 * (grid[1] - grid[0])  # as neighbours in a spectrum are left out
+    step = float(grid[1] - grid[0])
+    apart = min(spectra.NEIGHBOURS, spectra.NEIGHBOURS / (step * max(revolutions(problem), 1e-9)))
     (place,) = (k for k, p in enumerate(effect.parameters) if p.order)
     there = [line[place] for line in _lines(effect, base)]
-    guesses = spectra.read(problem, base, effect, TRIED + len(there)) or []
-    found = [next(iter(guess.values())) for guess in guesses]
-    return [order for order in found if all(abs(order - known) > apart for known in there)][:TRIED]
+    found = spectra.orders_left(problem, base, effect, TRIED + len(there), apart=apart)
+    near = max(apart, 0.5) * step
+    return [order for order in found if all(abs(order - known) > near for known in there)][:TRIED]
 
 
 def _begun(problem: Problem, base: Fit, effect: Effect, order: float) -> Hypothesis:

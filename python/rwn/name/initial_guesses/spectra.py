@@ -24,11 +24,18 @@ from rwn.simulate.unknown_inputs import unknown_inputs
 
 Array = NDArray[np.float64]
 
+NEIGHBOURS = 1.5  # steps of the grid within which an order may be the leakage of a stronger one
 LEVEL = 0.01  # chance that the highest line of a spectrum of noise is beyond `highest_by_chance`
 
 
 def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess] | None:
     """Spatial frequencies that explain most of what `base` leaves; none where no angle is known."""
+    (order,) = (p for p in effect.parameters if p.order)
+    return [{order.name: n} for n in orders_left(problem, base, effect, count)]
+
+
+def orders_left(problem: Problem, base: Fit, effect: Effect, count: int, *, apart: float = NEIGHBOURS) -> list[float]:
+    """The orders that explain most of what `base` leaves, `apart` of each other at least, in steps of the grid."""
     if not any(r.angle.size for r in problem.runs):
         return []
     (order,) = (p for p in effect.parameters if p.order)
@@ -38,20 +45,20 @@ def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess]
     found: list[float] = []
     by_speed, flux = any(r.speed.size for r in problem.runs), effect.site == "flux"
     if flux and all(r.current.size for r in problem.runs):
-        found = orders_of(flux_spectrum(problem, base.vector, grid), grid, count)
+        found = orders_of(flux_spectrum(problem, base.vector, grid), grid, count, apart=apart)
         wanted: tuple[tuple[bool, int], ...] = ((True, 1),)  # with the current or without, and how many orders
     else:
         # a current that was not recorded is known badly: with it and without
         wanted = ((True, count), (False, count)) if flux else ((False, count),)
         if not (flux and by_speed):
-            found = orders_of(torque_spectrum(problem, base.vector, base.active, grid), grid, count)
+            found = orders_of(torque_spectrum(problem, base.vector, base.active, grid), grid, count, apart=apart)
     if not by_speed:
-        return [{order.name: n} for n in found]
+        return found
     residuals = problem.residuals(base.vector, base.active)
     for with_current, most in wanted:
         spectrum = angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
-        found += orders_of(spectrum, grid, most)
-    return [{order.name: n} for n in dict.fromkeys(found)]
+        found += orders_of(spectrum, grid, most, apart=apart)
+    return list(dict.fromkeys(found))
 
 
 def along_the_shaft(problem: Problem, vector: Array, active: Sequence[int]) -> Problem:
@@ -205,11 +212,11 @@ def current_of(problem: Problem, motor: Array, run: Run) -> Array:
     return problem.drive.resting_current(motor_values(motor), run.speed, run.input)
 
 
-def orders_of(spectrum: Array, orders: Array, count: int) -> list[float]:
-    """Of `orders` (k,) those that explain most, neighbours left out."""
+def orders_of(spectrum: Array, orders: Array, count: int, *, apart: float = NEIGHBOURS) -> list[float]:
+    """Of `orders` (k,) those that explain most, `apart` of each other at least, in steps of the grid."""
     found: list[float] = []
     for k in np.argsort(spectrum)[::-1]:
-        if all(abs(orders[k] - o) > 1.5 * (orders[1] - orders[0]) for o in found):
+        if all(abs(orders[k] - o) > apart * (orders[1] - orders[0]) for o in found):
             found.append(float(orders[k]))
         if len(found) == count:
             break
