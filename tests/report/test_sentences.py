@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 import made_up
 from rwn.name.found_effect import FoundEffect
 from rwn.recording.inspection import Finding
@@ -34,3 +36,28 @@ def test_what_makes_next_to_no_difference_is_said_behind_what_does() -> None:
     assert "Input delay (probability 95 %) shows too, with less than 0.5 % of the mismatch." in said
     large = (acts, replace(both[1], share=0.2))
     assert "input delay" in sentences(replace(found, effects=(friction, delay), account=large))[0]
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (0.6, "1.2 times its noise at most: it is not much."),
+        (5.0, "10 times its noise."),
+        (float("inf"), "runs away."),
+    ],
+)
+def test_how_much_is_missing_is_said_where_nothing_is_corrected(error: float, said: str) -> None:
+    row = next(r for r in made_up.found().heldout if (r.signal, r.region) == ("speed", "all"))
+    left = replace(row, refitted=error, corrected=None, gain=None, gain_interval=None, noise_floor=0.5)
+    none = replace(made_up.found(), effects=(), set=(), added=(), stand_in="")
+    unknown = replace(none, verdict="unexplained", heldout=(left,))
+    *_, last = sentences(unknown)
+    assert last.startswith(f"On {left.recording}, not used for fitting, the ")
+    assert last.endswith(said)
+
+
+def test_what_differs_is_said_once_beneath_a_mistake_too() -> None:
+    odd = Finding(kind="", recording="a", signals=(), count=0, words="", quantity="load", held="the mean")
+    found = made_up.mistake()
+    said = sentences(replace(found, findings=(odd,)))
+    assert sum("The recordings differ in load" in sentence for sentence in said) == 1

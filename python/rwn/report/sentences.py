@@ -159,7 +159,23 @@ def _unexplained(found: DiagnosisData) -> tuple[str, ...]:
     somewhere = f"something in the {found.equation} equation" if found.equation else "the motion is not followed"
     what = found.location.briefly or found.location.description or somewhere
     drawn = (f"In corrected.toml stands for it: {found.stand_in}.",) if found.stand_in else ()
-    return (f"Something is missing that has no name here: {what}.", *drawn, *_proof(found, "Adding that"))
+    said = f"Something is missing that has no name here: {what}."
+    return (said, *drawn, *(_proof(found, "Adding that") if found.added or drawn else _how_far(found)))
+
+
+def _how_far(found: DiagnosisData) -> Iterator[str]:
+    """How much is missing where nothing was corrected, by the signal that stands out most from its noise."""
+    rows = [row for row in found.heldout if row.region == "all" and row.signal != "position"]
+    row = max(rows, key=over_noise, default=None)
+    if row is None or not row.noise_floor:
+        return
+    where = recording_in_words(row.recording)
+    if not math.isfinite(row.left):
+        yield f"On {where}, the simulated {row.signal} runs away."
+        return
+    times = f"{number(over_noise(row), 2)} times its noise"
+    slight = " at most: it is not much" if over_noise(row) < STANDS_OUT else ""
+    yield f"On {where}, the refitted model errs by {before_after(row)[1]} in {row.signal}, {times}{slight}."
 
 
 def _insufficient(found: DiagnosisData) -> tuple[str, ...]:
@@ -173,7 +189,9 @@ def _mistake(found: DiagnosisData) -> tuple[str, ...]:
     if found.beneath is None:
         return (said,)
     physics = tuple(effect for effect in found.effects if effect.equation != RECORDING)
-    rest = replace(found, verdict=found.beneath.verdict, set=found.beneath.set, effects=physics, beneath=None)
+    rest = replace(
+        found, verdict=found.beneath.verdict, set=found.beneath.set, effects=physics, beneath=None, findings=()
+    )
     first, *others = sentences(rest)
     return (said, f"With it undone: {first}", *others)
 
