@@ -16,6 +16,7 @@ from rwn.faults.delay import shift_instead
 from rwn.fit.preparation import prepare
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
+from rwn.measurement.levels import all_levels, with_levels
 from rwn.model.model import Model
 
 DEMO = Path(rwn.__file__).parent / "demo"
@@ -94,3 +95,20 @@ def test_a_current_is_late_where_that_fits_as_well_as_an_input_that_is(model: Mo
     assert ranking.fits[0].added == ("input-delay",)
     fault = shift_instead(recordings, model, [], ranking)
     assert (fault and (fault.signals, fault.delay)) == ((("current",), 1) if late else None)
+
+
+def test_what_differs_between_files_stays_known(model: Model) -> None:
+    """Without the levels both errors are large, and the half sample by which the speed lags is lost in them."""
+    recording = rwn.read_recording(DEMO / "train.csv", layout=model.recording)
+    step = float(np.median(np.diff(recording.time)))
+    recordings = [
+        replace(_recording(replace(model, parameters=warmer), late=0, lag=0.5 * step), name=f"{k}")
+        for k in (0.77, 1.3)
+        for warmer in [{**model.parameters, "resistance": k * model.parameters["resistance"]}]
+    ]
+    known = [SensorFilter(signal="current", share=KEPT, time_constant=-step / np.log(KEPT), digital=True)]
+    bare = prepare(recordings, model)
+    (level,) = (level for level in all_levels(bare) if level.quantity == "resistance")
+    ranking = ranked(filtered(with_levels(bare, level), known), ["speed-moving-average"], at_once=1)
+    assert ranking.fits[0].added == ("speed-moving-average",)
+    assert shift_instead(recordings, model, known, ranking) is None

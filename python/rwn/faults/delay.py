@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from itertools import chain
 
 import numpy as np
@@ -25,6 +26,7 @@ from rwn.fit.residuals import variance
 from rwn.fit.screening_part import screening_part
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, noise_before_filters
+from rwn.measurement.levels import known_levels, with_levels
 from rwn.model.model import Model
 from rwn.model.recordings import LONGEST_SHIFT
 from rwn.name.ranking import Ranking
@@ -154,7 +156,13 @@ def shift_instead(
     take it for a delay of the input, which its inductance makes up for in the other channel. `filters`: of the sensors,
     under which the ranking was found.
     """
-    best, lagging = ranking.fits[0].fit, filtered(prepare(recordings, model), filters)
+    best, levels = ranking.fits[0].fit, known_levels(ranking.problem)
+
+    def measured(of: Sequence[Recording]) -> Problem:
+        """The recordings with what is known of how they were made."""
+        return filtered(reduce(with_levels, levels, prepare(of, model)), filters)
+
+    lagging = measured(recordings)
     table = lagging.prior.table
     late = [name for name in best.added if table[name].delays or table[name].takes_time]
     if not late or not lagging.drive.winding or any("current" not in r.signals for r in recordings):
@@ -168,7 +176,7 @@ def shift_instead(
         bare = hypothesis(lagging.prior, others, lagging.scales, best.starts(others), best.motor)
         begun = Fit(hypothesis=bare, minimum=replace(this.minimum, values=bare.start))
         for fault in _shifts(recordings, lagging, begun):
-            undone = replace(filtered(prepare(without(recordings, fault), model), filters), noise=lagging.noise)
+            undone = replace(measured(without(recordings, fault)), noise=lagging.noise)
             found[fault] = variance(undone, fit(undone, bare))
     if not found or min(found.values()) > left:
         return None
