@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 
 import rwn
+from ranked import ranked_from
 from rwn.report.recording_check import checked
+from rwn.search.search import SearchResult
 
 DEMO = Path(rwn.__file__).parent / "demo"
 MODEL = rwn.read_model(DEMO / "model.toml")
@@ -52,11 +54,15 @@ def test_a_late_enable_is_said_of_its_recording() -> None:
 def test_a_speed_that_is_a_difference_of_positions_is_said_to_be_one() -> None:
     clean = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
     position = np.cumsum(clean.signals["speed"]) * 1e-3
-    for window in (1, 8):
+    for window, of in ((1, ""), (8, " of 8 samples: a mean over 8 ms")):
         counted = np.round(position * 4000 / (2 * np.pi)) * 2 * np.pi / 4000
         late = np.concatenate([np.zeros(window), counted[:-window]])
         recording = replace(clean, signals={**clean.signals, "speed": (counted - late) / (window * 1e-3)})
-        assert any("the speed is a difference of positions" in line for line in checked([recording], MODEL))
+        said = f"the speed is a difference of positions{of}: it is compared as such"
+        assert any(said in line for line in checked([recording], MODEL))
+        found = SearchResult(model=MODEL, late=(), faults=(), ranking=ranked_from([recording], MODEL, ["unbalance"]))
+        (told,) = [f for f in found.findings if f.kind == "speed-difference"]
+        assert f"{told.words}: it is {told.done}" == said
 
 
 def test_a_wrong_unit_is_said_after_the_recordings() -> None:

@@ -43,6 +43,12 @@ class SpeedMeasurement:
         """Whether the speed is a difference of positions."""
         return self.before + self.after > 0
 
+    def in_words(self, step: float) -> str:
+        """What the speed is, of samples `step` [s] apart."""
+        apart = self.before + self.after
+        over = f" of {apart} samples: a mean over {1e3 * apart * step:.3g} ms" if apart > 1 else ""
+        return f"the speed is a difference of positions{over}"
+
     @property
     def shows_counts(self) -> bool:
         """Whether its noise is that of the counts; over many rows the instants of its updates outweigh these."""

@@ -62,4 +62,4 @@ def _start(run: Run, model: Model) -> str:
 
 def _speed(run: Run) -> Iterator[str]:
     if run.speed_measured.is_difference:
-        yield "the speed is a difference of positions: it is compared as such"
+        yield f"{run.speed_measured.in_words(run.sample_time)}: it is compared as such"

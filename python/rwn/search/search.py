@@ -62,6 +62,15 @@ class SearchResult:
             for run in self.ranking.problem.whole
             if run.in_motion and self.model.recording.initial == "auto"
         ]  # fmt: skip
+        taken = {run.speed_measured.in_words(run.sample_time): run for run in self.ranking.problem.whole}
+        found += [
+            Finding(
+                kind="speed-difference", recording="all recordings" if len(taken) == 1 else run.name,
+                signals=("speed",), count=0, words=words, done="compared as such",
+            )
+            for words, run in taken.items()
+            if run.speed_measured.is_difference
+        ]  # fmt: skip
         law = self.model.recording.intersample
         if law not in (AUTO, HELD):
             found.append(
