@@ -40,7 +40,8 @@ class Problem:
     prior: Prior
     scales: Mapping[str, float]  # quantities that parameters are measured against
     filters: Mapping[str, float] = field(default_factory=dict)  # digital ones [s] by signal, undone in the runs
-    coloured: Mapping[str, float] = field(default_factory=dict)  # share of the noise of a signal that the next row has
+    # partial autocorrelations of the noise of signals in which it lasts
+    coloured: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     inflation: float = 1.0  # variance times correlation time of what the best fit leaves: so many samples count as one
 
     @property

@@ -34,6 +34,7 @@ class SensorFilter:
     noise: NoiseColour = field(default_factory=NoiseColour)  # what the noise alone shows of it
     digital: bool = False  # it takes samples, as a drive's program does; else it is fitted as a law of the sensor
     of_noise: bool = False  # it coloured the noise alone: the motion went through none
+    reflection: tuple[float, ...] = ()  # partial autocorrelations of such noise
 
     @property
     def spread(self) -> float:
@@ -85,7 +86,9 @@ def coloured_noise(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -
             continue
         if not structured_of({seen.signal: np.concatenate([noise.innovations(x) for x in errors])}):
             time_constant = seen.time_constant * float(np.log(seen.share) / np.log(share))
-            found.append(replace(seen, share=share, time_constant=time_constant, of_noise=True))
+            found.append(
+                replace(seen, share=share, time_constant=time_constant, of_noise=True, reflection=noise.reflection)
+            )
     return found
 
 

@@ -30,8 +30,8 @@ def filtered(problem: Problem, filters: Sequence[SensorFilter]) -> Problem:
 
 
 def _coloured(problem: Problem, f: SensorFilter) -> Problem:
-    noise = {**problem.noise, f.signal: replace(problem.noise[f.signal], reflection=(f.share,))}
-    return replace(problem, coloured={**problem.coloured, f.signal: f.share}, noise=noise)
+    noise = {**problem.noise, f.signal: replace(problem.noise[f.signal], reflection=f.reflection)}
+    return replace(problem, coloured={**problem.coloured, f.signal: f.reflection}, noise=noise)
 
 
 def stating_filters(model: Model, filters: Mapping[str, float]) -> Model:
@@ -50,8 +50,10 @@ def known_filters(problem: Problem) -> tuple[SensorFilter, ...]:
         for s, time in times.items()
     ]
     of_noise = [
-        SensorFilter(signal=s, share=share, time_constant=problem.time_kept(s, share), of_noise=True)
-        for s, share in problem.coloured.items()
+        SensorFilter(
+            signal=s, share=of[0], time_constant=problem.time_kept(s, of[0]), of_noise=True, reflection=of
+        )
+        for s, of in problem.coloured.items()
     ]
     return (*of_motion, *of_noise)
 

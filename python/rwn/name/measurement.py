@@ -11,6 +11,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.measurement.filter_colour import SensorFilter, coloured_noise
 from rwn.measurement.known_filters import filtered
+from rwn.measurement.lasting_noise import lasting_noise
 from rwn.measurement.levels import Level, all_levels, as_described, can_differ, frictions, with_levels
 from rwn.measurement.sensor_filter import filters_again, sensor_filters, shown_in_noise
 from rwn.name.uneven import LevelsTest, uneven_beside
@@ -90,6 +91,7 @@ class Measurement:
         if found != known:
             return found
         coloured = coloured_noise(problem, problem.residuals(best.vector, best.active))
+        coloured += [f for f in lasting_noise(problem, best) if f.signal not in {other.signal for other in coloured}]
         return (*self.filters, *(f for f in coloured if f.signal not in problem.coloured))
 
     def _filters_of_motion(

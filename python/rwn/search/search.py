@@ -86,10 +86,10 @@ class SearchResult:
         found += [
             Finding(
                 kind="coloured-noise", recording="all recordings", signals=(signal,), count=0,
-                words=f"{100.0 * share:.0f} % of the noise of the {signal} is in its next sample too",
+                words=f"{100.0 * of[0]:.0f} % of the noise of the {signal} is in its next sample too",
                 done="errors are judged by what is new in each",
             )
-            for signal, share in self.ranking.problem.coloured.items()
+            for signal, of in self.ranking.problem.coloured.items()
         ]  # fmt: skip
         found += uneven_files(self.ranking)
         return tuple(found)
