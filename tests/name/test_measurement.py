@@ -81,7 +81,7 @@ def test_noise_that_lasts_is_noise_where_the_motion_went_through_no_filter() -> 
     assert found is not None
     assert not found.problem.filters
     assert not found.problem.prior.nuisance
-    assert found.problem.coloured["current"] == pytest.approx(SLOW, abs=0.02)
+    assert found.problem.coloured["current"] == pytest.approx((SLOW,), abs=0.02)
     problem, nominal = weighted_by_nominal(found.problem)
     assert statistics(problem, nominal).at_the_floor
     assert found.otherwise(problem, nominal, completely=True) is None
