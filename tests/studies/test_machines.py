@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import made_up
+import rwn
 from ranked import ranked
 from rwn.cli import app
 from rwn.errors import InputError
@@ -17,9 +19,10 @@ from rwn.fit.prior_weight import BELIEVABLE
 from rwn.name.found_effect import FoundEffect
 from rwn.recording.recording import Recording, read_recording
 from rwn.report.diagnosis import Diagnosis
+from rwn.report.file_units import in_file_units
 from rwn.studies.machines import ced, emps, fra233, frc, hall, laas, odrive, undc, xl330
 from rwn.studies.machines.hand_fit import HANDS, fitted, rms, shown
-from rwn.studies.machines.machine import Error, Outcome, cut, nominal_model
+from rwn.studies.machines.machine import Error, Outcome, cut, error_of, nominal_model
 from rwn.studies.machines.registry import MACHINES
 from rwn.studies.machines.runner import run_machines
 from rwn.studies.machines.sliding_motor import Drive, slide
@@ -181,3 +184,14 @@ def test_a_section_of_the_page_is_written_anew_and_the_rest_kept(tmp_path: Path)
     assert text.startswith("above\n<!-- rwn evidence emps -->\n| new |\n")
     assert text.endswith("<!-- end -->\nby hand\n")
     assert "old" not in text
+
+
+def test_an_error_is_in_si_whatever_the_units_of_its_file() -> None:
+    found = made_up.found()
+    row = next(r for r in found.heldout if (r.signal, r.region) == ("speed", "all"))
+    run = rwn.Recording(
+        name=row.recording, time=np.arange(3.0), signals={"voltage": np.zeros(3)}, units={"speed": "rpm"}
+    )
+    for made in (found, in_file_units(found, [run])):
+        error = error_of(made, row.recording, "speed", "speed [krad/s]", scale=1e-3)
+        assert error.refitted == pytest.approx(1e-3 * row.refitted)

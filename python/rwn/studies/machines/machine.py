@@ -13,7 +13,10 @@ from rwn.diagnose import diagnose
 from rwn.errors import InputError
 from rwn.model.files import read_model
 from rwn.model.model import Model
+from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording
+from rwn.recording.signals import SIGNALS
+from rwn.recording.units import factor, has_dimension
 from rwn.report.diagnosis import Diagnosis
 
 Array = NDArray[np.float64]
@@ -78,8 +81,10 @@ def error_of(
     published: str = "",
     wanted: float | None = None,
 ) -> Error:
-    """The rms row of one held-out recording, in other units."""
+    """The rms row of one held-out recording, `scale` times its number in SI."""
     row = next(r for r in found.heldout if (r.recording, r.signal, r.region) == (recording, signal, "all"))
+    known = [si_unit(SIGNALS[signal], linear) for linear in (False, True)] if signal in SIGNALS else []
+    scale *= next((factor(row.unit, si, where=recording) for si in known if has_dimension(row.unit, si, where="")), 1.0)
     corrected = None if row.corrected is None else scale * row.corrected
     return Error(
         measure=measure, nominal=scale * row.nominal, refitted=scale * row.refitted, corrected=corrected,
