@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from made_up_motor import MOTOR
 from rwn.model.files import read_model
+from rwn.model.model import Model
 from rwn.recording.inspection import inspected
 from rwn.recording.inspection.spikes import SPIKES
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import MEASURED
+from rwn.simulate.simulation import simulate
 
 Array = NDArray[np.float64]
 TIME = np.arange(4000) * 1e-3
@@ -200,3 +203,16 @@ def test_those_of_the_messy_cases_are_found_and_nothing_else(shared: Path) -> No
     # the others: zeros within the noise or the slope beside them, peaks no larger than that slope, one beside a zero
     assert there == 426
     assert hit >= 415
+
+
+def test_what_follows_lost_rows_is_no_spike() -> None:
+    """An inrush that began in rows which are lost is seen in one row, and that row says most."""
+    rng, time = np.random.default_rng(0), 2e-3 * np.arange(2500)
+    voltage = np.repeat(rng.uniform(-12.0, 12.0, 25), 100)
+    voltage[:100] = 0.0
+    run = Recording(name="run", time=time, signals={"voltage": voltage})
+    current = simulate(Model(kind="dc", parameters=MOTOR), run).signals["current"]
+    kept = rng.uniform(size=time.size) > 0.04
+    signals = {"voltage": voltage, "current": current + 0.02 * rng.standard_normal(time.size)}
+    _, found = inspected([replace(run, time=time[kept], signals={k: x[kept] for k, x in signals.items()})])
+    assert not [f for f in found if f.kind == "spikes"]

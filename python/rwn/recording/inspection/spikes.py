@@ -21,6 +21,7 @@ SHOWN = 4  # spikes whose places are said
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
 FEWEST = 8  # samples among which one is found
 SETTLING = 3  # samples after a step of the input in which a current may peak by itself
+GAP = 1.5  # times the usual time between rows, from which one is lost
 NEARBY = 25  # samples whose changes a step of the input stands out from: a sine has none
 
 
@@ -54,7 +55,14 @@ def _spikes(recording: Recording, signal: str) -> Flags:
     x = np.asarray(recording.signals[signal])[measured]
     inputs = [np.asarray(recording.signals[s])[measured] for s in recording.signals if s not in MEASURED]
     flags[measured] = _among(x, after_steps > 0.0) | _beside_steps(x, inputs, after_steps)
+    flags &= ~_after_gaps(recording.time)
     return flags if flags.mean() <= RARE else np.zeros(missing.size, dtype=bool)
+
+
+def _after_gaps(time: Array) -> Flags:
+    """The rows (n,) that come after lost ones: what the input did there, and the signal for it, is in no row."""
+    rows = np.diff(time, prepend=time[0] - (time[1] - time[0]))
+    return np.asarray(rows > GAP * np.median(rows))
 
 
 def _among(x: Array, after_steps: Flags) -> Flags:
