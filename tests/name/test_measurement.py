@@ -19,12 +19,12 @@ from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import statistics
+from rwn.fit.residuals import Statistics, statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.name import forward
 from rwn.name.forward import _grown
-from rwn.name.measurement import CHANGES, Measurement
+from rwn.name.measurement import CHANGES, Measurement, is_explained
 from rwn.name.ranking import NO_EXTENSIONS, Fits
 from rwn.recording.filters import as_filtered
 
@@ -169,3 +169,14 @@ def test_what_is_known_of_the_recordings_goes_along_when_a_ranking_is_gone_on_wi
     further = ranked(recorded, names, after=alone)
     assert [f.signal for f in alone.measurement.filters] == ["speed"]
     assert further.measurement == alone.measurement
+
+
+@pytest.mark.parametrize(("left", "otherwise", "yes"), [(1.06, 253.0, True), (3.0, 253.0, False), (1.06, 1.5, False)])
+def test_several_machines_leave_noise_or_next_to_nothing(left: float, otherwise: float, yes: bool) -> None:
+    """What a simulator, or a logger, adds to a signal is no reason to take two machines for one."""
+
+    def leaving(variance: float) -> Statistics:
+        return Statistics(count=10000, variance=variance, correlation_time=2.0, structured=("current",))
+
+    assert is_explained(leaving(left), leaving(otherwise)) == yes
+    assert is_explained(replace(leaving(left), variance=1.0, structured=()), leaving(otherwise))

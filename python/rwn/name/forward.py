@@ -25,7 +25,7 @@ from rwn.measurement.filter_colour import SensorFilter
 from rwn.name.backward import distinct, replaced, with_simpler
 from rwn.name.degenerate import adds
 from rwn.name.further_lines import with_further_lines
-from rwn.name.measurement import Measurement
+from rwn.name.measurement import Measurement, is_explained
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.observable import observable
 from rwn.name.prior_odds import loaded, prior_odds, steady_loads
@@ -94,7 +94,7 @@ def _ranked(
             renew(problem.work, begun)
             several = [f for f in best_few(fits) if len(f.added) > 1]  # a second search may not afford to find them
             found = _ranked(measured, progress=progress, names=names, at_once=at_once, after=found, known=several)
-        if found.left.at_the_floor or made.supposed or not measured.supposed:
+        if made.supposed or not measured.supposed or is_explained(found.left, statistics(problem, best)):
             return found
         made = replace(made, of_one_machine=True)
         measured = made.otherwise(problem, best, completely=True, others=fits)

@@ -8,7 +8,7 @@ from functools import reduce
 
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import statistics
+from rwn.fit.residuals import Statistics, statistics
 from rwn.measurement.filter_colour import SensorFilter, coloured_noise
 from rwn.measurement.known_filters import filtered
 from rwn.measurement.lasting_noise import lasting_noise
@@ -18,6 +18,7 @@ from rwn.name.uneven import LevelsTest, uneven_beside
 from rwn.parallel import side_by_side
 
 SINGLE = 3  # explanations by one effect that what differs from recording to recording is asked beside
+NEXT_TO_NOTHING = 0.005  # share of a squared error above the noise that is not worth a sentence
 CHANGES = 2  # times that filters which are known may be found to be others; each costs a search
 
 
@@ -66,7 +67,7 @@ class Measurement:
         """What differs from recording to recording of what is not known to do so, the most certain first.
 
         Physics that is missing makes the numbers of a machine differ too: those are asked only where more than noise is
-        left, and held to be several machines' only where that leaves noise alone.
+        left, and held to be several machines' only where that leaves noise alone or next to nothing.
         """
         found = list[Level]()
         while level := self._level(problem, best, simpler):
@@ -102,6 +103,11 @@ class Measurement:
         if not completely or self.changes == CHANGES:
             return known
         return filters_again(self.as_prepared, best, known)
+
+
+def is_explained(left: Statistics, otherwise: Statistics) -> bool:
+    """Whether several machines leave noise alone, or next to nothing of what one machine leaves."""
+    return left.at_the_floor or left.variance - 1.0 < NEXT_TO_NOTHING * (otherwise.variance - 1.0)
 
 
 def _of_motion(filters: Sequence[SensorFilter]) -> tuple[SensorFilter, ...]:
