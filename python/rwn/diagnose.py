@@ -16,6 +16,7 @@ from rwn.errors import InputError
 from rwn.faults.fault import without_all
 from rwn.faults.held_shaft import without_held
 from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powered
+from rwn.faults.odd_files import without_unseen_mistakes
 from rwn.faults.sensor_errors import without_sensor_errors
 from rwn.faults.uneven_files import at_own_levels, uneven_unseen
 from rwn.fit.nominal import check_it_runs
@@ -86,7 +87,7 @@ def diagnose(
         found = search(fitted, model, late=late, say=say, effort=effort)
         check_it_runs(found.ranking.problem, found.ranking.nominal_fit)
         say("proving it on data that were not fitted", AFTER_SEARCH)
-        unseen = _unseen(judged, found)
+        unseen = _unseen(judged, fitted, found)
         decision = decide(found.ranking, unseen.runs, found.model, seed=seed)
         say("correcting the model", 0.9)
         correction = correct(decision, unseen.runs, found.model, seed=seed)
@@ -118,10 +119,11 @@ class _Unseen:
         return (*self.sensor_errors, *enabled, *told, *self.contradicting)
 
 
-def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
+def _unseen(recordings: Sequence[Recording], fitted: Sequence[Recording], found: SearchResult) -> _Unseen:
+    known = without_all(fitted, found.faults)
     problem, best = found.ranking.problem, found.ranking.fits[0]
     of_all = [fault for fault in found.faults if not fault.recordings]  # not what some of the fitted files alone have
-    right = without_all(recordings, of_all)
+    right, mistaken = without_unseen_mistakes(known, without_all(recordings, of_all), found.model)
     late = late_beside(right, found.model, problem, best.fit)
     right = powered(right, late, found.model)
 
@@ -132,7 +134,7 @@ def _unseen(recordings: Sequence[Recording], found: SearchResult) -> _Unseen:
     kept_back = replace(problem.in_free_run(), runs=runs(right))
     told = with_inferred_input(kept_back, best.final).runs
     told, contradicting = at_own_levels(found.ranking, told)
-    return _Unseen(runs=told, late=late, sensor_errors=found_in, contradicting=contradicting)
+    return _Unseen(runs=told, late=late, sensor_errors=(*mistaken, *found_in), contradicting=contradicting)
 
 
 def _check_options(seed: int, jobs: int | None, effort: float, progress: Any) -> None:

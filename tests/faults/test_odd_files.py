@@ -14,7 +14,7 @@ import rwn
 from made_up_files import files_of
 from ranked import ranked_from
 from rwn.faults.fault import SIGN, UNIT, Fault
-from rwn.faults.odd_files import wrong_in_some
+from rwn.faults.odd_files import without_unseen_mistakes, wrong_in_some
 from rwn.faults.plain_faults import plain_faults
 from rwn.faults.scale import wrong_scale
 from rwn.model.model import Model
@@ -91,5 +91,15 @@ def test_what_some_of_the_fitted_have_is_not_undone_in_what_is_kept_back() -> No
     fault = Fault(name=UNIT, signals=("speed",), meaning="", factor=RPM, recordings=(fitted.name,))
     for faults, divided in (((fault,), 1.0), ((replace(fault, recordings=()),), RPM)):
         found = SearchResult(model=MODEL, late=(), faults=faults, ranking=ranking)
-        (run,) = diagnose._unseen([kept_back], found).runs
+        (run,) = diagnose._unseen([kept_back], [fitted], found).runs
         np.testing.assert_allclose(run.speed, other.signals["speed"] / divided)
+
+
+def test_a_unit_that_is_wrong_in_what_was_kept_back_is_undone_there() -> None:
+    fitted, judged = files_of(MODEL, [], (1.0, 1.0))
+    milli = replace(judged, signals={**judged.signals, "current": 1e3 * judged.signals["current"]})
+    ((right,), (said,)) = without_unseen_mistakes([fitted], [milli], MODEL)
+    np.testing.assert_allclose(right.signals["current"], judged.signals["current"])
+    assert (said.recording, said.signals) == ("run_1", ("current",))
+    assert said.words == "current in thousandths of the unit (milli) taken for the unit"
+    assert without_unseen_mistakes([fitted], [judged], MODEL) == ([judged], [])

@@ -8,6 +8,7 @@ from dataclasses import replace
 from rwn.faults.fault import GEAR, Fault, known_as
 from rwn.faults.scale import LEFT, similarity, wrong_scale
 from rwn.model.model import Model
+from rwn.recording.inspection import Finding
 from rwn.recording.recording import Recording
 
 
@@ -29,6 +30,28 @@ def wrong_in_some(recordings: Sequence[Recording], model: Model) -> Fault | None
         return None
     meaning = f"{fault.meaning}, in {', '.join(r.name for r in odd)} and not in {', '.join(r.name for r in others)}"
     return replace(fault, recordings=tuple(map(known_as, odd)), also=(), meaning=meaning)
+
+
+def without_unseen_mistakes(
+    fitted: Sequence[Recording], unseen: Sequence[Recording], model: Model
+) -> tuple[list[Recording], list[Finding]]:
+    """Recordings that were not fitted, without a unit or sign that is wrong in them and right in the fitted ones.
+
+    With what is said of it.
+    """
+    right, found = list(unseen), list[Finding]()
+    for k, recording in enumerate(unseen):
+        fault = wrong_in_some([*fitted, recording], model)
+        if fault is not None and fault.recordings == (known_as(recording),):
+            right[k] = fault.undo(recording)
+            said = fault.meaning.partition(f", in {recording.name}")[0]
+            found.append(
+                Finding(
+                    kind=fault.name, recording=recording.name, signals=fault.signals, count=0, words=said,
+                    done="judged with it undone; correct the file",
+                )
+            )  # fmt: skip
+    return right, found
 
 
 def _is_same(one: Fault | None, other: Fault) -> bool:
