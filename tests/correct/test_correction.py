@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
 from rwn.correct import correction
-from rwn.correct.correction import _proved_part, _without_a_name
+from rwn.correct.correction import _proved_part, _seen, _without_a_name
 from rwn.decide.account import Account, ActingEffect
 from rwn.decide.decision import Decision
 from rwn.decide.evidence import Evidence
@@ -149,3 +149,10 @@ def test_what_a_half_of_the_drive_contradicts_does_not_stand_in(
     found = _without_a_name(decision, KEPT_BACK, None, seed=0)  # type: ignore[arg-type]
     assert found is not None
     assert found.stands_in.startswith(f"{stands_in}, which helps")
+
+
+@pytest.mark.parametrize(("share", "said"), [(0.001, 0), (0.1, 1)])
+def test_a_law_that_is_seen_in_next_to_nothing_is_not_worth_a_word(share: float, said: int) -> None:
+    law, left = SimpleNamespace(words="a torque over speed"), SimpleNamespace(share=share)
+    decision = SimpleNamespace(other=law, remainder=left)
+    assert len(_seen(cast(Any, decision))) == said

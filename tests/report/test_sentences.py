@@ -9,7 +9,7 @@ import pytest
 import made_up
 from rwn.name.found_effect import FoundEffect
 from rwn.recording.inspection import Finding
-from rwn.report.sentences import sentences
+from rwn.report.sentences import JUDGED_AT_ITS_OWN, sentences
 
 
 def test_what_differs_from_file_to_file_is_said_after_the_verdict() -> None:
@@ -61,3 +61,16 @@ def test_what_differs_is_said_once_beneath_a_mistake_too() -> None:
     found = made_up.mistake()
     said = sentences(replace(found, findings=(odd,)))
     assert sum("The recordings differ in load" in sentence for sentence in said) == 1
+
+
+def test_an_error_with_a_number_of_its_own_is_said_to_be_one() -> None:
+    """rwn simulate with corrected.toml does not give it."""
+    found = made_up.found()
+    row = next(r for r in found.heldout if r.region == "all")
+    own = Finding(
+        kind="files-disagree", recording=row.recording, signals=(), count=0, words="its inertia is +30 % off",
+        done=f"{JUDGED_AT_ITS_OWN}; corrected.toml has another",
+    )  # fmt: skip
+    said = sentences(replace(found, findings=(own,)))
+    assert any(s.startswith("There its inertia is +30 % off, and it was judged with its own") for s in said)
+    assert not any("judged with its own" in s for s in sentences(replace(found, findings=(replace(own, done=""),))))

@@ -15,6 +15,7 @@ from rwn.decide.decision import Decision, together
 from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
+from rwn.name.measurement import NEXT_TO_NOTHING
 from rwn.name.weights import RankedFit
 from rwn.prove.heldout import heldout_error, helps, hurts, log_change
 from rwn.prove.proof import Proof, compared, proved
@@ -85,8 +86,8 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
 
 
 def _seen(decision: Decision) -> tuple[str, ...]:
-    """The law without a name that is seen in what is left, in words."""
-    other = decision.other
+    """The law without a name that is seen in what is left, in words, where that is worth a sentence."""
+    other = decision.other if decision.remainder.share >= NEXT_TO_NOTHING else None
     return (f"{other.words} explains most of what is left: it has no name here",) if other else ()
 
 

@@ -35,7 +35,7 @@ def uneven_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
                 Finding(
                     kind=_kind(level), recording=run.name, signals=(), count=0,
                     words=f"its {level.quantity} is {_off(level, off)} off {_of_the_machine(level)}",
-                    done="judged at this level, which fits it best; rwn simulate has that of corrected.toml",
+                    done="judged with its own, which fits it best; rwn simulate has that of corrected.toml",
                 )
             )  # fmt: skip
     return found

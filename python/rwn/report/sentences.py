@@ -27,6 +27,7 @@ from rwn.report.text import (
 )
 
 STANDS_OUT = 2.0  # error in units of the noise, from which three quarters of its square are something else
+JUDGED_AT_ITS_OWN = "judged with its own"  # what was done, of a recording that differs in a number
 SHOWN = 0.02  # probability from which an account shows an effect
 SLIGHT = 0.005  # share of a mismatch or an error that is not worth a sentence
 
@@ -244,6 +245,7 @@ def _proof(found: DiagnosisData, how: str) -> Iterator[str]:
     if row is None or row.corrected is None:
         return
     yield _compared(row, row.corrected, how)
+    yield from _at_its_own(found, row)
     for other in found.heldout:
         if other is not row and other.region == "all" and worse(other):
             before, after = before_after(other)
@@ -255,6 +257,13 @@ def _proof(found: DiagnosisData, how: str) -> Iterator[str]:
             after, times = before_after(other)[1], number(over_noise(other), 2)
             still = f"error there is still {times} times its noise, {after}"
             yield f"The {other.signal} {still if math.isfinite(other.left) else 'there runs away with and without it'}."
+
+
+def _at_its_own(found: DiagnosisData, row: HeldoutRow) -> Iterator[str]:
+    """That a recording was judged with a number of its own, with which no corrected.toml simulates it."""
+    for finding in found.findings:
+        if finding.recording == row.recording and finding.done.startswith(JUDGED_AT_ITS_OWN):
+            yield f"There {finding.words}, and it was judged with its own: with corrected.toml rwn simulate errs more."
 
 
 def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
