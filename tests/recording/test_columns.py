@@ -111,7 +111,9 @@ def test_a_slip_beside_the_signal_itself_is_another_column() -> None:
 def test_where_nothing_is_called_like_a_signal_the_map_is_asked_for() -> None:
     said = _refused(_table(a="V", b=None), Layout())
     assert said.what == "no column is called like a signal; there are a, b"
-    assert said.fix == 'write for instance: columns.speed = { source = "a", unit = "rad/s" }'
+    assert said.fix == 'write for instance: columns.voltage = { source = "a" }'
+    unknown = _refused(_table(a="s", b=None), Layout())
+    assert unknown.fix == 'write for instance: columns.speed = { source = "b", unit = "rad/s" }'
     nothing = _refused(_table(), Layout())
     assert nothing.what == "no column is called like a signal; there are none"
     assert '{ source = "w", unit' in nothing.fix

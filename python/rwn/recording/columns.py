@@ -15,7 +15,7 @@ from rwn.recording import units
 from rwn.recording.formats import Table
 from rwn.recording.intersample import AUTO, known_law
 from rwn.recording.profiles import Wanted, exporters, names_of, profile, sources
-from rwn.recording.signals import COLUMNS, TIME, Signal, meant
+from rwn.recording.signals import COLUMNS, SIGNALS, TIME, Signal, meant
 
 Initial = Literal["auto", "rest", "estimate"]
 Array = NDArray[np.float64]
@@ -105,16 +105,26 @@ def column_map(table: Table, layout: Layout, *, needed: Collection[str] = COLUMN
                 fix=f"write it after the file: {table.where}#{next(filter(None, parts))}",
             )
         exported_by = exporters(table.units)
-        source = next((name for name in table.units if name != TIME.name), "w")
         raise InputError(
             f"no column is called like a signal; there are {', '.join(table.units) or 'none'}",
             where=table.where,
             expected="a column map, [recording.columns] in the model file",
             fix=f"--profile {exported_by[0]}, which knows these names"
             if exported_by
-            else f'write for instance: columns.speed = {{ source = "{source}", unit = "rad/s" }}',
+            else f"write for instance: {_mapped_by_its_unit(table)}",
         )
     return mapping
+
+
+def _mapped_by_its_unit(table: Table) -> str:
+    """A line of a map for a column that has the unit of a signal; where none has, for the last one."""
+    for name, unit in table.units.items():
+        for signal in SIGNALS.values():
+            kinds = [kind for kind in (signal.unit, signal.linear_unit) if kind]
+            if unit and any(units.has_dimension(unit, kind, where=table.where) for kind in kinds):
+                return f'columns.{signal.name} = {{ source = "{name}" }}'
+    source = next((name for name in reversed(list(table.units)) if name != TIME.name), "w")
+    return f'columns.speed = {{ source = "{source}", unit = "rad/s" }}'
 
 
 def _placed(table: Table, name: str, column: Column, known: Mapping[str, Column]) -> Column:

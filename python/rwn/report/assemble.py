@@ -24,6 +24,7 @@ from rwn.fit.intervals import Widening, estimates
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
+from rwn.measurement.noise_spectrum import FASTEST
 from rwn.mismatch_map.dependence import laws
 from rwn.mismatch_map.regions import regions
 from rwn.model.model import Model
@@ -195,7 +196,7 @@ def _warnings(
     for signal, noise in ranking.weighted.noise.items():
         if signal == "position" and noise.reflection:
             texts.append("the position drifts in free run: parameters are fitted to the steps of its error, not to it")
-        elif noise.reflection and signal not in explained:
+        elif signal not in explained and noise.reflection and abs(noise.reflection[0]) > FASTEST:
             texts.append(
                 f"what is left of the {signal} lasts (its correlation from sample to sample is "
                 f"{noise.reflection[0]:.2f}): the corrected model was fitted to what is new in it"
