@@ -6,7 +6,7 @@ namespace rwn {
 
 struct AsymmetricFriction {
   static constexpr EffectInfo info{"asymmetric-friction", Site::torque, "T = -T_c+ (w > 0), +T_c- (w < 0)",
-                                   "dry friction of a different level in each direction, as of one beside a steady load",
+                                   "dry friction of another level in each direction, or of one beside a steady load",
                                    "B. Armstrong-Helouvry 1991; Janot, Gautier, Brunot 2019 (EMPS)"};
   static constexpr std::array parameters{Parameter{.name = "coulomb_torque_plus",
                                                    .symbol = "T_c+",
