@@ -192,3 +192,12 @@ def test_a_lag_or_a_delay_of_the_speed_is_no_difference_over_many_rows(of: Calla
     angle = ANGLE + 20.0 * np.sin(2.0 * np.pi * 3.0 * TIME)
     speed = of(np.gradient(angle, 1e-3) + 0.05 * np.random.default_rng(4).standard_normal(TIME.size))
     assert window_of(TIME, speed, counted(angle, 4096), np.full(TIME.size, True)) == 0
+
+
+@pytest.mark.parametrize("least", [1e-25, 5e-324])
+def test_a_speed_next_to_zero_is_no_count(least: float) -> None:
+    """As of a simulated shaft at rest: a turn would have more counts than there are whole numbers."""
+    rng = np.random.default_rng(0)
+    time = np.cumsum(1e-3 * (1.0 + 0.1 * rng.uniform(-1.0, 1.0, 400)))
+    speed = np.append(np.full(100, least), rng.uniform(-5.0, 5.0, 300))
+    assert speed_measurement(time, speed, np.empty(0)) == INSTANTANEOUS

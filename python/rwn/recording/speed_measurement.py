@@ -191,7 +191,9 @@ def _are_counts(angles: Array) -> bool:
         return False
     slow = moving[moving < SLOW * moving[0]]
     slow = slow[:: -(-slow.size // LOOKED_AT)]
-    fewest = max(round(np.pi / slow[0]), MIN_COUNTS)  # counts in a turn: the smallest angle is half a count
+    if np.pi > slow[0] * MOST_COUNTS:  # the smallest angle is half a count; of a float next to 0 it is none
+        return False
+    fewest = max(round(np.pi / slow[0]), MIN_COUNTS)  # counts in a turn
     counts = np.arange(fewest, min(4 * fewest, MOST_COUNTS) + 1)
     for some in (slow[:: -(-slow.size // SHORTEST)], slow):  # few rule out most
         in_steps = np.multiply.outer(counts, some / (2.0 * np.pi))
