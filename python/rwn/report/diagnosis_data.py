@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from inspect import cleandoc
 from typing import Any, Literal, Self
 
 import msgspec
@@ -133,7 +134,7 @@ class DiagnosisData:
         """JSON Schema (2020-12) of diagnosis.json."""
         components: Mapping[str, Any]
         (whole,), components = msgspec.json.schema_components((DiagnosisData,), schema_hook=_numbers)
-        parts = dict(components)
+        parts = dict(_alike(components))
         top = dict(parts.pop(whole["$ref"].rsplit("/", 1)[-1]))
         kept = {name: rule for name, rule in top["properties"].items() if name not in NOT_WRITTEN}
         for name in ("Plot", "Trace", "Mark"):
@@ -157,6 +158,19 @@ def _in_words(plain: Any) -> Any:
     if isinstance(plain, list | tuple):
         return [_in_words(value) for value in plain]
     return repr(plain) if isinstance(plain, float) and not np.isfinite(plain) else plain
+
+
+def _alike(schema: Any) -> Any:
+    """A schema without what versions of msgspec write differently: indents of texts, and that a mapping is empty."""
+    if isinstance(schema, list | tuple):
+        return [_alike(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    kept = {name: part for name, part in schema.items() if not (name == "default" and part == {})}
+    return {
+        name: cleandoc(part) if name == "description" and isinstance(part, str) else _alike(part)
+        for name, part in kept.items()
+    }
 
 
 def _with_words(schema: Any) -> Any:
