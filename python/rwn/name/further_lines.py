@@ -16,13 +16,13 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import statistics
 from rwn.model.vocabulary import Effect
 from rwn.name.initial_guesses import spectra
+from rwn.name.initial_guesses.initial_angle import FAINT, sine_of
 from rwn.name.observable import revolutions
 from rwn.name.weights import log_odds
 from rwn.parallel import side_by_side
 
 LEADING = 3  # explanations, the best of which that has a periodic effect is asked for further lines
 TRIED = 2  # orders that are tried for each line
-FAINT = 1e-3  # of the first guess of a strength: the answer to it is linear
 
 Line = tuple[float, ...]  # the parameters of one line, in the order of those of the first
 
@@ -115,11 +115,9 @@ def _begun(problem: Problem, base: Fit, effect: Effect, order: float) -> Hypothe
         return _with(problem, base, effect, [*lines, one])
 
     last = [p for p in effect.further if p.line == len(lines)]
-    places = [effect.at(p.name) for wanted in ("strength", "cyclic") for p in last if getattr(p, wanted)]
+    places = [effect.at(p.name) for p in (*(p for p in last if p.strength), *(p for p in last if p.cyclic))]
     normal = problem.normal(at(faint, 0.0).vector, base.active, places)
-    unit = np.array([1.0, 1.0 / faint])  # the derivative by the phase is that of a line a quarter of a period on
-    sine, cosine = np.linalg.lstsq(normal.curvature * np.outer(unit, unit), normal.gradient * unit)[0]
-    return at(float(np.hypot(sine, cosine)), float(np.arctan2(cosine, sine)))
+    return at(*sine_of(normal.gradient, normal.curvature, faint))
 
 
 def _lines(effect: Effect, this: Fit) -> list[Line]:

@@ -92,18 +92,19 @@ def _best_angle(problem: Problem, runs: Sequence[Run], start: Hypothesis, effect
         return float(np.sum(np.maximum(slope, 0.0) ** 2 / np.maximum(np.diag(curvature), 1e-300)))
 
     if len(phases) == len(strengths) == 1 and not effect.own:  # whose periods per revolution its formula hides
-        return _of_a_sine(*normal(0.0, [*strengths, *phases]), vectors[0][strengths[0]]) / _order(effect, vectors[0])
+        _, phase = sine_of(*normal(0.0, [*strengths, *phases]), vectors[0][strengths[0]])
+        return phase / _order(effect, vectors[0])
     return float(max(angles_to_try([effect], vectors[0]), key=gain))
 
 
-def _of_a_sine(slope: Array, curvature: Array, amplitude: float) -> float:
-    """The phase [rad] of A sin or A cos, beside its own, at which it removes most of the squared error.
+def sine_of(slope: Array, curvature: Array, amplitude: float) -> tuple[float, float]:
+    """Amplitude and phase [rad], beside its own, at which A sin or A cos removes most of the squared error.
 
     By normal equations (2,), (2, 2) by amplitude and phase: the derivative by the phase is A times the same law a
     quarter of a period on, so that any phase is a combination of the two.
     """
     if not (amplitude and np.isfinite(slope).all()):
-        return 0.0
+        return 0.0, 0.0
     unit = np.array([1.0, 1.0 / amplitude])
     cosine, sine = np.linalg.lstsq(curvature * np.outer(unit, unit), slope * unit)[0]
-    return float(np.arctan2(sine, cosine))
+    return float(np.hypot(sine, cosine)), float(np.arctan2(sine, cosine))
