@@ -33,8 +33,12 @@ class SensorFilter:
     time_constant: float  # [s]
     noise: NoiseColour = field(default_factory=NoiseColour)  # what the noise alone shows of it
     digital: bool = False  # it takes samples, as a drive's program does; else it is fitted as a law of the sensor
-    of_noise: bool = False  # it coloured the noise alone: the motion went through none
-    reflection: tuple[float, ...] = ()  # partial autocorrelations of such noise
+    reflection: tuple[float, ...] = ()  # partial autocorrelations of noise that it alone has coloured
+
+    @property
+    def of_noise(self) -> bool:
+        """Whether it coloured the noise alone: the motion went through none."""
+        return bool(self.reflection)
 
     @property
     def spread(self) -> float:
@@ -86,9 +90,7 @@ def coloured_noise(problem: Problem, residuals: Sequence[Mapping[str, Array]]) -
             continue
         if not structured_of({seen.signal: np.concatenate([noise.innovations(x) for x in errors])}):
             time_constant = seen.time_constant * float(np.log(seen.share) / np.log(share))
-            found.append(
-                replace(seen, share=share, time_constant=time_constant, of_noise=True, reflection=noise.reflection)
-            )
+            found.append(replace(seen, share=share, time_constant=time_constant, reflection=noise.reflection))
     return found
 
 

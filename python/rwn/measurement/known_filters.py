@@ -50,9 +50,7 @@ def known_filters(problem: Problem) -> tuple[SensorFilter, ...]:
         for s, time in times.items()
     ]
     of_noise = [
-        SensorFilter(
-            signal=s, share=of[0], time_constant=problem.time_kept(s, of[0]), of_noise=True, reflection=of
-        )
+        SensorFilter(signal=s, share=of[0], time_constant=problem.time_kept(s, of[0]), reflection=of)
         for s, of in problem.coloured.items()
     ]
     return (*of_motion, *of_noise)

@@ -12,21 +12,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
+from rwn.fit.input_errors import ORDER
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import correlation_time, structured_of
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.vocabulary import analog_filters, motor_values
-from rwn.recording.noise import Noise, autoregression
+from rwn.recording.noise import autoregression
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
 
-ORDER = 8  # of the autoregression
 LEVEL = 0.01  # chance that the size of noise seems to go with the motion, in any of the recordings
 MOTION = 0.1  # largest part of an error of the sensor, or of its size, that may go with the motion: what a fit bends
 CERTAIN = 4.0  # deviations by which the current would have shown motion
 ANSWER = 16  # samples that the winding's answer to a change of the speed is looked for in
-MANY = 50  # samples for each of them, at least
 
 
 def lasting_noise(problem: Problem, this: Fit) -> list[SensorFilter]:
@@ -50,15 +49,9 @@ def lasting_noise(problem: Problem, this: Fit) -> list[SensorFilter]:
     current = [run.masked("current", x["current"]) for run, x in zip(problem.runs, left, strict=True)]
     if _goes_with_the_motion(problem.runs, lasting) or not _is_of_its_sensor(problem, this, lasting, current):
         return []
-    return [_of_noise(problem, signal, noise)]
-
-
-def _of_noise(problem: Problem, signal: str, noise: Noise) -> SensorFilter:
     share = noise.reflection[0]
-    return SensorFilter(
-        signal=signal, share=share, time_constant=problem.time_kept(signal, share), of_noise=True,
-        reflection=noise.reflection,
-    )  # fmt: skip
+    kept = problem.time_kept(signal, share)
+    return [SensorFilter(signal=signal, share=share, time_constant=kept, reflection=noise.reflection)]
 
 
 def _has_a_witness(problem: Problem) -> bool:
@@ -93,13 +86,14 @@ def _is_of_its_sensor(
     there = [np.isfinite(x[ANSWER:]) for x in current]
     before = np.concatenate([x[ok] for x, ok in zip(past, there, strict=True)])
     errors = np.concatenate([x[ANSWER:][ok] for x, ok in zip(current, there, strict=True)])
-    if errors.size < MANY * ANSWER:
+    free = errors.size - ANSWER - 1
+    if free < 1:
         return False
     before, errors = before - before.mean(axis=0), errors - errors.mean()
     inverse = np.linalg.pinv(before.T @ before, hermitian=True)
     answer = inverse @ (before.T @ errors)
     rest = errors - before @ answer
-    deviation = float(np.sqrt(np.sum(inverse) * np.mean(rest**2) * correlation_time(rest)))
+    deviation = float(np.sqrt(np.sum(inverse) * (rest @ rest) / free * correlation_time(rest)))
     motor = motor_values(this.vector)
     of_motion = float(problem.drive.resting_current(motor, 1.0, 0.0) - problem.drive.resting_current(motor, 0.0, 0.0))
     share = float(np.sum(answer)) / of_motion
