@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from rwn.faults.fault import GEAR, Fault, known_as
 from rwn.faults.scale import LEFT, similarity, wrong_scale
@@ -18,6 +19,23 @@ def wrong_in_some(recordings: Sequence[Recording], model: Model) -> Fault | None
     One is right where the signals are as large as the model as given simulates them: no physics is another in each
     file of a machine by as much as a unit. A gear is part of the machine.
     """
+    found = _odd(recordings, model)
+    if found is None:
+        return None
+    files, others = (", ".join(r.name for r in of) for of in (found.files, found.others))
+    meaning = f"{found.fault.meaning}, in {files} and not in {others}"
+    return replace(found.fault, recordings=tuple(map(known_as, found.files)), also=(), meaning=meaning)
+
+
+class _Odd(NamedTuple):
+    """A fault of some recordings that the others do not have."""
+
+    fault: Fault
+    files: list[Recording]
+    others: list[Recording]
+
+
+def _odd(recordings: Sequence[Recording], model: Model) -> _Odd | None:
     if len({known_as(r) for r in recordings}) < max(len(recordings), 2) or model.drive.coefficients:
         return None
     alone = {known_as(recording): wrong_scale([recording], model) for recording in recordings}
@@ -28,8 +46,7 @@ def wrong_in_some(recordings: Sequence[Recording], model: Model) -> Fault | None
     others = [r for r in recordings if not _is_same(alone[known_as(r)], fault)]
     if not others or not all(alone[known_as(r)] is None and _follows(r, fault, model) for r in others):
         return None
-    meaning = f"{fault.meaning}, in {', '.join(r.name for r in odd)} and not in {', '.join(r.name for r in others)}"
-    return replace(fault, recordings=tuple(map(known_as, odd)), also=(), meaning=meaning)
+    return _Odd(fault, odd, others)
 
 
 def without_unseen_mistakes(
@@ -41,13 +58,12 @@ def without_unseen_mistakes(
     """
     right, found = list(unseen), list[Finding]()
     for k, recording in enumerate(unseen):
-        fault = wrong_in_some([*fitted, recording], model)
-        if fault is not None and fault.recordings == (known_as(recording),):
+        if (odd := _odd([*fitted, recording], model)) is not None and odd.files == [recording]:
+            fault = odd.fault
             right[k] = fault.undo(recording)
-            said = fault.meaning.partition(f", in {recording.name}")[0]
             found.append(
                 Finding(
-                    kind=fault.name, recording=recording.name, signals=fault.signals, count=0, words=said,
+                    kind=fault.name, recording=recording.name, signals=fault.signals, count=0, words=fault.meaning,
                     done="judged with it undone; correct the file",
                 )
             )  # fmt: skip

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.recording.clock import clock_of
 from rwn.recording.inspection.finding import Check, Flags
 from rwn.recording.inspection.outliers import BESIDE, RARE, REACH, most_deviations, outliers
 from rwn.recording.inspection.step_response import Interpolated, interpolated
@@ -21,7 +22,6 @@ SHOWN = 4  # spikes whose places are said
 TOGETHER = (1, 1, 2)  # samples: one of two spikes is found once the other is bridged, or both as one that lasts
 FEWEST = 8  # samples among which one is found
 SETTLING = 3  # samples after a step of the input in which a current may peak by itself
-GAP = 1.5  # times the usual time between rows, from which one is lost
 NEARBY = 25  # samples whose changes a step of the input stands out from: a sine has none
 
 
@@ -61,8 +61,7 @@ def _spikes(recording: Recording, signal: str) -> Flags:
 
 def _after_gaps(time: Array) -> Flags:
     """The rows (n,) that come after lost ones: what the input did there, and the signal for it, is in no row."""
-    rows = np.diff(time, prepend=time[0] - (time[1] - time[0]))
-    return np.asarray(rows > GAP * np.median(rows))
+    return np.asarray(np.diff(clock_of(time).ticks, prepend=-1) > 1)
 
 
 def _among(x: Array, after_steps: Flags) -> Flags:
