@@ -7,9 +7,10 @@ from dataclasses import replace
 import pytest
 
 import made_up
+from rwn.faults.uneven_files import JUDGED_AT_ITS_OWN
 from rwn.name.found_effect import FoundEffect
 from rwn.recording.inspection import Finding
-from rwn.report.sentences import JUDGED_AT_ITS_OWN, sentences
+from rwn.report.sentences import sentences
 
 
 def test_what_differs_from_file_to_file_is_said_after_the_verdict() -> None:

@@ -14,6 +14,8 @@ from rwn.name.ranking import Ranking
 from rwn.recording.inspection import Finding
 from rwn.simulate.run import Run
 
+JUDGED_AT_ITS_OWN = "judged with its own"  # what is done about a recording that was not fitted
+
 
 def uneven_files(ranking: Ranking) -> list[Finding]:
     """What is said, by file, of quantities that are fitted apart."""
@@ -35,7 +37,7 @@ def uneven_unseen(ranking: Ranking, unseen: Sequence[Run]) -> list[Finding]:
                 Finding(
                     kind=_kind(level), recording=run.name, signals=(), count=0,
                     words=f"its {level.quantity} is {_off(level, off)} off {_of_the_machine(level)}",
-                    done="judged with its own, which fits it best; rwn simulate has that of corrected.toml",
+                    done=f"{JUDGED_AT_ITS_OWN}, which fits it best; rwn simulate has that of corrected.toml",
                 )
             )  # fmt: skip
     return found
@@ -56,7 +58,7 @@ def at_own_levels(ranking: Ranking, unseen: Sequence[Run]) -> tuple[tuple[Run, .
         found.append(
             Finding(
                 kind=_kind(one.level), recording=run.name, signals=(), count=0,
-                done="judged with its own; corrected.toml has that of the fitted recordings",
+                done=f"{JUDGED_AT_ITS_OWN}; corrected.toml has that of the fitted recordings",
                 words=f"its {one.level.quantity} is {_off(one.level, one.off)} off that of the fitted recordings, "
                 "which explains all of its error",
             )

@@ -214,8 +214,8 @@ def _warnings(
     for f in ranking.at_a_limit[:1]:
         met = [parameter_in_words(name) for name in f.limits_met]
         texts.append(
-            f"{' + '.join(map(plain_name, f.added))} fits better, but {listing(met)} ended at the end "
-            "of its range, where the law stands in for another one: it is not named"
+            f"{' + '.join(map(plain_name, f.added))} fits better, but {listing(met)} ended at a "
+            "limit of its range, where the law stands in for another one: it is not named"
         )
     return tuple(texts)
 

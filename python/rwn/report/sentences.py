@@ -8,8 +8,10 @@ from dataclasses import replace
 
 from rwn.decide.account import ActingEffect
 from rwn.faults.fault import RECORDING
+from rwn.faults.uneven_files import JUDGED_AT_ITS_OWN
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.name.found_effect import FoundEffect
+from rwn.name.measurement import NEXT_TO_NOTHING
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report.diagnosis_data import DiagnosisData
@@ -27,9 +29,8 @@ from rwn.report.text import (
 )
 
 STANDS_OUT = 2.0  # error in units of the noise, from which three quarters of its square are something else
-JUDGED_AT_ITS_OWN = "judged with its own"  # what was done, of a recording that differs in a number
 SHOWN = 0.02  # probability from which an account shows an effect
-SLIGHT = 0.005  # share of a mismatch or an error that is not worth a sentence
+SLIGHT = NEXT_TO_NOTHING  # of an error too
 
 
 def verdict_sentence(found: DiagnosisData) -> str:

@@ -62,13 +62,14 @@ class SearchResult:
             for run in self.ranking.problem.whole
             if run.in_motion and self.model.recording.initial == "auto"
         ]  # fmt: skip
-        taken = {run.speed_measured.in_words(run.sample_time): run for run in self.ranking.problem.whole}
+        whole = self.ranking.problem.whole
+        alike = len({run.speed_measured for run in whole}) == 1
         found += [
             Finding(
-                kind="speed-difference", recording="all recordings" if len(taken) == 1 else run.name,
-                signals=("speed",), count=0, words=words, done="compared as such",
+                kind="speed-difference", recording="all recordings" if alike else run.name, signals=("speed",),
+                count=0, words=run.speed_measured.in_words(run.sample_time), done="compared as such",
             )
-            for words, run in taken.items()
+            for run in (whole[:1] if alike else whole)
             if run.speed_measured.is_difference
         ]  # fmt: skip
         law = self.model.recording.intersample
