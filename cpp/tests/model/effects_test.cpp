@@ -72,5 +72,20 @@ TEST(Effects, PowerLawDragOfPowerTwoIsItsSpecialCase) {
   }
 }
 
+TEST(Effects, PowerLawLoadFrictionOfPowerOneIsItsSpecialCase) {
+  const double general[] = {0.02, 1.0, 0.5};
+  double special[1];
+  PowerLawLoadFriction::specialise(general, special);
+  EXPECT_EQ(PowerLawLoadFriction::traits.special_case, LoadDependentFriction::info.name);
+  for (const double torque : {-0.4, 0.2, 2.0}) {
+    Motion<double> x;
+    x.drive_torque = torque;
+    Terms<double> law, plain;
+    PowerLawLoadFriction::apply(general, small_motor(), x, law);
+    LoadDependentFriction::apply(special, small_motor(), x, plain);
+    EXPECT_NEAR(law.friction / plain.friction, 1.0, 1e-3);  // level below a hundredth of the reference torque
+  }
+}
+
 }  // namespace
 }  // namespace rwn

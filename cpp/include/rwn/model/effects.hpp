@@ -23,6 +23,7 @@
 #include "rwn/model/effects/magnetic_saturation.hpp"
 #include "rwn/model/effects/position_dependent_friction.hpp"
 #include "rwn/model/effects/power_law_drag.hpp"
+#include "rwn/model/effects/power_law_load_friction.hpp"
 #include "rwn/model/effects/presliding_hysteresis.hpp"
 #include "rwn/model/effects/quadratic_drag.hpp"
 #include "rwn/model/effects/resistance_heating.hpp"
@@ -46,12 +47,12 @@ namespace rwn {
 
 using Effects =
     std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
-               PowerLawDrag, LoadDependentFriction, PreslidingHysteresis, PositionDependentFriction, CoggingTorque,
-               Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash, ShaftCompliance, InertiaVariation,
-               BrushVoltageDrop, CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone,
-               VoltageSaturation, SupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay,
-               SpeedSensorLag, SpeedMovingAverage, CurrentSensorLag, SensorRectification, SensorGain, SensorBias,
-               SensorQuantization>;
+               PowerLawDrag, LoadDependentFriction, PowerLawLoadFriction, PreslidingHysteresis,
+               PositionDependentFriction, CoggingTorque, Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash,
+               ShaftCompliance, InertiaVariation, BrushVoltageDrop, CoastingBridge, ResistanceHeating,
+               MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation, SupplySag, CurrentLimit,
+               SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag, SpeedMovingAverage, CurrentSensorLag,
+               SensorRectification, SensorGain, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rwn/model/effect.hpp"
+#include "rwn/model/transmitted_torque.hpp"
 
 namespace rwn {
 
@@ -22,10 +23,7 @@ struct LoadDependentFriction {
   template <class S>
   static void apply(const S* p, const Motor<S>& motor, const Motion<S>& x, Terms<S>& t) {
     using std::abs;
-    using std::sin;
-    const S& pendulum = motor[pendulum_torque];
-    const S transmitted = value_of(pendulum) == 0.0 ? x.drive_torque : x.drive_torque + pendulum * sin(x.position);
-    t.friction += p[0] * abs(transmitted);
+    t.friction += p[0] * abs(transmitted_torque(motor, x));
   }
 };
 

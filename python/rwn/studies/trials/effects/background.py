@@ -191,6 +191,7 @@ EFFECTS = (
         scale=times("coefficient"),
         rivals=("load-dependent-friction", "coulomb-friction", "magnetic-saturation"),
         named=False,
+        known_as="power-law-load-friction",
     ),
     Effect(
         name="speed-band-drag",
