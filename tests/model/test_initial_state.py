@@ -102,6 +102,16 @@ def test_the_difference_of_a_position_that_moves_is_a_motion() -> None:
     assert start.state[1] == pytest.approx(60.0, rel=0.15)
 
 
+def test_an_input_that_switches_soon_does_not_hide_that_it_moves() -> None:
+    """One curve through the first samples, before and after, says little of the first."""
+    turned = 60.0 * TIME - 0.5 * 4e3 * np.maximum(TIME - 8e-3, 0.0) ** 2
+    counts = np.round(4096 / (2.0 * np.pi) * turned) * (2.0 * np.pi / 4096)
+    signals = {"voltage": np.where(TIME < 8e-3, 5.0, -5.0), "speed": np.gradient(counts, TIME)}
+    start = initial_state_of(TIME, signals, MODEL, way=CENTRAL)
+    assert start.in_motion
+    assert start.state[1] == pytest.approx(60.0, rel=0.05)
+
+
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize(("first", "in_motion"), [(0.0, False), (12.0, True)])
 def test_a_start_from_rest_that_no_parabola_follows_is_a_rest(seed: int, first: float, in_motion: bool) -> None:

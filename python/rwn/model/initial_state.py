@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
@@ -20,6 +21,7 @@ STATE = ("initial_current", "initial_speed", INITIAL_POSITION)  # the parameters
 _NONE: Mapping[str, NDArray[np.bool_]] = MappingProxyType({})
 
 MOST_DEGREE = 4  # of the curve through the first samples of a position
+FEWEST = 4  # samples that leave a curve something to miss
 EVEN = 2.0 * np.pi / np.sqrt(12.0)  # standard deviation [rad] of an angle of which nothing is known
 CERTAIN = 5.0  # deviations of a first sample from rest that chance does not explain: 1 in 10^6
 
@@ -63,8 +65,7 @@ def initial_state_of(
     initial = model.recording.initial
     if initial == "rest" or (initial == "auto" and not is_moving(time, signals, first, way, missing)):
         return InitialState(state=(0.0, 0.0, place), spread=spread)
-    sooner = _first_speed(time, signals, known_to, first // 2, way)[0]  # a step response is no curve of a few degrees
-    known_within = abs(speed) if "speed" in signals else float(np.hypot(off, speed - sooner))
+    known_within = abs(speed) if "speed" in signals else off
     spread["initial_speed"] = max(known_within, known_to.get("speed", 0.0), 1e-9)
     if "position" not in signals and not (model.linear or model.drive.coefficients):
         spread[INITIAL_POSITION] = EVEN
@@ -178,10 +179,19 @@ def _travelled(
 
 
 def _first_slope(time: Array, position: Array, noise: float) -> tuple[float, float]:
-    """Slope at the first of some samples and its standard deviation.
+    """Slope at the first of some samples and its standard deviation: of all of them, or of the half that knows it best.
 
-    Of a parabola, or of a curve of the next degrees while that moves the slope by more than chance does.
+    An input that switches among them makes a curve through all of them say little of the first. What half as many say
+    shows what a curve of a few degrees is off, as through a step response.
     """
+    sizes = [size for size in (time.size, time.size // 2, time.size // 4) if size > FEWEST or size == time.size]
+    slopes = [_slope_of(time[:size], position[:size], noise) for size in sizes]
+    bent = [(slope, float(np.hypot(off, slope - half))) for (slope, off), (half, _) in pairwise(slopes)]
+    return min(bent or slopes, key=lambda slope: slope[1])
+
+
+def _slope_of(time: Array, position: Array, noise: float) -> tuple[float, float]:
+    """The same of a parabola, or of a curve of the next degrees while that moves the slope by more than chance does."""
     best = (0.0, np.inf)
     for degree in range(min(2, time.size - 1), min(MOST_DEGREE, time.size - 2) + 1):
         design = np.vander(time, degree + 1)
