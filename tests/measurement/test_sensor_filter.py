@@ -240,4 +240,21 @@ def test_only_what_comes_late_may_stand_in_for_a_filter(twice_filtered: tuple[Pr
     problem, _ = twice_filtered
     added = ("coulomb-friction", "voltage-saturation", "input-delay", "current-sensor-lag")
     whole = fit(problem, hypothesis(problem.prior, added, problem.scales), share=1e-3)
-    assert [base.added for base in _bases(problem, whole)] == [added, added[:2]]
+    assert [base.added for base in _bases(problem, whole)] == [added, added[:2], ()]
+
+
+def test_beside_a_spring_a_filter_is_told_without_it() -> None:
+    """A chirp under a drive's filter: a stiff second mass and a lag of the sensor do nearly what the filter does."""
+    time = STEP * np.arange(1500)
+    voltage = 3.0 * np.sin(2.0 * np.pi * (2.0 + 15.0 * time) * time)
+    run = rwn.Recording(name="run", time=time, signals={"voltage": voltage})
+    noise = 0.2 * np.random.default_rng(3).standard_normal(time.size)
+    model = replace(MODEL, uncertainty=UNCERTAIN)
+    shown = as_filtered(time, rwn.simulate(model, run).signals["speed"] + noise, 1.6 * STEP)
+    problem, nominal = weighted_by_nominal(prepare([replace(run, signals={"voltage": voltage, "speed": shown})], model))
+    start = {"shaft-compliance": {"stiffness": 2.0, "damping": 1e-3, "load_inertia": 1e-5, "load_viscous_share": 0.5}}
+    mimic = fit(problem, hypothesis(problem.prior, tuple(start), problem.scales, start, nominal.motor))
+    assert [base.added for base in _bases(problem, mimic)] == [("shaft-compliance",), ()]
+    (found,) = sensor_filters(problem, mimic)
+    assert found.digital
+    assert found.time_constant == pytest.approx(1.6 * STEP, rel=0.03)

@@ -186,10 +186,11 @@ def _of_time(problem: Problem, f: SensorFilter, time_constant: float) -> SensorF
 
 
 def _bases(problem: Problem, this: Fit) -> Iterator[Fit]:
-    """The explanation, and the same without lags and delays, any of which may imitate a filter."""
+    """The explanation, and what of it may imitate a filter left out: lags, delays and resonances, or all of it."""
     yield this
-    kept = tuple(name for name in this.added if not problem.prior.table[name].retards)
-    if kept != this.added:
+    effects = {name: problem.prior.table[name] for name in this.added}
+    prompt = tuple(name for name, effect in effects.items() if not (effect.retards or effect.second_mass))
+    for kept in (k for k in dict.fromkeys([prompt, ()]) if k != this.added):
         begun = hypothesis(problem.prior, kept, problem.scales, this.starts(kept), this.motor)
         yield fit(problem, begun, share=one_stage(problem.work))
 
