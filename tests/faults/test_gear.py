@@ -91,3 +91,20 @@ def test_a_level_that_no_scale_makes_is_no_gear(model: rwn.Model) -> None:
     passed = replace(unseen, signals={"voltage": 4.0 * (voltage - 0.25), "speed": np.zeros(time.size)})
     speed = rwn.simulate(model, passed).signals["speed"]
     assert wrong_scale([replace(unseen, signals={"voltage": voltage, "speed": speed})], model) is None
+
+
+def test_a_gear_that_stood_in_for_a_drag_is_none(model: rwn.Model) -> None:
+    """A drag that takes most of the speed looks like a gear until it is known itself."""
+    time = np.arange(0.0, 3.0, 1e-3)
+    voltage = 4.0 * np.sin(2.0 * np.pi * 0.7 * time) + 3.0 * np.sin(2.0 * np.pi * 1.9 * time)
+    dragged = replace(model, effects={"quadratic-drag": {"drag_coefficient": 2e-5}})
+    unseen = rwn.Recording(name="swings", time=time, signals={"voltage": voltage, "speed": np.zeros(time.size)})
+    noise = 0.3 * np.random.default_rng(1).standard_normal(time.size)
+    speed = rwn.simulate(dragged, unseen).signals["speed"] + noise
+    recording = replace(unseen, signals={"voltage": voltage, "speed": speed})
+    suspected = wrong_scale([recording], model)
+    assert suspected is not None
+    assert suspected.name == "wrong-gear-ratio"
+    faults, ranking = beneath_faults([recording], model, say=silent)
+    assert faults == []
+    assert set(ranking.fits[0].added) <= {"quadratic-drag", "power-law-drag"}

@@ -89,11 +89,13 @@ def test_a_fault_is_believed_where_physics_does_less(case: str, monkeypatch: pyt
             assert found is None, "what was found beneath another delay is not kept"
 
 
-@pytest.mark.parametrize(("off", "again"), [(1.002, False), (1.05, True)])
+@pytest.mark.parametrize(
+    ("off", "needless", "again"), [(1.002, False, False), (1.05, False, True), (1.05, True, False)]
+)
 def test_what_is_beneath_a_gear_is_found_anew_where_its_ratio_was_off(
-    off: float, again: bool, monkeypatch: pytest.MonkeyPatch
+    off: float, needless: bool, again: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """With every other fault undone, as the ratio was fitted."""
+    """With every other fault undone, as the ratio was fitted; a gear that is not needed is none."""
     time = 1e-3 * np.arange(200)
     speed = 30.0 * np.sin(40.0 * time)
     run = rwn.Recording(name="run", time=time, signals={"voltage": np.cos(40.0 * time), "speed": speed})
@@ -110,11 +112,14 @@ def test_what_is_beneath_a_gear_is_found_anew_where_its_ratio_was_off(
         return "anew"
 
     monkeypatch.setattr(beneath_faults, "gear_ratio", ratio)
+    monkeypatch.setattr(beneath_faults, "is_needless", lambda *_: needless)
     faults, found = beneath_faults._geared(gear, [other, gear], [run], MODEL, "first", ranking)  # type: ignore[arg-type]
-    assert found == ("anew" if again else "first")
-    assert faults == ([other, replace(gear, factor=off * 0.3)] if again else [other, gear])
+    assert found == ("anew" if again or needless else "first")
+    kept = [] if needless else [replace(gear, factor=off * 0.3) if again else gear]
+    assert faults == [other, *kept]
     np.testing.assert_allclose(seen[0].signals["voltage"], -run.signals["voltage"])
     np.testing.assert_allclose(seen[0].signals["speed"], speed)
+    np.testing.assert_allclose(seen[1].signals["speed"], speed)  # what explains it without the gear
     if again:
-        np.testing.assert_allclose(seen[1].signals["speed"], speed / (off * 0.3))
-        np.testing.assert_allclose(seen[1].signals["voltage"], -run.signals["voltage"])
+        np.testing.assert_allclose(seen[2].signals["speed"], speed / (off * 0.3))
+        np.testing.assert_allclose(seen[2].signals["voltage"], -run.signals["voltage"])

@@ -11,6 +11,7 @@ from rwn.faults.fault import Fault, without
 from rwn.faults.scale import gear
 from rwn.fit.fit import refit
 from rwn.fit.preparation import prepare
+from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.recording.recording import Recording
@@ -30,11 +31,32 @@ def gear_ratio(fault: Fault, recordings: Sequence[Recording], model: Model, bene
         return gear(fault.signals, fault.factor * float(np.exp(change)), fault.spread)
 
     def cost(change: float) -> float:
-        problem = prepare(without(recordings, tried(change)), model)
-        known = beneath.problem
-        more = replace(fault, factor=float(np.exp(change)))  # on top of what is undone already
-        noise = more.noise_without(known.noise)
-        return refit(beneath.closest, replace(problem, noise=noise, inflation=known.inflation)).cost
+        return refit(beneath.closest, _geared(fault, tried(change).factor, recordings, model, beneath)).cost
 
     end = minimize_scalar(cost, bounds=(-REACH, REACH), method="bounded", options={"xatol": RATIO_TOLERANCE})
     return tried(float(end.x)) if end.fun < cost(0.0) else fault
+
+
+def is_needless(
+    fault: Fault, fitted: Fault, recordings: Sequence[Recording], model: Model, beneath: Ranking, plain: Ranking
+) -> bool:  # fmt: skip
+    """Whether `plain`, found of the recordings as they are, explains them as well as what is beneath the gear.
+
+    Where physics was missing a gear may have stood in for it: beneath it Ke is then off by as much. `fault`: the gear
+    that was undone when the physics beneath it was found, and `fitted` with that.
+    """
+
+    def cost(ratio: float, found: Ranking) -> float:
+        return refit(found.closest, _geared(fault, ratio, recordings, model, beneath)).cost
+
+    return cost(1.0, plain) <= cost(fitted.factor, beneath)
+
+
+def _geared(
+    fault: Fault, ratio: float, recordings: Sequence[Recording], model: Model, beneath: Ranking
+) -> Problem:  # fmt: skip
+    """The recordings with another ratio undone, and their noise in the units of that."""
+    undone = without(recordings, gear(fault.signals, ratio, fault.spread)) if ratio != 1.0 else recordings
+    more = replace(fault, factor=ratio / fault.factor)  # on top of what is undone already
+    problem, known = prepare(undone, model), beneath.problem
+    return replace(problem, noise=more.noise_without(known.noise), inflation=known.inflation)

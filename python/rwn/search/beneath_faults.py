@@ -21,7 +21,7 @@ from rwn.faults.delay import (
     unexplained,
 )
 from rwn.faults.fault import GEAR, Fault, without, without_all
-from rwn.faults.gear import gear_ratio
+from rwn.faults.gear import gear_ratio, is_needless
 from rwn.faults.plain_faults import plain_faults
 from rwn.faults.scale import as_gear
 from rwn.fit.budget import affords_more, meter
@@ -110,10 +110,13 @@ def _geared(
     gear: Fault, made: Sequence[Fault], recordings: Sequence[Recording], model: Model, found: Ranking,
     ranking: Rank,
 ) -> tuple[list[Fault], Ranking]:  # fmt: skip
-    """The faults with the ratio of the gear fitted, and what explains the recordings then."""
+    """The faults with the ratio of the gear fitted, or without it, and what explains the recordings then."""
     others = [m for m in made if m is not gear]
     recordings = without_all(recordings, others)
     fitted = gear_ratio(gear, recordings, model, found)
+    plain = ranking(recordings)
+    if is_needless(gear, fitted, recordings, model, found, plain):
+        return others, plain
     if abs(fitted.factor / gear.factor - 1.0) < WRONG:
         return list(made), found
     return [*others, fitted], ranking(without(recordings, fitted))
