@@ -73,6 +73,7 @@ py::dict describe_effect() {
   d["rectifies"] = rectifies<E>();
   d["jumps"] = jumps<E>();
   d["filters"] = std::string(E::traits.filters);
+  d["shows_late"] = std::string(E::traits.shows_late);
   d["delays"] = has(E::traits.hooks, Hook::delay);
   d["second_mass"] = has(E::traits.hooks, Hook::joint);
   d["guess"] = std::string(to_string(guess_of<E>()));

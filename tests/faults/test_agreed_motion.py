@@ -8,9 +8,9 @@ import pytest
 import rwn
 from made_up_motor import SMALL
 from rwn.faults import scale
-from rwn.faults.fault import MOTION
 from rwn.faults.scale import wrong_scale
 from rwn.recording.kinematics import kinematics_of
+from rwn.recording.signals import MOTION
 
 MODEL = rwn.Model(kind="dc", parameters=SMALL)
 

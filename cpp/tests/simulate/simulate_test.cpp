@@ -4,13 +4,13 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "allocations.hpp"
 #include "motor_fixture.hpp"
 #include "rwn/model/effects.hpp"
-#include "rwn/fit/normal_equations.hpp"
 
 namespace {
 
@@ -40,12 +40,24 @@ int place_of() {
   }(std::make_index_sequence<rwn::effect_count>{});
 }
 
-/// Derivatives by `c.by` against central differences: over the one of two steps that suits the parameter better, since
-/// a short one drowns in rounding where the parameter does little, and a long one bends where it does much.
-void expect_slopes(const Case& c) {
+/// The current in place of the speed, by itself or with its derivatives.
+std::vector<double> current_of(const Case& c, std::span<double> slopes = {}) {
+  std::vector<double> current(c.time.size());
+  EXPECT_EQ(rwn::simulate(c.task(), {current, {}, {}, slopes, {}, {}}), rwn::SimulationStatus::ok);
+  return current;
+}
+
+/// Derivatives of the speed, or of the current, by `c.by` against central differences: over the one of two steps that
+/// suits the parameter better, since a short one drowns in rounding where the parameter does little, and a long one
+/// bends where it does much.
+void expect_slopes(const Case& c, bool of_current = false) {
   const std::size_t p = c.by.size(), n = c.time.size();
   std::vector<double> speed(n), slopes(n * p);
-  ASSERT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}}), rwn::SimulationStatus::ok);
+  if (of_current) {
+    current_of(c, slopes);
+  } else {
+    ASSERT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}}), rwn::SimulationStatus::ok);
+  }
   for (std::size_t j = 0; j < p; ++j) {
     const auto index = static_cast<std::size_t>(c.by[j]);
     const double value = c.parameters[index];
@@ -55,7 +67,8 @@ void expect_slopes(const Case& c) {
       Case up = c, down = c;
       up.parameters[index] = value + nudge;
       down.parameters[index] = value - nudge;
-      const std::vector<double> high = speed_of(up), low = speed_of(down);
+      const std::vector<double> high = of_current ? current_of(up) : speed_of(up);
+      const std::vector<double> low = of_current ? current_of(down) : speed_of(down);
       double error = 0.0, size = 0.0;
       for (std::size_t k = 0; k < n; ++k) {
         const double difference = (high[k] - low[k]) / (2.0 * nudge);
@@ -84,7 +97,7 @@ void check_slopes(int effect, bool follow) {
     std::vector<double> speed(c.time.size()), slopes(c.time.size() * c.by.size());
     EXPECT_EQ(rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}}), rwn::SimulationStatus::ok);
   } else {
-    expect_slopes(c);
+    expect_slopes(c, E::traits.shows_late == "current");
   }
 }
 
@@ -247,52 +260,4 @@ TEST(Simulate, AllocationsDoNotGrowWithTheRecording) {
     return rwn::testing::allocations() - before;
   };
   EXPECT_EQ(count(400), count(4000));
-}
-
-TEST(NormalEquations, AreTheSumsOverTheSamples) {
-  Case c = motor();
-  c.by = {rwn::resistance, rwn::inertia};
-  const std::size_t n = c.time.size();
-  std::vector<double> speed(n), slopes(2 * n);
-  rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}});
-  std::vector<double> measured(n);
-  double chi2 = 0.0, gradient = 0.0;
-  for (std::size_t k = 0; k < n; ++k) {
-    measured[k] = speed[k] + std::sin(0.1 * static_cast<double>(k));
-    const double e = 2.0 * (measured[k] - speed[k]);
-    chi2 += e * e;
-    gradient += 2.0 * slopes[2 * k + 1] * e;
-  }
-  rwn::Measurements recorded;
-  recorded.speed = measured;
-  recorded.speed_weight = 2.0;
-  const auto sum = rwn::normal_equations(c.task(), recorded);
-  EXPECT_NEAR(sum.chi2, chi2, 1e-9 * chi2);
-  EXPECT_NEAR(sum.gradient[1], gradient, 1e-9 * std::abs(gradient));
-  EXPECT_EQ(sum.count, static_cast<long>(n));
-}
-
-TEST(NormalEquations, OfErrorsThatLastCountWhatIsNew) {
-  Case c = motor();
-  c.by = {rwn::resistance, rwn::inertia};
-  const std::size_t n = c.time.size();
-  std::vector<double> speed(n), slopes(2 * n), measured(n);
-  rwn::simulate(c.task(), {{}, speed, {}, {}, slopes, {}});
-  const double share = 0.9, alone = std::sqrt(1.0 - share * share);
-  double chi2 = 0.0, gradient = 0.0, last = 0.0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double error = std::sin(0.1 * static_cast<double>(k));
-    measured[k] = speed[k] + error;
-    const double fresh = k == 0 ? alone * error : error - share * last;
-    const double slope = k == 0 ? alone * slopes[1] : slopes[2 * k + 1] - share * slopes[2 * k - 1];
-    chi2 += fresh * fresh;
-    gradient += slope * fresh;
-    last = error;
-  }
-  rwn::Measurements recorded;
-  recorded.speed = measured;
-  recorded.reflection = {{{}, {share}, {}}};
-  const auto sum = rwn::normal_equations(c.task(), recorded);
-  EXPECT_NEAR(sum.chi2, chi2, 1e-9 * chi2);
-  EXPECT_NEAR(sum.gradient[1], gradient, 1e-9 * std::abs(gradient));
 }

@@ -8,25 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
 from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.faults.fault import MOTION, SHIFT, ErrorReduction, Fault, without
+from rwn.faults.fault import SHIFT, ErrorReduction, Fault, without
 from rwn.faults.scale import gears
-from rwn.fit.fit import Fit, fit, fit_nominal, refit
-from rwn.fit.hypothesis import hypothesis
+from rwn.fit.fit import Fit, fit_nominal, refit
 from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
-from rwn.fit.refitting import refitted_beside
 from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.residuals import variance
 from rwn.fit.screening_part import screening_part
-from rwn.measurement.filter_colour import SensorFilter
-from rwn.measurement.known_filters import filtered, noise_before_filters
-from rwn.measurement.levels import known_levels, with_levels
+from rwn.measurement.known_filters import noise_before_filters
 from rwn.model.model import Model
 from rwn.model.recordings import LONGEST_SHIFT
 from rwn.name.ranking import Ranking
@@ -34,6 +29,7 @@ from rwn.name.screening import FURTHER
 from rwn.parallel import side_by_side
 from rwn.recording.noise import Noise
 from rwn.recording.recording import Recording, beginnings
+from rwn.recording.signals import MOTION
 
 Array = NDArray[np.float64]
 
@@ -145,45 +141,6 @@ def refined(
     on = undone(best)
     finer = variance(on, refit(base, on)) - 1.0
     return (best, finer) if finer < left else (suspect.fault, left)
-
-
-def shift_instead(
-    recordings: Sequence[Recording], model: Model, filters: Sequence[SensorFilter], ranking: Ranking
-) -> Fault | None:
-    """A channel that is late by whole samples, where that fits no worse than the lag or the delay that was named.
-
-    The nominal model does not show such a shift where filters of other channels or missing physics hide it; a fit may
-    take it for a delay of the input, which its inductance makes up for in the other channel. `filters`: of the sensors,
-    under which the ranking was found.
-    """
-    best, levels = ranking.fits[0].fit, known_levels(ranking.problem)
-
-    def measured(of: Sequence[Recording]) -> Problem:
-        """The recordings with what is known of how they were made."""
-        return filtered(reduce(with_levels, levels, prepare(of, model)), filters)
-
-    lagging = measured(recordings)
-    table = lagging.prior.table
-    late = [name for name in best.added if table[name].delays or table[name].takes_time]
-    if not late or not lagging.drive.winding or any("current" not in r.signals for r in recordings):
-        return None
-    (this,) = refitted_beside([best], lagging)
-    lagging = with_noise_of(lagging, this)
-    left = variance(lagging, this)
-    found: dict[Fault, float] = {}
-    for name in late:
-        others = tuple(other for other in best.added if other != name)
-        bare = hypothesis(lagging.prior, others, lagging.scales, best.starts(others), best.motor)
-        begun = Fit(hypothesis=bare, minimum=replace(this.minimum, values=bare.start))
-        for fault in _shifts(recordings, lagging, begun):
-            undone = replace(measured(without(recordings, fault)), noise=lagging.noise)
-            found[fault] = variance(undone, fit(undone, bare))
-    if not found or min(found.values()) > left:
-        return None
-    fault = min(found, key=lambda f: found[f])
-    nothing = variance(lagging, fit_nominal(lagging))
-    shares = (1.0 - (found[fault] - 1.0) / max(total - 1.0, found[fault] - 1.0, 1e-300) for total in (nothing, left))
-    return replace(fault, removes=ErrorReduction(*shares))
 
 
 def _refitted(problem: Problem, noise: Mapping[str, Noise]) -> Fit:

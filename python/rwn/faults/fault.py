@@ -25,7 +25,6 @@ UNIT = "wrong-unit"
 SIGN = "wrong-sign"
 GEAR = "wrong-gear-ratio"
 SHIFT = "time-shift"
-MOTION = ("speed", "position")  # signals of one shaft
 LINE = 4  # samples
 SURE = 0.99  # probability that is stated of a fault; those that fit alike share it
 

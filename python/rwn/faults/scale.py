@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.faults.back_emf import back_emf
-from rwn.faults.fault import GEAR, MOTION, SIGN, UNIT, Fault, without
+from rwn.faults.fault import GEAR, SIGN, UNIT, Fault, without
 from rwn.faults.similarity import FAR, Similarity
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
 from rwn.recording.kinematics import Kinematics, kinematics_of
 from rwn.recording.recording import Recording, beginnings
+from rwn.recording.signals import MOTION
 from rwn.recording.smoothing import smooth
 from rwn.simulate.inverse_dynamics import needed_force
 from rwn.simulate.run import Run
@@ -132,9 +133,8 @@ def _misfits_without(
 
 def similarity(recordings: Sequence[Recording], model: Model) -> dict[str, Similarity]:
     """Of each recorded signal to its free run from the model as given; of a position by its slope, free of drift."""
-    problem = prepare(recordings, model)
-    given = problem.as_given()
-    pairs: dict[str, list[tuple[Array, Array]]] = {}
+    given = (problem := prepare(recordings, model)).as_given()
+    pairs = dict[str, list[tuple[Array, Array]]]()
     for run in problem.whole:
         simulated = problem.simulate(run.following_nothing(), given.vector, given.active).signals
         for s in run.recorded:
@@ -270,8 +270,7 @@ def _any_scale(group: tuple[str, ...], model: Model) -> Iterator[Fault]:
 
 def _force_similarity(recordings: Sequence[Recording], model: Model) -> Similarity:
     """Of the recorded driving force to the one that the model as given needs for the recorded motion."""
-    problem = prepare(recordings, model)
-    given = problem.as_given()
+    given = (problem := prepare(recordings, model)).as_given()
     pairs = []
     for run in problem.whole:
         speed, acceleration = run.motion

@@ -82,6 +82,7 @@ class Effect:
     rectifies: bool = False  # whether it is a sensor that shows the same of a speed and of its opposite
     jumps: bool = False  # whether a signal jumps from value to value under it, so that it has no slope to fit by
     filters: str = ""  # the signal of which it is the first-order filter
+    shows_late: str = ""  # the signal that its sensor shows late; of a speed, the position too
     delays: bool = False  # whether the input acts later under it
     second_mass: bool = False  # whether it brings one; there is room for one
     guess: str = "scan"  # where first guesses come from, besides what its parameters scan (effect.hpp)

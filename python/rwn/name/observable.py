@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rwn.fit.problem import Problem
+from rwn.recording.signals import MOTION
 
 A_SIXTH = 1.0 / 6.0  # least travel [revolutions] that tells a torque over the angle from a load and a spring
 HALF_A_METRE = 0.5  # least travel [m] of a linear axis that tells a force over the position from a load and a spring
@@ -28,6 +29,9 @@ def observable(name: str, problem: Problem) -> bool:
     if beside:
         return all(problem.prior.uncertainty.get(nominal, 0.0) == 0.0 for nominal in beside)
     signals = {s for r in problem.runs for s in r.recorded}
+    if effect.shows_late:  # against another channel: against the input alone it is the input that is late
+        together = MOTION if effect.shows_late in MOTION else (effect.shows_late,)
+        return bool(signals & {*together}) and bool(signals - {*together})
     return not (effect.site == "sensor" and "speed" not in signals)
 
 

@@ -76,6 +76,7 @@ _ALL = (
 
 SIGNALS: dict[str, Signal] = {signal.name: signal for signal in _ALL}
 MEASURED = ("current", "speed", "position")  # what a simulation is compared with, in the order of the core
+MOTION = ("speed", "position")  # those of one shaft
 COLUMNS: dict[str, Signal] = {TIME.name: TIME, **SIGNALS}
 
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from rwn.faults.data_sheet import confirmed, contradicted, without_declared
-from rwn.faults.delay import shift_instead
-from rwn.faults.fault import Fault, without, without_all
+from rwn.faults.fault import Fault, without_all
 from rwn.faults.late_enable import LateEnable, late_under, powered
 from rwn.faults.sensor_errors import without_sensor_errors
 from rwn.faults.uneven_files import uneven_files
@@ -133,11 +132,6 @@ def search(
             break
         as_acted, (still, again, filters) = acted, asked
         faults, ranking = beneath_faults(as_acted, again, filters=filters, say=say, effort=effort)
-    late_channel = None if faults else shift_instead(as_acted, again, _filters(ranking, again), ranking)
-    if late_channel:
-        right = without(as_acted, late_channel)
-        others, ranking = beneath_faults(right, again, filters=_filters(ranking, again), say=say, effort=effort)
-        faults = [late_channel, *others]
     for wrong in contradicted(ranking):
         free = without_declared(again, wrong)
         others, freed = beneath_faults(as_acted, free, filters=filters, say=say, effort=effort)

@@ -12,6 +12,7 @@
 //   actuate(p, input)                 maps the commanded input to what acts
 //   follow(p, h, input, memory)       mean over the next h of what acts in place of an input, where that lasts
 //   delay(p)                          input delay [s]
+//   late(p)                           how late a sensor shows a signal, and what goes with it, [s]
 //   breaks(p)                         instants at which its terms jump [s]
 //   begin(p, reading, memory)         its memory at the first sample
 //   finish(p, motor, h, before, after, memory)     its memory after a step
@@ -60,8 +61,17 @@ struct EffectInfo {
 };
 
 enum class Hook : unsigned {
-  apply = 1, rate = 2, joint = 4, actuate = 8, delay = 16, breaks = 32, begin = 64, finish = 128, sense = 256,
-  follow = 512
+  apply = 1,
+  rate = 2,
+  joint = 4,
+  actuate = 8,
+  delay = 16,
+  breaks = 32,
+  begin = 64,
+  finish = 128,
+  sense = 256,
+  follow = 512,
+  late = 1024
 };
 constexpr Hook operator|(Hook a, Hook b) { return Hook{static_cast<unsigned>(a) | static_cast<unsigned>(b)}; }
 constexpr bool has(Hook all, Hook one) { return (static_cast<unsigned>(all) & static_cast<unsigned>(one)) != 0; }
@@ -78,14 +88,15 @@ constexpr std::string_view to_string(Guess guess) {
 
 struct EffectTraits {
   Hook hooks;
-  bool varies = true;            // false: terms change only with direction and at `breaks`
-  bool dry = false;              // contributes to the level of dry friction
-  bool turns = false;            // depends on the angle
-  bool loaded = false;           // depends on the torque that the drive transmits
-  bool one_sided = false;        // tells a direction from the other, or an angle from its opposite
-  bool holds = false;            // nothing moves under it while the input is small
-  std::string_view filters{};    // the signal of which it is the first-order filter, of one time constant
-  int memories = 0;              // numbers that it remembers from step to step
+  bool varies = true;             // false: terms change only with direction and at `breaks`
+  bool dry = false;               // contributes to the level of dry friction
+  bool turns = false;             // depends on the angle
+  bool loaded = false;            // depends on the torque that the drive transmits
+  bool one_sided = false;         // tells a direction from the other, or an angle from its opposite
+  bool holds = false;             // nothing moves under it while the input is small
+  std::string_view filters{};     // the signal of which it is the first-order filter, of one time constant
+  std::string_view shows_late{};  // the signal that its hook `late` is about: a current, or a speed with its position
+  int memories = 0;               // numbers that it remembers from step to step
   Guess guess = Guess::scan;
   std::string_view special_case{};  // the simpler effect that it is at one value of a parameter, tried in its place
 };
@@ -99,6 +110,7 @@ struct HookTypes {
   using Actuate = S (*)(const S*, const S&);
   using Follow = S (*)(const S*, const S&, const S&, S*);
   using Delay = S (*)(const S*);
+  using Late = S (*)(const S*);
   using Breaks = std::array<S, max_breaks> (*)(const S*);
   using Begin = void (*)(const S*, const Reading<S>&, S*);
   using Finish = void (*)(const S*, const Motor<S>&, const S&, const Motion<S>&, const Motion<S>&, S*);
@@ -158,14 +170,16 @@ consteval bool is_effect() {
   static_assert(E::traits.guess != Guess::window, "an effect with `breaks` is sought in time without saying so");
   static_assert(E::traits.guess != Guess::resonance, "a spring is sought by its resonance without saying so");
   static_assert(!has(hooks, Hook::delay) || E::parameters.size() == 1, "a delay has one parameter");
+  static_assert(has(hooks, Hook::late) == (E::traits.shows_late == "current" || E::traits.shows_late == "speed"),
+                "a sensor that is late says of which signal");
   static_assert(E::traits.memories >= 0 && E::traits.memories <= max_memories, "an effect has at most max_memories");
   static_assert(static_cast<unsigned>(hooks) != 0, "an effect does something: it lists at least one hook");
-#define RWN_HOOK(name, Type)                                                                                     \
-  if constexpr (has(hooks, Hook::name)) {                                                                        \
-    static_assert(requires { &E::template name<double>; }, "hook `" #name "` is listed in traits and not there"); \
+#define RWN_HOOK(name, Type)                                                                                          \
+  if constexpr (has(hooks, Hook::name)) {                                                                             \
+    static_assert(requires { &E::template name<double>; }, "hook `" #name "` is listed in traits and not there");     \
     if constexpr (requires { &E::template name<double>; }) is_signature<Type, decltype(&E::template name<double>)>(); \
-  } else {                                                                                                       \
-    static_assert(!requires { &E::template name<double>; }, "hook `" #name "` is there and not listed in traits"); \
+  } else {                                                                                                            \
+    static_assert(!requires { &E::template name<double>; }, "hook `" #name "` is there and not listed in traits");    \
   }
   RWN_HOOK(apply, T::Apply)
   RWN_HOOK(rate, T::Rate)
@@ -173,6 +187,7 @@ consteval bool is_effect() {
   RWN_HOOK(actuate, T::Actuate)
   RWN_HOOK(follow, T::Follow)
   RWN_HOOK(delay, T::Delay)
+  RWN_HOOK(late, T::Late)
   RWN_HOOK(breaks, T::Breaks)
   RWN_HOOK(begin, T::Begin)
   RWN_HOOK(finish, T::Finish)

@@ -14,6 +14,7 @@
 #include "rwn/model/effects/constant_load.hpp"
 #include "rwn/model/effects/coulomb_friction.hpp"
 #include "rwn/model/effects/current_limit.hpp"
+#include "rwn/model/effects/current_sensor_delay.hpp"
 #include "rwn/model/effects/current_sensor_lag.hpp"
 #include "rwn/model/effects/inertia_variation.hpp"
 #include "rwn/model/effects/input_delay.hpp"
@@ -34,6 +35,7 @@
 #include "rwn/model/effects/shaft_compliance.hpp"
 #include "rwn/model/effects/slew_rate_limit.hpp"
 #include "rwn/model/effects/speed_moving_average.hpp"
+#include "rwn/model/effects/speed_sensor_delay.hpp"
 #include "rwn/model/effects/speed_sensor_lag.hpp"
 #include "rwn/model/effects/stribeck_friction.hpp"
 #include "rwn/model/effects/supply_sag.hpp"
@@ -51,8 +53,8 @@ using Effects =
                PositionDependentFriction, CoggingTorque, Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash,
                ShaftCompliance, InertiaVariation, BrushVoltageDrop, CoastingBridge, ResistanceHeating,
                MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation, SupplySag, CurrentLimit,
-               SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag, SpeedMovingAverage, CurrentSensorLag,
-               SensorRectification, SensorGain, SensorBias, SensorQuantization>;
+               SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag, SpeedMovingAverage, SpeedSensorDelay,
+               CurrentSensorLag, CurrentSensorDelay, SensorRectification, SensorGain, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

@@ -23,15 +23,17 @@ struct EffectFunctions {
   typename HookTypes<S>::Actuate actuate = nullptr;
   typename HookTypes<S>::Follow follow = nullptr;
   typename HookTypes<S>::Delay delay = nullptr;
+  typename HookTypes<S>::Late late = nullptr;
   typename HookTypes<S>::Breaks breaks = nullptr;
   typename HookTypes<S>::Begin begin = nullptr;
   typename HookTypes<S>::Finish finish = nullptr;
   typename HookTypes<S>::Sense sense = nullptr;
-  bool varies = false;      // needs the nonlinear step
-  bool dry = false;         // contributes to the dry friction level
-  bool electrical = false;  // changes how fast the winding is
-  bool loaded = false;      // changes with the current while the winding settles
-  bool replaces = false;    // takes over the nominal dry friction
+  bool late_current = false;  // its signal is the current, not the speed
+  bool varies = false;        // needs the nonlinear step
+  bool dry = false;           // contributes to the dry friction level
+  bool electrical = false;    // changes how fast the winding is
+  bool loaded = false;        // changes with the current while the winding settles
+  bool replaces = false;      // takes over the nominal dry friction
   int memories = 0;
 };
 
@@ -45,6 +47,8 @@ constexpr EffectFunctions<S> functions_of() {
   if constexpr (has(hooks, Hook::actuate)) f.actuate = &E::template actuate<S>;
   if constexpr (has(hooks, Hook::follow)) f.follow = &E::template follow<S>;
   if constexpr (has(hooks, Hook::delay)) f.delay = &E::template delay<S>;
+  if constexpr (has(hooks, Hook::late)) f.late = &E::template late<S>;
+  f.late_current = E::traits.shows_late == "current";
   if constexpr (has(hooks, Hook::breaks)) f.breaks = &E::template breaks<S>;
   if constexpr (has(hooks, Hook::begin)) f.begin = &E::template begin<S>;
   if constexpr (has(hooks, Hook::finish)) f.finish = &E::template finish<S>;

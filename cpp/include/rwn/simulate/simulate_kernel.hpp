@@ -2,6 +2,8 @@
 #pragma once
 
 #include "rwn/model/drives.hpp"
+#include "rwn/simulate/given_angle.hpp"
+#include "rwn/simulate/late_sensor.hpp"
 #include "rwn/simulate/plain_run.hpp"
 #include "rwn/simulate/plant_of.hpp"
 #include "rwn/simulate/simulation_slice.hpp"
@@ -54,14 +56,10 @@ class Simulation {
     State state = initial(integrator);
     integrator.settle(state);
     prepare(state);
-    if (slice_.settings.angle_from_start) first_angle_ = state.position;
+    if (slice_.settings.angle_from_start) given_angle_.first = state.position;
     if constexpr (!Drive::coefficients) {
       if (integrator.plain() && is_plain()) {
-        const auto show = [this](int k, const auto& s) {
-          store(k, current_of(s), slice_.current, slice_.d_current);
-          store(k, s.x[w], slice_.speed, slice_.d_speed);
-          store(k, s.position, slice_.position, slice_.d_position);
-        };
+        const auto show = [this](int k, const auto& s) { store(k, current_of(s), s.x[w], s.position); };
         return integrator.dry() ? plain_run<true, S>(integrator, state, slice_, show)
                                 : plain_run<false, S>(integrator, state, slice_, show);
       }
@@ -72,11 +70,11 @@ class Simulation {
       if (has_own_ && *slice_.formula_failed) return k;
       if (slice_.settings.restart_every > 0 && k > 0 && k % slice_.settings.restart_every == 0) {
         state.x[w] = S(slice_.restart_speed[k]);
-        jumped_ += slice_.restart_position[k] - state.position;
+        given_angle_.jumped += slice_.restart_position[k] - state.position;
         state.position = S(slice_.restart_position[k]);
         integrator.settle(state);
       }
-      if (slice_.angle != nullptr) integrator.follow(offset_ = offset(k, state.position));
+      if (slice_.angle != nullptr) integrator.follow(offset_ = given_angle_.offset(slice_, k, state.position));
       if (k + 1 < slice_.samples) advance(integrator, state, k);
     }
     return slice_.samples;
@@ -125,7 +123,8 @@ class Simulation {
     for (int a = 0; a < slice_.active_count; ++a) {
       const auto& e = effects_[static_cast<std::size_t>(a)];
       if (e.call.delay != nullptr) delay_ += e.call.delay(e.p);
-      delayed_ = delayed_ || e.call.delay != nullptr;
+      delayed_ = delayed_ || e.call.delay != nullptr || e.call.late != nullptr;
+      if (e.call.late != nullptr) late_.add(e.call.late(e.p), e.call.late_current);
       if (e.call.breaks != nullptr) {
         for (const S& instant : e.call.breaks(e.p)) breaks_[static_cast<std::size_t>(break_count_++)] = instant;
       }
@@ -137,6 +136,7 @@ class Simulation {
       first.input = S(slice_.settings.input_before);
       if (e.call.begin != nullptr) e.call.begin(e.p, first, s.memory.data() + e.memory);
     }
+    late_.keep_until(slice_, slice_.time[0], [&] { return sensed(0, s); });
   }
 
   /// What acts in place of a command over the next h, after the instant of sample k.
@@ -164,7 +164,8 @@ class Simulation {
     x.current = y.current;
     x.speed = y.speed;
     const bool recorded = slice_.angle != nullptr && !slice_.settings.angle_from_speed;
-    x.angle = slice_.settings.angle_per_position * (recorded ? slice_.angle[k] + first_angle_ : y.position + offset_);
+    const S angle = recorded ? slice_.angle[k] + given_angle_.first : y.position + offset_;
+    x.angle = slice_.settings.angle_per_position * angle;
     x.angle_per_position = slice_.settings.angle_per_position;
     x.drive_torque = drive_torque(s, input);
     if constexpr (!Drive::coefficients) x.direction = s.direction;
@@ -200,7 +201,7 @@ class Simulation {
     }
   }
 
-  /// Splits the interval at instants that depend on parameters: late commands and the breaks of effects.
+  /// Splits the interval at instants that depend on parameters: of late commands, breaks of effects and late sensors.
   void advance_pieces(Plant& integrator, State& s, int k, double begin, double end) {
     S at(begin);
     while (row_ + 1 < slice_.inputs && slice_.input_time[row_ + 1] + value_of(delay_) <= begin) ++row_;
@@ -219,8 +220,10 @@ class Simulation {
           changes = false;
         }
       }
+      if (late_.show_sooner(slice_, next)) changes = false;
       advance_held(integrator, s, next - at, command(row), k, value_of(at) - slice_.time[0]);
       at = next;
+      late_.keep_until(slice_, value_of(at), [&] { return sensed(k, s); });
       if (changes) ++row;
     }
   }
@@ -231,20 +234,21 @@ class Simulation {
   }
 
   Reading<S> reading(const State& s) const {
-    Reading<S> y;
-    y.current = current_of(s);
-    y.speed = s.x[w];
-    y.position = s.position;
-    return y;
+    return {.current = current_of(s), .speed = s.x[w], .position = s.position};
   }
 
   void write(int k, const State& s) {
+    Reading<S> y = sensed(k, s);
+    late_.show(k, y);
+    if (slice_.settings.angle_from_speed) given_angle_.integrate(slice_, k, y.speed);
+    store(k, y.current, y.speed, y.position);
+  }
+
+  /// What sensors show of a state, be it late or not.
+  Reading<S> sensed(int k, const State& s) const {
     Reading<S> y = reading(s);
     if (senses_) sense(k, s, y);
-    if (slice_.settings.angle_from_speed) integrate(k, y.speed);
-    store(k, y.current, slice_.current, slice_.d_current);
-    store(k, y.speed, slice_.speed, slice_.d_speed);
-    store(k, y.position, slice_.position, slice_.d_position);
+    return y;
   }
 
   [[gnu::noinline]] void sense(int k, const State& s, Reading<S>& y) const {
@@ -256,17 +260,10 @@ class Simulation {
     }
   }
 
-  /// Integrates the simulated reading of the speed as the recorded one was integrated.
-  void integrate(int k, const S& shown) {
-    if (k > 0) turned_ += 0.5 * (slice_.time[k] - slice_.time[k - 1]) * (shown_ + shown);
-    shown_ = shown;
-  }
-
-  /// What angle-dependent effects follow minus the simulated position. An integrated speed turns with its sensor's
-  /// errors; the simulated reading, integrated likewise, takes them out. It starts at the initial position.
-  S offset(int k, const S& position) const {
-    const double given = slice_.angle[k];
-    return slice_.settings.angle_from_speed ? given - turned_ - jumped_ : given + first_angle_ - position;
+  void store(int k, const S& current, const S& speed, const S& position) const {
+    store(k, current, slice_.current, slice_.d_current);
+    store(k, speed, slice_.speed, slice_.d_speed);
+    store(k, position, slice_.position, slice_.d_position);
   }
 
   void store(int k, const S& y, double* values, double* slopes) const {
@@ -287,9 +284,9 @@ class Simulation {
   std::array<S, formula_depth> stack_{};
   std::array<S, Drive::coefficients ? coefficient_count : 0> coefficients_{};
   S delay_{0.0};
-  S shown_{0.0}, turned_{0.0};  // simulated reading of the speed, and its integral
-  S jumped_{0.0}, offset_{0.0};  // how far restarts have moved the position; angle minus position, 0 without one
-  S first_angle_{0.0};           // initial position, where the given angle is counted from it
+  GivenAngle<S> given_angle_;
+  S offset_{0.0};  // angle minus position, 0 where none is given
+  LateSensors<S> late_;
   std::array<S, 8> breaks_{};
   int break_count_ = 0, memories_ = 0;
   int row_ = -1;  // the last input that had acted when the last interval began

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from rwn.recording.signals import MOTION
 from rwn.studies.trials.adapter import train_files
 from rwn.studies.trials.bench import Recording
 from rwn.studies.trials.damaged import reading
@@ -23,7 +24,6 @@ from rwn.studies.trials.trial_files import read_columns, write_recording
 
 Columns = dict[str, Array]
 Rng = np.random.Generator
-MOTION = ("speed", "position")
 SHIFTS = (3, 15)  # samples, early or late
 RATIOS = (2.5, 12.0)  # of a gear between the motor and the sensor
 

@@ -66,7 +66,8 @@ struct PreslidingHysteresis {
     const double speed = value_of(x.speed);
     const double bend = value_of(x.memory[0]) * value_of(p[0]) / value_of(p[2]) * (speed < 0.0 ? -1.0 : 1.0);
     if (std::abs(speed) > 2.0 * acceleration * h && std::abs(1.0 - bend) < at_the_limit) return 0.0;
-    return std::sqrt(value_of(p[0]) / value_of(m[inertia])) + value_of(p[1]) / value_of(m[inertia]);
+    const double bent_in = std::sqrt(std::abs(acceleration) * value_of(p[0]) / value_of(p[2]));  // from a reversal on
+    return std::sqrt(value_of(p[0]) / value_of(m[inertia])) + value_of(p[1]) / value_of(m[inertia]) + bent_in;
   }
   template <class S>
   static void finish(const S* p, const Motor<S>&, const S&, const Motion<S>&, const Motion<S>& after, S* memory) {

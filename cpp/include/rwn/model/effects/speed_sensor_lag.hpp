@@ -21,6 +21,8 @@ struct SpeedSensorLag {
   static constexpr EffectTraits traits{
       .hooks = Hook::begin | Hook::finish | Hook::sense, .filters = "speed", .memories = 1};
 
+  static constexpr double small = 1e-3;  // of steps in time constants: three terms of a series are exact to 1e-9
+
   template <class S>
   static void begin(const S*, const Reading<S>& first, S* memory) {
     memory[0] = first.speed;
@@ -34,8 +36,9 @@ struct SpeedSensorLag {
     const S x = h / p[0];
     const S settled = -expm1(-x);  // answer to a step of 1, to a rise of 1 and to s (1 - s), s from 0 to 1
     const S mean = settled / x;
-    const S risen = 1.0 - mean;
-    const S bowed = 2.0 * risen / x - mean;
+    const bool brief = value_of(x) < small;  // there the differences are known by their series alone
+    const S risen = brief ? x * (0.5 - x * (1.0 / 6.0 - x / 24.0)) : 1.0 - mean;
+    const S bowed = brief ? x * (1.0 / 6.0 - x * (1.0 / 12.0 - x / 40.0)) : 2.0 * risen / x - mean;
     const S bow = 6.0 * (after.travel / h) - 3.0 * (before.speed + after.speed);
     memory[0] += settled * (before.speed - memory[0]) + risen * (after.speed - before.speed) + bowed * bow;
   }

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rwn.studies.trials.bench_trials.imperfections.imperfection import MOTION, Imperfection, Instruments, Kind, Rng
+from rwn.recording.signals import MOTION
+from rwn.studies.trials.bench_trials.imperfections.imperfection import Imperfection, Instruments, Kind, Rng
 from rwn.studies.trials.bench_trials.log import Log
 from rwn.studies.trials.plant import Array
 

@@ -12,7 +12,6 @@ from rwn.studies.trials.bench_trials.log import Log
 from rwn.studies.trials.plant import Values
 
 Rng = np.random.Generator
-MOTION = ("speed", "position")  # of one sensor
 
 
 @dataclass(frozen=True, kw_only=True)

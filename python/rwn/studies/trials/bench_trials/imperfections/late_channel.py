@@ -19,8 +19,8 @@ class LateChannel(Imperfection):
     @property
     def like(self) -> frozenset[str]:
         if self.signal == "current":
-            return frozenset({"current-sensor-lag"})
-        return frozenset({"input-delay", "speed-sensor-lag"})
+            return frozenset({"current-sensor-delay", "current-sensor-lag"})
+        return frozenset({"input-delay", "speed-sensor-delay", "speed-sensor-lag"})
 
     def wired(self, log: Log, rng: Rng) -> Log:  # noqa: ARG002
         return replace(log, late={**log.late, self.signal: self.samples * log.period})

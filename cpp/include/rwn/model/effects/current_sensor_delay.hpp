@@ -1,0 +1,28 @@
+#pragma once
+
+#include "rwn/model/effect.hpp"
+
+namespace rwn {
+
+struct CurrentSensorDelay {
+  static constexpr EffectInfo info{"current-sensor-delay", Site::sensor, "y(t) = i(t - d)",
+                                   "the current is shown late against the other channels", "standard"};
+  static constexpr std::array parameters{Parameter{.name = "delay",
+                                                   .symbol = "d",
+                                                   .unit = "s",
+                                                   .meaning = "need not be a whole number of samples",
+                                                   .lower = 0.0,
+                                                   .upper = 8.0,
+                                                   .start = 0.8,
+                                                   .scale = scale::time_step,
+                                                   .scan = {0.3, 0.8, 1.4, 2.3, 4.5},
+                                                   .strength = true}};
+  static constexpr EffectTraits traits{.hooks = Hook::late, .varies = false, .shows_late = "current"};
+
+  template <class S>
+  static S late(const S* p) {
+    return p[0];
+  }
+};
+
+}  // namespace rwn
