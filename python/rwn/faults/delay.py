@@ -36,7 +36,6 @@ Array = NDArray[np.float64]
 LITTLE = 0.1  # squared error above the noise, in units of it, below which nothing is suspected
 SUSPECT = 0.3  # share of what the refitted model leaves, that undoing a fault has to remove to be suspected
 DELAY_REMOVES = 0.85  # share of what the refitted model leaves, that a fault with what is beneath it has to remove
-CLEAR = 0.01  # share that is left where a fault and one effect explain all: more pairs of effects need not be tried
 SLIGHT = 0.02  # squared error in units of the noise, by which a fault has to be better than a pair of effects
 BETTER = 0.75  # share of what physics alone leaves, that may be left with the fault undone
 FIRST = 4  # explanations that may be one half of a pair
@@ -131,7 +130,7 @@ def refined(
 
     left = _excess_error(beneath.problem, base, noise)
     near = [suspect.fault.delay + off for off in NEAR] if suspect.fault.delay else []
-    tried = [_shift(suspect.fault.signals, delay, suspect.fault.step) for delay in near if delay]
+    tried = [_shift(suspect.fault.signals, delay, suspect.fault.step) for delay in near if delay < 0]
     if not tried:
         return suspect.fault, left
     as_suspected, *soon = side_by_side(variance_after_a_few_steps, [suspect.fault, *tried])
@@ -156,17 +155,16 @@ def _excess_error(problem: Problem, this: Fit, noise: Mapping[str, Noise]) -> fl
 
 
 def _shifts(recordings: Sequence[Recording], problem: Problem, nominal: Fit) -> Iterator[Fault]:
-    """One channel late or early against its simulation while another is in step."""
+    """One channel early against its simulation while another is in step; a late one is an effect of its sensor."""
     if not problem.drive.winding:
         return
     signals = [s for s in problem.runs[0].recorded if all(s in r.recorded for r in problem.runs)]
     lags = {s: _lag(problem, nominal, s) for s in signals if s != "position"}
     step = float(np.median(np.diff(recordings[0].time)))
     groups = {"speed": tuple(s for s in MOTION if any(s in r.signals for r in recordings)), "current": ("current",)}
-    alone = "current" not in lags  # late against the input alone: as well a delay of the drive, which is physics
     for signal, lag in lags.items():
         for delay in sorted({lag - 1, lag, lag + 1, *(lag - other for other in lags.values())}):
-            if delay != 0 and abs(delay) <= LONGEST_SHIFT and not (alone and delay > 0):
+            if -LONGEST_SHIFT <= delay < 0:
                 yield _shift(groups[signal], delay, step)
 
 

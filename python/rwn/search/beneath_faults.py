@@ -8,7 +8,6 @@ from typing import NamedTuple, Protocol
 
 from rwn.faults.delay import (
     BETTER,
-    CLEAR,
     LITTLE,
     SLIGHT,
     SuspectedFault,
@@ -148,14 +147,12 @@ def _decided(
         beneath = ranking(without(right, fault), after=beneath)
         believed = unexplained(suspect, beneath) <= LITTLE
         return _FaultTest(fault, beneath, unexplained(suspect, pairs)) if believed else _FaultTest(None, pairs)
-    if left > CLEAR * suspect.before:
-        if not enough:
-            pairs = ranking(right, 2, names=rivals(alone, beneath), after=pairs)
-        if not accepted(suspect, left=left, physics=unexplained(suspect, pairs)):
-            return _FaultTest(None, pairs)
-    elif unexplained(suspect, pairs) < left + SLIGHT:
+    if not enough:
+        pairs = ranking(right, 2, names=rivals(alone, beneath), after=pairs)
+    physics = unexplained(suspect, pairs)
+    if physics < left + SLIGHT or not accepted(suspect, left=left, physics=physics):
         return _FaultTest(None, pairs)
-    return _FaultTest(fault, beneath if exact and not enough else None, unexplained(suspect, pairs))
+    return _FaultTest(fault, beneath if exact and not enough else None, physics)
 
 
 def _refined(

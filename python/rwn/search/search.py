@@ -106,13 +106,25 @@ class _Assumptions(NamedTuple):
 def search(
     recordings: Sequence[Recording], model: Model, *, late: Sequence[LateEnable], say: Progress, effort: float = 1.0
 ) -> SearchResult:
-    """Explains recordings, and does so anew where the best explanation shows that the input acted otherwise.
+    """Explains recordings, and does so anew, from the start, where a value of the data sheet cannot be right.
 
     `late`: power stages that were enabled late, as far as the nominal model shows them. `effort`: what the search may
     cost, as a multiple of the usual.
 
     Raises InputError where a recording does not fit the model.
     """
+    found = _explained(recordings, model, late=late, say=say, effort=effort)
+    for wrong in contradicted(found.ranking):
+        freed = _explained(recordings, without_declared(model, wrong), late=late, say=say, effort=effort)
+        if confirmed(freed.ranking, found.ranking, found.model, wrong):
+            return replace(freed, model=replace(freed.model, uncertainty=model.uncertainty))
+    return found
+
+
+def _explained(
+    recordings: Sequence[Recording], model: Model, *, late: Sequence[LateEnable], say: Progress, effort: float
+) -> SearchResult:
+    """The same, asked again where the best explanation shows that the recordings came about otherwise."""
     on, still = powered(recordings, late, model), tuple(late)
     again = with_intersample(on, model)
     as_acted = _as_acted(on, again)
@@ -132,12 +144,6 @@ def search(
             break
         as_acted, (still, again, filters) = acted, asked
         faults, ranking = beneath_faults(as_acted, again, filters=filters, say=say, effort=effort)
-    for wrong in contradicted(ranking):
-        free = without_declared(again, wrong)
-        others, freed = beneath_faults(as_acted, free, filters=filters, say=say, effort=effort)
-        if confirmed(freed, ranking, again, wrong):
-            faults, ranking = others, freed
-            break
     again = stating_filters(again, ranking.problem.filters)
     return SearchResult(
         model=again, late=still, faults=tuple(faults), ranking=ranking, sensor_errors=tuple(sensor_errors)

@@ -40,7 +40,7 @@ class LateSensor {
 
  private:
   static constexpr double next_to = 1e-9;
-  static constexpr int rows = 16;  // that a delay lasts at most: twice the longest, where rows lie closer than usual
+  static constexpr int rows = 80;  // that a delay lasts at most: twice the longest, where rows lie closer than usual
   static std::size_t place(int k) { return 2 * static_cast<std::size_t>(k % rows); }
 
   S delay_{0.0};
@@ -81,7 +81,7 @@ class LateSensors {
 
  private:
   static constexpr std::size_t most = 2;  // of the current, and of speed and position
-  std::array<LateSensor<S>, most> sensors_{};
+  std::array<LateSensor<S>, most> sensors_;
   std::size_t count_ = 0;
 };
 
