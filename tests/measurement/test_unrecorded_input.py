@@ -57,9 +57,10 @@ def test_the_motion_tells_when_a_voltage_stepped_between_two_rows(friction: floa
     assert _missed(voltage, kept, found) < 0.3
 
 
-def test_an_input_that_acts_late_is_told_by_an_explanation_with_the_delay() -> None:
+@pytest.mark.parametrize("rows", [1.4, 4.6])
+def test_an_input_that_acts_late_is_told_by_an_explanation_with_the_delay(rows: float) -> None:
     """A model without it takes the steps of the voltage for later ones."""
-    late = {"input-delay": {"delay": 1.4 * STEP}}
+    late = {"input-delay": {"delay": rows * STEP}}
     voltage, kept = _every_second_row(late)
     model = stating(MODEL, "halves")
     problem, _ = nominal_of([kept], model)

@@ -32,11 +32,12 @@ def test_every_key_is_read() -> None:
         'sample_time = "2 ms"\ninitial = "rest"\ninitial_samples = 7\nfrom = 1\nto = "1500 ms"\ndecimate = 3\n'
         'intersample = "bridged"\nprofile = "sysid"\ndelays.speed = "3 ms"\nfilters.current = 0.004\n'
         'columns.speed = { source = "w", unit = "rpm", scale = -2 }\ncolumns.voltage = { unit = "mV" }\n'
-        'columns.torque = { source = "u", scale = "0.4 N m/V" }\nrename = { i = "current" }'
+        'columns.torque = { source = "u", scale = "0.4 N m/V" }\nrename = { i = "current" }\n'
+        "speed_rows = [1, 0]"
     )
     assert read == Layout(
         sample_time=0.002, initial="rest", initial_samples=7, start=1.0, end=1.5, decimate=3, intersample="bridged",
-        profile="sysid", delays={"speed": 0.003}, filters={"current": 0.004},
+        profile="sysid", delays={"speed": 0.003}, filters={"current": 0.004}, speed_rows=(1, 0),
         columns={
             "speed": Column(source="w", unit="rpm", scale=-2.0), "voltage": Column(source="voltage", unit="mV"),
             "torque": Column(source="u", scale=0.4, scale_unit="N m/V"), "current": Column(source="i"),
@@ -53,6 +54,7 @@ def test_every_key_is_read() -> None:
         ("sample_time = -1e-3", "sample_time is -0.001 s", "motor.toml, [recording]"),
         ("initial_samples = 0", "initial_samples is 0", "motor.toml, [recording]"),
         ("decimate = 0", "decimate is 0", "motor.toml, [recording]"),
+        ("speed_rows = [1, -1]", "speed_rows is [1, -1]", "motor.toml, [recording] speed_rows"),
         ("from = 2\nto = 2", "from is 2 s, to is 2 s", "motor.toml, [recording]"),
         ("from = 3\nto = 2", "from is 3 s, to is 2 s", "motor.toml, [recording]"),
         ("filters.speed = 0", "the filter of the speed has a time constant of 0 s", "motor.toml, [recording] filters"),

@@ -232,15 +232,19 @@ def _pulses(problem: Problem, this: Fit, run: Run, signal: str, begin: Array, en
 
 
 def _step_response(problem: Problem, this: Fit, run: Run, signal: str, step: float) -> Array:
-    """Of a signal, as it is measured, to an input of 1 from 0 on at multiples of `step` [s], without friction."""
+    """Of a signal, as it is measured, to an input of 1 from 0 on at multiples of `step` [s], without friction.
+
+    It comes as late as the fit has it, by a delay of the input or by its sensor.
+    """
     way = run.speed_measured
     time: Array = step * np.arange((LASTS + 2.0) * FINE)
     fine = SpeedMeasurement(FINE * way.before, FINE * way.after)
     at_rest = Run(name=run.name, time=time, input=np.zeros(time.size), speed_measured=fine)
-    vector = this.vector.copy()
+    known, vector = this.hypothesis.table, this.vector.copy()
+    late = [known[name].index for name in this.hypothesis.effects if known[name].retards]
     vector[motor_index("coulomb_friction")] = 0.0  # it holds what is at rest, not what moves
     on, off = (
-        problem.simulator.simulate(replace(at_rest, input=given), vector, []).signals[signal]
+        problem.simulator.simulate(replace(at_rest, input=given), vector, late).signals[signal]
         for given in (np.ones(time.size), np.zeros(time.size))
     )
     return on - off

@@ -223,7 +223,17 @@ def _layout(given: RecordingTable, where: str) -> Layout:
         intersample=known_law(given.intersample, where=f"{where} intersample"),
         delays=_delays(given.delays, f"{where} delays"),
         filters=_filters(given.filters, f"{where} filters"),
+        speed_rows=_speed_rows(given.speed_rows, f"{where} speed_rows"),
     )  # fmt: skip
+
+
+def _speed_rows(given: tuple[int, int] | None, where: str) -> tuple[int, int] | None:
+    if given is not None and not all(0 <= rows <= _MOST_ROWS for rows in given):
+        raise InputError(
+            f"speed_rows is {list(given)}", where=where, expected="how many rows before and after, 0 or more each",
+            fix="write for instance [1, 1] for a central difference, [0, 0] for a speed of its own",
+        )  # fmt: skip
+    return given
 
 
 def _by_signal(given: dict[str, Number], where: str) -> dict[str, float]:

@@ -39,6 +39,7 @@ class RecordingTable(msgspec.Struct, forbid_unknown_fields=True):
     decimate: int = 1
     rename: dict[str, str] = {}
     profile: str | None = None
+    speed_rows: tuple[int, int] | None = None
 
 
 class LoadTable(msgspec.Struct, forbid_unknown_fields=True):

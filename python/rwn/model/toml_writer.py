@@ -63,6 +63,7 @@ def _layout_lines(layout: Layout) -> list[str]:
     for key, seconds in (("from", layout.start), ("to", layout.end)):
         lines += [] if seconds is None else [f"{key} = {seconds!r}  # s"]
     lines += [] if layout.decimate == 1 else [f"decimate = {layout.decimate}"]
+    lines += [] if layout.speed_rows is None else [f"speed_rows = {list(layout.speed_rows)}"]
     lines += [] if layout.profile is None else [f'profile = "{layout.profile}"']
     for name, column in layout.columns.items():
         items = [f"source = {_quoted(column.source)}"]

@@ -46,8 +46,9 @@ class Layout:
     simulated. `delays` [s]: by which measured signals come late. `filters` [s]: time constants of first-order filters
     that the samples of measured signals went through, before they came late. `start`, `end` [s], in the file's own
     time: rows outside are left out; of the rest every `decimate`-th row is kept. `profile`: the tool that exported the
-    files, a name in `rwn.recording.profiles.PROFILES`; it says which of its columns is which signal. Raises InputError
-    where `intersample` or `profile` is no name of these.
+    files, a name in `rwn.recording.profiles.PROFILES`; it says which of its columns is which signal. `speed_rows`: rows
+    before and after its own between whose positions a speed was taken, (0, 0) a speed of its own; None: as its values
+    show. Raises InputError where `intersample` or `profile` is no name of these.
     """
 
     columns: Mapping[str, Column] = field(default_factory=dict)
@@ -61,6 +62,7 @@ class Layout:
     end: float | None = None
     decimate: int = 1
     profile: str | None = None
+    speed_rows: tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
         """Refuses what is no law or no profile."""

@@ -33,6 +33,7 @@ from rwn.recording.inspection import Finding, Inspected
 from rwn.recording.intersample import AUTO, HELD, INTERSAMPLE
 from rwn.recording.recording import Recording
 from rwn.search.beneath_faults import beneath_faults
+from rwn.simulate.run import Run
 
 ASKED_AGAIN = 2  # times that how the input acted is asked of what was found; each that changes it costs a search
 
@@ -144,7 +145,7 @@ def _explained(
             break
         as_acted, (still, again, filters) = acted, asked
         faults, ranking = beneath_faults(as_acted, again, filters=filters, say=say, effort=effort)
-    again = stating_filters(again, ranking.problem.filters)
+    again = _stating_speed(stating_filters(again, ranking.problem.filters), ranking.problem.whole)
     return SearchResult(
         model=again, late=still, faults=tuple(faults), ranking=ranking, sensor_errors=tuple(sensor_errors)
     )
@@ -192,6 +193,14 @@ def _tells_more(
     given, other = (replace(problem, noise=ranking.problem.noise) for problem in problems)
     old, new = (refitted_beside([ranking.fits[0].fit], problem)[0] for problem in (given, other))
     return is_decisive(log_posterior(other, new) - log_posterior(given, old), statistics(other, new))
+
+
+def _stating_speed(model: Model, runs: Sequence[Run]) -> Model:
+    """The model with how the speed of the recordings was measured, in their layout."""
+    way = next((run.speed_measured for run in runs if run.speed.size), None)
+    if way is None or model.drive.coefficients:
+        return model
+    return replace(model, recording=replace(model.recording, speed_rows=(way.before, way.after)))
 
 
 def _filters(ranking: Ranking, stated: Model) -> tuple[SensorFilter, ...]:

@@ -16,7 +16,7 @@ from rwn.recording.interpolated import InterpolatedRows
 from rwn.recording.intersample import AUTO, INTERSAMPLE
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
-from rwn.recording.speed_measurement import INSTANTANEOUS, integral, speed_measurement
+from rwn.recording.speed_measurement import INSTANTANEOUS, SpeedMeasurement, integral, speed_measurement
 from rwn.simulate.run import Run
 
 Array = NDArray[np.float64]
@@ -37,7 +37,9 @@ def run_of(recording: Recording, model: Model) -> Run:
     time = recording.time - recording.time[0]
     speed, position = signals.get("speed", _NONE), signals.get("position", _NONE)
     way = INSTANTANEOUS
-    if not drive.coefficients:
+    if layout.speed_rows is not None:
+        way = SpeedMeasurement(*layout.speed_rows)
+    elif not drive.coefficients:
         new = {s: ~recording.missing.get(s, np.zeros(time.size, dtype=bool)) for s in ("speed", "position")}
         way = speed_measurement(time, speed, position, new=new["speed"], new_position=new["position"])
     start = initial_state_of(time, signals, model, missing=recording.missing, way=way)
