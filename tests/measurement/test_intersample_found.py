@@ -42,6 +42,14 @@ def _kept(run: rwn.Recording, rows: np.ndarray | slice) -> rwn.Recording:
     return rwn.Recording(name="run", time=run.time[rows], signals={n: x[rows] for n, x in run.signals.items()})
 
 
+def test_a_voltage_that_was_noted_a_row_late_is_told_from_one_that_moved_on_lines() -> None:
+    """All that was measured is then a row early; half a row of it a line between the rows makes up for."""
+    run = _run()
+    late = np.append(run.signals["voltage"][0], run.signals["voltage"][:-1])
+    found = with_intersample([replace(run, signals={**run.signals, "voltage": late})], MODEL)
+    assert found.recording.intersample == "noted-late"
+
+
 @pytest.mark.parametrize(("every", "law"), [(1, "held"), (2, "halves"), (3, "thirds")])
 def test_thinned_rows_are_told_from_whole_ones(every: int, law: str) -> None:
     found = with_intersample([_kept(_run(), slice(None, None, every))], MODEL)

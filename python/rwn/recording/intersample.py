@@ -60,13 +60,15 @@ def _own_samples(time: Array) -> None:
 class IntersampleLaw:
     """How an input acts between rows, and how that is said.
 
-    `samples`: of rows at times (n,) that lie between samples at the ticks of a clock, how; `applied` then counts from
-    the first tick. None: a row is what was at its time. `shown`: the times of the rows show that it may be so.
+    `said`: what goes before that, of a `given` input. `samples`: of rows at times (n,) that lie between samples at the
+    ticks of a clock, how; `applied` then counts from the first tick. None: a row is what was at its time. `shown`: the
+    times of the rows show that it may be so.
     `ticks_per_row`: of the drive's clock, by which its filters run too.
     """
 
     applied: Callable[[Array, Array], PiecewiseInput | None]
     words: str
+    said: str = "between two rows the {given} was not held: "
     shown: bool = False
     ticks_per_row: int = 1
     samples: Callable[[Array], InterpolatedRows | None] = _own_samples
@@ -99,6 +101,11 @@ def _in_parts(time: Array, values: Array, *, parts: int) -> PiecewiseInput | Non
 def _linear(time: Array, values: Array) -> PiecewiseInput | None:
     """It moved on the line from row to row."""
     return _divided(time, values, np.full(time.size - 1, FINE), _on_line)
+
+
+def _noted_late(time: Array, values: Array) -> PiecewiseInput:
+    """A row has the input that acted since the row before, as of a logger that notes the command of the last cycle."""
+    return PiecewiseInput(instants=time, values=np.append(values[1:], values[-1]), spread=np.zeros(values.size))
 
 
 def _held_from_ticks(
@@ -254,6 +261,11 @@ INTERSAMPLE: dict[str, IntersampleLaw] = {
     "halves": _thinned(2, "it changed twice from one to the next, as where a logger keeps every second one"),
     "thirds": _thinned(3, "it changed three times from one to the next, as where a logger keeps every third one"),
     "line": IntersampleLaw(applied=_linear, words="it moved on a line from row to row"),
+    "noted-late": IntersampleLaw(
+        applied=_noted_late,
+        said="the {given} was noted a row late: ",
+        words="each row has what acted since the one before",
+    ),
     "ticks": IntersampleLaw(
         applied=_at_ticks, shown=True, words="it changed at the ticks of a clock beside which the rows were taken"
     ),

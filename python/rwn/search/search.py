@@ -80,7 +80,7 @@ class SearchResult:
                     recording="all recordings",
                     signals=(given,),
                     count=0,
-                    words=f"between two rows the {given} was not held: {INTERSAMPLE[law].words}",
+                    words=INTERSAMPLE[law].said.format(given=given) + INTERSAMPLE[law].words,
                     done="simulated so",
                 )
             )
