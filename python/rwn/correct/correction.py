@@ -33,6 +33,10 @@ RIVAL_HELPS = (
     "on recordings that were not fitted the simulation is better with {instead} in the place of {names}, which is not "
     "told from it: corrected.toml holds that"
 )
+ONE_EVENT = (
+    "{names} acted for a while in the one recording that was fitted, and nothing shows that it comes again: "
+    "corrected.toml, which is for any recording, holds the rest"
+)
 BY_FREE_RUN = (
     "what is stated was found by the driving force, with the parameters that this tells; corrected.toml holds {} "
     "fitted to the free run, which predicts better what was not fitted"
@@ -66,6 +70,15 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
     warnings = _seen(decision)
     if decision.verdict == "unexplained" and not model.drive.coefficients:
         warnings = (*warnings, NO_NETWORK)
+    events = _single_events(decision)
+    calm = _silenced(decision.chosen, events)
+    if events and (not heldout or _is_better_without(decision, calm, heldout, seed=seed)):
+        rows = compared(decision.ranking, decision.ranking.nominal_fit, calm.final, heldout, seed=seed)
+        return Correction(
+            decision=replace(decision, rows=rows) if heldout else decision, final=decision.chosen.final,
+            model=_without(fitted_model(decision.chosen.final, model), events),
+            warnings=(*warnings, ONE_EVENT.format(names=" + ".join(events))),
+        )  # fmt: skip
     kept, rows = _proved_part(decision, heldout, seed=seed)
     left_out = tuple(name for name in decision.chosen.added if name not in kept.added)
     if left_out:
@@ -83,6 +96,36 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
         decision=replace(decision, rows=rows), model=fitted_model(final, model), final=final,
         by_free_run=moved.explanation, warnings=(*warnings, BY_FREE_RUN.format(" + ".join(final.added))),
     )  # fmt: skip
+
+
+def _single_events(decision: Decision) -> tuple[str, ...]:
+    """What acted for a while, where one recording alone was fitted: it is of that run, not of the machine."""
+    table, alone = decision.ranking.problem.prior.table, len(decision.ranking.problem.whole) == 1
+    return tuple(n for n in decision.chosen.added if table[n].instants) if alone else ()
+
+
+def _silenced(this: RankedFit, names: Sequence[str]) -> RankedFit:
+    """An explanation as it was fitted, with some of its effects of no strength."""
+    fit = this.final
+    strengths = {f"{n}.{p.name}" for n in names for p in fit.hypothesis.table[n].parameters if p.strength}
+    values = [
+        0.0 if u.name in strengths else v for u, v in zip(fit.hypothesis.unknowns, fit.minimum.values, strict=True)
+    ]
+    return replace(this, final=replace(fit, minimum=replace(fit.minimum, values=np.array(values))))
+
+
+def _is_better_without(decision: Decision, calm: RankedFit, heldout: Sequence[Run], *, seed: int) -> bool:
+    """Whether what was kept back is better without the events, and then better than by the refitted nominal model."""
+    ranking, final = decision.ranking, decision.chosen.final
+    pairs = ((final, calm.final), (ranking.nominal_fit, calm.final))
+    return all(log_change(compared(ranking, *pair, heldout, seed=seed)) < 0.0 for pair in pairs)
+
+
+def _without(model: Model, names: Sequence[str]) -> Model:
+    """A model without some effects, its parameters as they are."""
+    effects = {name: values for name, values in model.effects.items() if name not in names}
+    known = {name: by for name, by in model.uncertainty.items() if name.partition(".")[0] not in names}
+    return replace(model, effects=effects, uncertainty=known)
 
 
 def _seen(decision: Decision) -> tuple[str, ...]:
