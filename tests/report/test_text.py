@@ -112,7 +112,7 @@ def test_a_parameter_beyond_its_declared_uncertainty_is_said_to_be_so() -> None:
     off = replace(p, refitted=replace(p.refitted, value=p.nominal * math.exp(20.0 * p.uncertainty)))
     parameters = {**fine.nominal_fit.parameters, name: off}
     said = verdict_sentence(replace(fine, nominal_fit=replace(fine.nominal_fit, parameters=parameters)))
-    assert said.endswith(f"But {words.plain_name(name)} had to move by 20 times its declared uncertainty: check it.")
+    assert f"But {words.plain_name(name)} had to move by 20 times its declared uncertainty: check it." in said
     assert "within" not in said
 
 
@@ -142,13 +142,15 @@ def test_a_current_that_stays_far_off_is_said_beside_the_speed() -> None:
     off = replace(off, gain=0.04, gain_interval=(-0.01, 0.09))
     said = verdict_sentence(replace(found, heldout=(found.heldout[0], off)))
     assert said.endswith("The current error there is still 24 times its noise, 0.480 A.")
+    assert " times its noise (" in said, "what is left of the speed is next to its noise"
     for fine in (replace(off, corrected=0.03), replace(off, noise_floor=None), replace(off, signal="position")):
-        assert "times its noise" not in verdict_sentence(replace(found, heldout=(found.heldout[0], fine)))
+        assert "is still" not in verdict_sentence(replace(found, heldout=(found.heldout[0], fine)))
 
 
 def test_an_adequate_model_that_fails_on_a_run_that_was_kept_back_says_so() -> None:
     fine = made_up.adequate()
     assert "But on" not in verdict_sentence(fine)
+    assert "not used for fitting, the refitted model errs by" in verdict_sentence(fine)
     row = replace(fine.heldout[0], refitted=9.0 * (fine.heldout[0].noise_floor or 0.0))
     said = verdict_sentence(replace(fine, heldout=(row,)))
     assert f"But on {row.recording}, not used for fitting, the speed error is 9.0 times its noise" in said

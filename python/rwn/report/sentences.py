@@ -155,6 +155,8 @@ def _more_than_noise(found: DiagnosisData) -> Iterator[str]:
         where = f"the {row.signal} error is {number(over_noise(row), 2)} times its noise"
         where = where if math.isfinite(row.left) else f"the simulated {row.signal} runs away"
         yield f"But on {recording_in_words(row.recording)}, {where}: that run shows what the fitted ones do not."
+    elif row is not None and not row.recording.endswith(LEFT_OUT):
+        yield from _how_far(found)
 
 
 def _unexplained(found: DiagnosisData) -> tuple[str, ...]:
@@ -272,24 +274,23 @@ def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
     before, after = before_after(row)
     there = f"on {recording_in_words(row.recording)},"
     where = f"the {row.signal} error {there}"
+    near = f", {number(over_noise(row), 2)} times its noise" if 0.0 < over_noise(row) <= STANDS_OUT else ""
     if not math.isfinite(corrected):
         left = "makes" if math.isfinite(row.refitted) else "does not keep"
         return f"{how} {left} the simulated {row.signal} {there} {'run' if left == 'makes' else 'from running'} away."
     if not math.isfinite(row.refitted):
         return f"{how} keeps the simulated {row.signal} {there} from running away: its error is {after}."
     if corrected == row.refitted or (row.gain is not None and abs(row.gain) < SLIGHT):
-        times = over_noise(row)
-        little = 0.0 < times <= STANDS_OUT
-        left = f", {number(times, 2)} times its noise" if little else ": something larger is off there"
+        left = near or ": something larger is off there"
         return f"{how} changes nothing in {where} {after}{left}."
     if row.gain_interval is not None and row.gain_interval[0] <= 0.0 <= row.gain_interval[1]:
         return f"{how} changes little for certain: {where} goes from {before}, refitted alone, to {after}."
     does = "increases" if (corrected > row.refitted if row.gain is None else row.gain < 0.0) else "reduces"
-    more_or_less = "more" if does == "increases" else "less"
-    share = f" ({percent(abs(row.gain))} {more_or_less})" if row.gain is not None else ""
-    as_given = error_in_words(row.nominal, *row_prefix(row))
-    given = f"; as given, before any fit, the model leaves {as_given}" if row.nominal < row.refitted else ""
-    return f"{how} {does} {where} from {before}, refitted alone, to {after}{share}{given}."
+    by = f"{percent(abs(row.gain or 0.0))} {'more' if does == 'increases' else 'less'}"
+    share = f" ({by})" if row.gain is not None else ""
+    as_given = f"; as given, before any fit, the model leaves {error_in_words(row.nominal, *row_prefix(row))}"
+    given = as_given if row.nominal < row.refitted else ""
+    return f"{how} {does} {where} from {before}, refitted alone, to {after}{near}{share}{given}."
 
 
 def _hides(row: HeldoutRow, other: HeldoutRow) -> bool:
