@@ -1,4 +1,4 @@
-"""What acted for a while in the one recording that was fitted is of that run: a model for any recording is without it."""
+"""What acted for a while in the one recording that was fitted is of that run: a model for any other is without it."""
 
 from __future__ import annotations
 

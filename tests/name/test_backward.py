@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ import pytest
 import rwn
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.preparation import prepare
+from rwn.name import backward
 from rwn.name.backward import elaborations, family, plainer
 from rwn.name.screening import screen
 
@@ -51,3 +54,24 @@ def test_what_begins_without_a_friction_law_begins_with_friction_as_large(fit_wi
     assert two_levels.motor["coulomb_friction"] == pytest.approx(np.mean(levels))
     assert two_levels.motor["coulomb_friction"] > 2.0 * 0.002
     assert "coulomb_friction" not in fit_with("asymmetric-friction").motor
+
+
+def test_simpler_ones_of_a_simpler_one_are_tried_where_both_leave_noise(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What costs least has most effects then; two of them have to go before the plain one is met."""
+
+    def made(names: str, cost: float) -> Any:
+        return SimpleNamespace(added=tuple(names), cost=cost, unknowns_seen=5 + 2 * len(names))
+
+    tried: list[str] = []
+
+    def simpler(_: Any, best: Any) -> list[Any]:
+        tried.append("".join(best.added))
+        return [made("".join(best.added)[:-1], best.cost + 3.0)]
+
+    monkeypatch.setattr(backward, "_simpler", simpler)
+    monkeypatch.setattr(backward, "distinct", list)
+    problem: Any = SimpleNamespace(samples=1000)
+    nominal, fits = made("", 9000.0), [made("abcd", 1000.0), made("ab", 1006.0)]
+    found = backward.with_simpler(problem, nominal, fits)
+    assert tried == ["ab", "a"]
+    assert "a" in ["".join(f.added) for f in found]

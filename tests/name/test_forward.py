@@ -283,12 +283,13 @@ def test_the_angle_is_followed_without_what_the_sensor_adds(effect: str, values:
 
 def test_simpler_explanations_are_sought_until_none_is_better(monkeypatch: pytest.MonkeyPatch) -> None:
     def ended(cost: float, *added: str) -> SimpleNamespace:
-        return SimpleNamespace(added=added, cost=cost)
+        return SimpleNamespace(added=added, cost=cost, unknowns_seen=len(added))
 
     simpler = {3: [ended(9.9, "constant-load", "load-disturbance")], 2: [ended(9.95, "load-disturbance")]}
     monkeypatch.setattr("rwn.name.backward._simpler", lambda _, best: simpler[len(best.added)])
     three = ended(10.0, "constant-load", "load-disturbance", "backlash")
-    found = with_simpler(cast(Any, None), cast(Any, ended(99.0)), cast(Any, [three]))
+    one = SimpleNamespace(samples=1)  # of which an unknown counts nothing
+    found = with_simpler(cast(Any, one), cast(Any, ended(99.0)), cast(Any, [three]))
     assert [f.added for f in found] == [
         ("constant-load", "load-disturbance"), ("load-disturbance",), ("constant-load", "load-disturbance", "backlash")
     ]  # fmt: skip

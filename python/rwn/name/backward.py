@@ -17,11 +17,18 @@ from rwn.parallel import side_by_side
 
 
 def with_simpler(problem: Problem, nominal: Fit, fits: list[Fit]) -> list[Fit]:
-    """The fits and simpler ones than the best; where one of these costs less, simpler ones than that too."""
-    fits, best = distinct(fits), min([nominal, *fits], key=lambda f: f.cost)
+    """The fits and simpler ones than the best; where one of these is better, simpler ones than that too.
+
+    The best has the least cost with what its unknowns count by BIC: of two that leave noise alone the simpler one.
+    """
+
+    def price(this: Fit) -> float:
+        return this.cost + this.unknowns_seen * float(np.log(problem.samples))
+
+    fits, best = distinct(fits), min([nominal, *fits], key=price)
     for _ in best.added:  # of which each time one at least is left out or made plainer
         fits = distinct([*fits, *_simpler(problem, best)])
-        last, best = best, min([nominal, *fits], key=lambda f: f.cost)
+        last, best = best, min([nominal, *fits], key=price)
         if len(best.added) >= len(last.added):
             break
     return fits
