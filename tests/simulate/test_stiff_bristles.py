@@ -33,16 +33,3 @@ def test_a_bristle_faster_than_the_rows_does_not_run_away(
 
     fine = speed(FINER)
     assert np.max(np.abs(speed(1) - fine)) < 0.02 * np.max(np.abs(fine))
-
-
-@pytest.mark.parametrize("direction", [-1.0, 1.0])
-def test_of_a_run_that_begins_in_motion_the_bristles_slide(direction: float) -> None:
-    """Under the torque of its friction a shaft goes on at its speed, from the first sample on."""
-    bristle = {"bristle_stiffness": 0.5, "bristle_damping": 1e-3, "coulomb_torque": 0.05}
-    model = rwn.Model(
-        kind="axis", parameters={"inertia": 1e-4, "viscous_friction": 1e-3}, effects={"presliding-hysteresis": bristle}
-    )
-    speed = np.full(200, 20.0 * direction)
-    signals = {"torque": np.full(200, (0.05 + 1e-3 * 20.0) * direction), "speed": speed}
-    run = rwn.Recording(name="run", time=ROW * np.arange(200), signals=signals)
-    assert rwn.simulate(model, run).signals["speed"] == pytest.approx(speed, rel=1e-6)

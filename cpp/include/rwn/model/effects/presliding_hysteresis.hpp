@@ -37,15 +37,9 @@ struct PreslidingHysteresis {
                                                    .scale = scale::torque,
                                                    .replaces = coulomb_friction}};
   /// Memories: bristle deflection z [rad].
-  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate | Hook::begin | Hook::finish, .memories = 1};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate | Hook::finish, .memories = 1};
   static constexpr double at_the_limit = 1e-4;  // share of the largest deflection
 
-  /// Of a run that begins in motion, the bristles slide.
-  template <class S>
-  static void begin(const S* p, const Reading<S>& first, S* memory) {
-    const double speed = value_of(first.speed);
-    memory[0] = speed == 0.0 ? S(0.0) : speed < 0.0 ? -(p[2] / p[0]) : p[2] / p[0];
-  }
   /// Exact for motion in one direction: z relaxes to sign(w) T_c/s0 over the travelled angle.
   template <class S>
   static S deflection(const S* p, const S& z, const S& travel) {
