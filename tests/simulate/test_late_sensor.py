@@ -20,7 +20,7 @@ def _run(times: int) -> rwn.Recording:
     return rwn.Recording(name="run", time=ROW / times * np.arange(voltage.size), signals={"voltage": voltage})
 
 
-@pytest.mark.parametrize("rows", [0.0, 0.375, 0.88, 1.0, 2.5, 7.9])
+@pytest.mark.parametrize("rows", [0.0, 0.375, 0.88, 1.0, 2.5, 7.9, 137.3, 900.0])
 @pytest.mark.parametrize(("effect", "late"), [("current-sensor-delay", ["current"]),
                                               ("speed-sensor-delay", ["speed", "position"])])  # fmt: skip
 def test_it_shows_what_finer_rows_had_so_much_sooner(rows: float, effect: str, late: list[str]) -> None:

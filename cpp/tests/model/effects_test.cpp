@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "rwn/simulate/active_effects.hpp"
 #include "rwn/model/memory.hpp"
 
@@ -84,6 +86,18 @@ TEST(Effects, PowerLawLoadFrictionOfPowerOneIsItsSpecialCase) {
     PowerLawLoadFriction::apply(general, small_motor(), x, law);
     LoadDependentFriction::apply(special, small_motor(), x, plain);
     EXPECT_NEAR(law.friction / plain.friction, 1.0, 1e-3);  // level below a hundredth of the reference torque
+  }
+}
+
+TEST(Effects, ALagAnswersAStepTooShortForItsDifferences) {
+  const double lag[] = {5e-3};
+  Motion<double> before, after;
+  before.speed = after.speed = 40.0;
+  for (const double h : {1e-18, 1e-12, 1e-7, 4e-6, 6e-6}) {  // the last two on either side of where the series ends
+    after.travel = (1000.0 + h * before.speed) - 1000.0;  // as positions tell it, 0 over the shortest
+    double memory = 10.0;
+    SpeedSensorLag::finish(lag, small_motor(), h, before, after, &memory);
+    EXPECT_NEAR(memory, 10.0 - 30.0 * std::expm1(-h / lag[0]), 1e-8);
   }
 }
 

@@ -1,10 +1,11 @@
 // Sensors that show at each sample what was a while before.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "rwn/model/motor.hpp"
-#include "rwn/numerics/room.hpp"
 #include "rwn/simulate/simulation_slice.hpp"
 
 namespace rwn {
@@ -13,18 +14,23 @@ namespace rwn {
 template <class S>
 class LateSensor {
  public:
-  void begin(const S& delay, bool of_current) {
+  /// Makes room for the samples that are kept at once: all that a delay lasts over.
+  void begin(const SimulationSlice& slice, const S& delay, bool of_current) {
     delay_ = delay;
     of_current_ = of_current;
+    int most = 1, shown = 0;
+    for (int k = 0; k < slice.samples; ++k) {
+      while (shown < k && slice.time[k] - slice.time[shown] > value_of(delay_) * (1.0 + next_to)) ++shown;
+      most = std::max(most, k - shown + 2);
+    }
+    kept_.resize(2 * static_cast<std::size_t>(most));
   }
 
-  /// The instant that it shows at the next sample of which it knows nothing yet.
-  S instant(const SimulationSlice& slice) const {
-    return next_ < slice.samples ? slice.time[next_] - delay_ : S(slice.time[slice.samples - 1] + 1.0);
-  }
-  /// An instant that is next to now is now: a step to there would be too short to know its own travel.
+  /// Whether there is a sample of which it knows nothing yet, and the instant that it will show there.
+  bool waits(const SimulationSlice& slice) const { return next_ < slice.samples; }
+  S instant(const SimulationSlice& slice) const { return slice.time[next_] - delay_; }
   bool is_due(const SimulationSlice& slice, double now) const {
-    return next_ < slice.samples && slice.time[next_] - value_of(delay_) <= now + next_to * value_of(delay_);
+    return waits(slice) && slice.time[next_] - value_of(delay_) <= now + next_to * value_of(delay_);
   }
 
   void keep(const Reading<S>& y) {
@@ -39,28 +45,29 @@ class LateSensor {
   }
 
  private:
+  /// Share of a delay within which an instant is now: a step to there would be lost in the rounding of the times.
   static constexpr double next_to = 1e-9;
-  static constexpr int rows = 80;  // that a delay lasts at most: twice the longest, where rows lie closer than usual
-  static std::size_t place(int k) { return 2 * static_cast<std::size_t>(k % rows); }
+  std::size_t place(int k) const { return 2 * static_cast<std::size_t>(k) % kept_.size(); }
 
   S delay_{0.0};
   bool of_current_ = false;
   int next_ = 0;
-  Room<S, 2 * static_cast<std::size_t>(rows)> kept_;
+  std::vector<S> kept_;  // a ring
 };
 
 /// Those of a run.
 template <class S>
 class LateSensors {
  public:
-  void add(const S& delay, bool of_current) {
-    if (count_ < most) sensors_[count_++].begin(delay, of_current);
+  void add(const SimulationSlice& slice, const S& delay, bool of_current) {
+    if (count_ < most) sensors_[count_++].begin(slice, delay, of_current);
   }
 
   /// Whether one of them shows an instant before `next`, which it then is.
   bool show_sooner(const SimulationSlice& slice, S& next) const {
     bool sooner = false;
     for (std::size_t j = 0; j < count_; ++j) {
+      if (!sensors_[j].waits(slice)) continue;
       const S instant = sensors_[j].instant(slice);
       if (value_of(instant) >= value_of(next)) continue;
       next = instant;

@@ -124,7 +124,7 @@ class Simulation {
       const auto& e = effects_[static_cast<std::size_t>(a)];
       if (e.call.delay != nullptr) delay_ += e.call.delay(e.p);
       delayed_ = delayed_ || e.call.delay != nullptr || e.call.late != nullptr;
-      if (e.call.late != nullptr) late_.add(e.call.late(e.p), e.call.late_current);
+      if (e.call.late != nullptr) late_.add(slice_, e.call.late(e.p), e.call.late_current);
       if (e.call.breaks != nullptr) {
         for (const S& instant : e.call.breaks(e.p)) breaks_[static_cast<std::size_t>(break_count_++)] = instant;
       }

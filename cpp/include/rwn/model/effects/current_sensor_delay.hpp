@@ -1,22 +1,14 @@
 #pragma once
 
 #include "rwn/model/effect.hpp"
+#include "rwn/model/sensor_delay.hpp"
 
 namespace rwn {
 
 struct CurrentSensorDelay {
   static constexpr EffectInfo info{"current-sensor-delay", Site::sensor, "y(t) = i(t - d)",
                                    "the current is shown late against the other channels", "standard"};
-  static constexpr std::array parameters{Parameter{.name = "delay",
-                                                   .symbol = "d",
-                                                   .unit = "s",
-                                                   .meaning = "need not be a whole number of samples",
-                                                   .lower = 0.0,
-                                                   .upper = 40.0,
-                                                   .start = 0.8,
-                                                   .scale = scale::time_step,
-                                                   .scan = {0.3, 0.8, 1.4, 2.3, 3.6, 5.5, 8.0, 12.0, 18.0, 27.0},
-                                                   .strength = true}};
+  static constexpr std::array parameters{sensor_delay};
   static constexpr EffectTraits traits{.hooks = Hook::late, .varies = false, .shows_late = "current"};
 
   template <class S>
