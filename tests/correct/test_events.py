@@ -37,3 +37,8 @@ def test_an_event_is_in_the_corrected_model_where_it_is_seen_to_come_again(
     assert ("load-disturbance" in found.corrected.effects) is kept
     assert any("nothing shows that it comes again" in text for text in found.warnings) is not kept
     assert found.corrected.parameters["inertia"] == pytest.approx(MOTOR["inertia"], rel=0.01)
+    if heldout:  # what is drawn is what corrected.toml simulates
+        last = runs[-1]
+        (picture,) = (p for p in found.curves if p.slot == "response" and p.title.endswith(last.name))
+        (drawn,) = (t for t in picture.traces if t.role == "corrected")
+        assert np.max(np.abs(drawn.y - np.interp(drawn.x, last.time, last.signals["speed"]))) < 2.0

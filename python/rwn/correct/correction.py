@@ -70,15 +70,9 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
     warnings = _seen(decision)
     if decision.verdict == "unexplained" and not model.drive.coefficients:
         warnings = (*warnings, NO_NETWORK)
-    events = _single_events(decision)
-    calm = _silenced(decision.chosen, events)
-    if events and (not heldout or _is_better_without(decision, calm, heldout, seed=seed)):
-        rows = compared(decision.ranking, decision.ranking.nominal_fit, calm.final, heldout, seed=seed)
-        return Correction(
-            decision=replace(decision, rows=rows) if heldout else decision, final=decision.chosen.final,
-            model=_without(fitted_model(decision.chosen.final, model), events),
-            warnings=(*warnings, ONE_EVENT.format(names=" + ".join(events))),
-        )  # fmt: skip
+    calm = _without_events(decision, heldout, model, seed=seed)
+    if calm:
+        return replace(calm, warnings=(*warnings, *calm.warnings))
     kept, rows = _proved_part(decision, heldout, seed=seed)
     left_out = tuple(name for name in decision.chosen.added if name not in kept.added)
     if left_out:
@@ -98,27 +92,35 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
     )  # fmt: skip
 
 
-def _single_events(decision: Decision) -> tuple[str, ...]:
-    """What acted for a while, where one recording alone was fitted: it is of that run, not of the machine."""
-    table, alone = decision.ranking.problem.prior.table, len(decision.ranking.problem.whole) == 1
-    return tuple(n for n in decision.chosen.added if table[n].instants) if alone else ()
+def _without_events(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: int) -> Correction | None:
+    """What is stated without what acted for a while, where one recording alone was fitted: it is of that run.
+
+    None where nothing did, or where what was kept back is no better without it, or is then worse than by the refitted
+    nominal model.
+    """
+    ranking, joint = decision.ranking, decision.chosen.final
+    table, alone = ranking.problem.prior.table, len(ranking.problem.whole) == 1
+    events = tuple(name for name in joint.added if table[name].instants) if alone else ()
+    if not events:
+        return None
+    calm, rows = _silenced(joint, events), decision.rows
+    if heldout:
+        rows = compared(ranking, ranking.nominal_fit, calm, heldout, seed=seed)
+        changes = (log_change(compared(ranking, joint, calm, heldout, seed=seed)), log_change(rows))
+        if max(changes) >= 0.0:
+            return None
+    return Correction(
+        decision=replace(decision, rows=rows), final=calm, model=_without(fitted_model(calm, model), events),
+        warnings=(ONE_EVENT.format(names=" + ".join(events)),),
+    )  # fmt: skip
 
 
-def _silenced(this: RankedFit, names: Sequence[str]) -> RankedFit:
-    """An explanation as it was fitted, with some of its effects of no strength."""
-    fit = this.final
-    strengths = {f"{n}.{p.name}" for n in names for p in fit.hypothesis.table[n].parameters if p.strength}
-    values = [
-        0.0 if u.name in strengths else v for u, v in zip(fit.hypothesis.unknowns, fit.minimum.values, strict=True)
-    ]
-    return replace(this, final=replace(fit, minimum=replace(fit.minimum, values=np.array(values))))
-
-
-def _is_better_without(decision: Decision, calm: RankedFit, heldout: Sequence[Run], *, seed: int) -> bool:
-    """Whether what was kept back is better without the events, and then better than by the refitted nominal model."""
-    ranking, final = decision.ranking, decision.chosen.final
-    pairs = ((final, calm.final), (ranking.nominal_fit, calm.final))
-    return all(log_change(compared(ranking, *pair, heldout, seed=seed)) < 0.0 for pair in pairs)
+def _silenced(this: Fit, names: Sequence[str]) -> Fit:
+    """A fit with some of its effects of no strength, and all else as it ended."""
+    strengths = {f"{name}.{p.name}" for name in names for p in this.hypothesis.table[name].parameters if p.strength}
+    unknowns = zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
+    values = np.array([0.0 if u.name in strengths else v for u, v in unknowns])
+    return replace(this, minimum=replace(this.minimum, values=values))
 
 
 def _without(model: Model, names: Sequence[str]) -> Model:

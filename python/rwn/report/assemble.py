@@ -82,7 +82,9 @@ def assemble(
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
     filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
     shown = correction.by_free_run or chosen
-    drawn = figures.plots(ranking, shown, heldout, inputs, depends, correction.network, linear=model.linear)
+    drawn = figures.plots(
+        ranking, shown, correction.final, heldout, inputs, depends, correction.network, linear=model.linear
+    )
     return Diagnosis(
         verdict=said.verdict,
         equation=equation,

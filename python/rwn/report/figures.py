@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.correct.network import NetworkCorrection
+from rwn.fit.fit import Fit
 from rwn.mismatch_map.dependence import CLEAR, Law
 from rwn.mismatch_map.regions import regions
 from rwn.name.initial_guesses import spectra
@@ -27,11 +28,11 @@ WORTH_SEEING = 0.05  # of the residual, that the highest line explains
 
 
 def plots(
-    ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], inputs: Sequence[UnknownInputs],
+    ranking: Ranking, chosen: RankedFit, corrected: Fit, heldout: Sequence[Run], inputs: Sequence[UnknownInputs],
     laws: Sequence[Law], network: NetworkCorrection | None, *, linear: bool,
 ) -> tuple[Plot, ...]:  # fmt: skip
     """Each recording over time, what is unknown over speed, the laws of effects or of what is unnamed, the spectrum."""
-    made = over_time(ranking, chosen, heldout, linear=linear)
+    made = over_time(ranking, corrected, heldout, linear=linear)
     if ranking.problem.drive.coefficients:
         return made
     names = [run.name for run in ranking.problem.whole]

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rwn.fit.fit import Fit
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.problem import Problem
 from rwn.name.ranking import Ranking
-from rwn.name.weights import RankedFit
 from rwn.recording.columns import si_unit
 from rwn.recording.signals import SIGNALS
 from rwn.report.plot import Plot, Role, Slot, Trace, Use
@@ -58,10 +58,13 @@ class FreeRun:
     error: Role | None = None
 
 
-def over_time(ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], *, linear: bool) -> tuple[Plot, ...]:
-    """Input, response and error over each recording, those that were not fitted first; at most three of each use."""
+def over_time(ranking: Ranking, corrected: Fit, heldout: Sequence[Run], *, linear: bool) -> tuple[Plot, ...]:
+    """Input, response and error over each recording, those that were not fitted first; at most three of each use.
+
+    `corrected`: what corrected.toml holds.
+    """
     whole = ranking.problem.in_free_run()
-    models = _models(whole.as_given(), ranking, chosen)
+    models = _models(whole.as_given(), ranking, corrected)
     pictures: list[Plot] = []
     for use, runs in (("heldout", heldout), ("fit", whole.runs)):
         for run in runs[:DRAWN]:
@@ -70,7 +73,7 @@ def over_time(ranking: Ranking, chosen: RankedFit, heldout: Sequence[Run], *, li
     return tuple(pictures)
 
 
-def _models(given: Hypothesis, ranking: Ranking, chosen: RankedFit) -> list[_Model]:
+def _models(given: Hypothesis, ranking: Ranking, corrected: Fit) -> list[_Model]:
     refitted = ranking.nominal_fit
     models = [
         _Model(name="nominal as given", role="nominal", vector=given.vector, active=given.active),
@@ -78,10 +81,9 @@ def _models(given: Hypothesis, ranking: Ranking, chosen: RankedFit) -> list[_Mod
             name="nominal refitted", role="refitted", vector=refitted.vector, active=refitted.active, error="before"
         ),
     ]
-    if chosen.added:
-        final = chosen.final
+    if corrected.added:
         models.append(
-            _Model(name="corrected", role="corrected", vector=final.vector, active=final.active, error="after")
+            _Model(name="corrected", role="corrected", vector=corrected.vector, active=corrected.active, error="after")
         )
     return models
 
