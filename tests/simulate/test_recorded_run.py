@@ -11,7 +11,6 @@ import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.recording.columns import Layout
 from rwn.recording.speed_measurement import BACKWARD, CENTRAL, INSTANTANEOUS, SpeedMeasurement
-from rwn.search.search import _stating_speed
 from rwn.simulate.recorded_run import run_of
 
 MODEL = rwn.Model(kind="dc", parameters=MOTOR)
@@ -29,9 +28,3 @@ def _counted() -> rwn.Recording:
 def test_how_a_speed_was_measured_may_be_stated(stated: tuple[int, int] | None, way: SpeedMeasurement) -> None:
     run = run_of(_counted(), replace(MODEL, recording=Layout(speed_rows=stated)))
     assert run.speed_measured == way
-
-
-def test_what_recordings_told_of_their_speed_is_stated_for_others() -> None:
-    run = run_of(_counted(), MODEL)
-    assert _stating_speed(MODEL, [run]).recording.speed_rows == (1, 0)
-    assert _stating_speed(MODEL, [replace(run, speed=np.empty(0))]).recording.speed_rows is None

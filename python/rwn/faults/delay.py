@@ -169,9 +169,8 @@ def _shifts(recordings: Sequence[Recording], problem: Problem, nominal: Fit) -> 
 
 
 def _shift(signals: tuple[str, ...], delay: int, step: float) -> Fault:
-    late = "late" if delay > 0 else "early"
     rows = f"{abs(delay)} sample{'s' if abs(delay) > 1 else ''} ({1e3 * abs(delay) * step:.3g} ms)"
-    text = f"{' and '.join(signals)} {rows} {late} against the other channels"
+    text = f"{' and '.join(signals)} {rows} early against the other channels"
     return Fault(name=SHIFT, signals=signals, delay=delay, step=step, meaning=text)
 
 

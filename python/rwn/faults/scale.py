@@ -133,7 +133,8 @@ def _misfits_without(
 
 def similarity(recordings: Sequence[Recording], model: Model) -> dict[str, Similarity]:
     """Of each recorded signal to its free run from the model as given; of a position by its slope, free of drift."""
-    given = (problem := prepare(recordings, model)).as_given()
+    problem = prepare(recordings, model)
+    given = problem.as_given()
     pairs = dict[str, list[tuple[Array, Array]]]()
     for run in problem.whole:
         simulated = problem.simulate(run.following_nothing(), given.vector, given.active).signals
@@ -270,8 +271,8 @@ def _any_scale(group: tuple[str, ...], model: Model) -> Iterator[Fault]:
 
 def _force_similarity(recordings: Sequence[Recording], model: Model) -> Similarity:
     """Of the recorded driving force to the one that the model as given needs for the recorded motion."""
-    given = (problem := prepare(recordings, model)).as_given()
-    pairs = []
+    problem = prepare(recordings, model)
+    given, pairs = problem.as_given(), []
     for run in problem.whole:
         speed, acceleration = run.motion
         needed = needed_force(
