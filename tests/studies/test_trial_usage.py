@@ -45,6 +45,18 @@ def test_an_unfinished_set_is_not_gone_on_with_as_another(tmp_path: Path) -> Non
     assert json.loads((tmp_path / WORK / "set.json").read_text())["seed"] == 4
 
 
+def test_a_part_of_a_set_is_its_first_trials_as_they_are_in_the_whole(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="the first 3 of 2 trials: give a number from 1 to 2"):
+        make(3, 2, tmp_path / "part", first=3)
+    assert not (tmp_path / "part").exists()
+    make(3, 2, tmp_path / "part", first=1, jobs=1)
+    make(3, 2, tmp_path / "whole", jobs=1)
+    part, whole = ({p.name for p in (tmp_path / name).glob("trial_*")} for name in ("part", "whole"))
+    assert (part, whole) == ({"trial_0001"}, {"trial_0001", "trial_0002"})
+    for file in (tmp_path / "part" / "trial_0001").iterdir():
+        assert file.read_bytes() == (tmp_path / "whole" / "trial_0001" / file.name).read_bytes()
+
+
 def test_a_seal_that_was_killed_half_way_does_not_look_finished(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

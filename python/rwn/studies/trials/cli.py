@@ -26,6 +26,7 @@ def make(
     seed: Annotated[int, typer.Option(help="Below 10000: development; from 10000 on: test.")],
     count: Annotated[int, typer.Option(min=1, help="Number of trials.")],
     out: Annotated[Path, typer.Option(help="Folder to make.")],
+    first: Annotated[int | None, typer.Option(min=1, help="Make so many of the COUNT, from the first on.")] = None,
     split: Annotated[str | None, typer.Option(help="development or test; must agree with the seed.")] = None,
     bench: Annotated[bool, typer.Option("--bench", help="Imperfect recordings, unnamed physics, two judges.")] = False,
     judge: Annotated[str | None, typer.Option(help="With --bench: plant or mujoco alone (default: both).")] = None,
@@ -39,10 +40,13 @@ def make(
     if judge is not None and not bench:
         raise ValueError("--judge is for trials of a bench; give --bench too")
     if bench:
-        digest = sets.make_bench(seed, count, out, split=split, judge=judge, jobs=jobs, progress=_progress)
+        digest = sets.make_bench(
+            seed, count, out, first=first, split=split, judge=judge, jobs=jobs, progress=_progress
+        )
     else:
-        digest = sets.make(seed, count, out, split=split, jobs=jobs, progress=_progress)
-    typer.echo(f"{count} trials in {out}; SHA-256 of the sealed answers: {digest}")
+        digest = sets.make(seed, count, out, first=first, split=split, jobs=jobs, progress=_progress)
+    made = f"{count} trials" if first is None else f"the first {first} of {count} trials"
+    typer.echo(f"{made} in {out}; SHA-256 of the sealed answers: {digest}")
 
 
 @app.command()

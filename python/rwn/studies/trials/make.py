@@ -52,16 +52,18 @@ def make(
     count: int,
     out: Path,
     *,
+    first: int | None = None,
     split: str | None = None,
     jobs: int = 2,
     progress: Progress | None = None,
 ) -> str:
     """Writes `count` trials of `seed` to `out` and returns the SHA-256 of the sealed answers.
 
-    An interrupted call continues where it stopped. Raises ValueError for a seed of the other split, and
-    FileExistsError where a finished set lies already.
+    `first`: only so many of them, from the first on; what they hold is spread over the whole count. An interrupted call
+    continues where it stopped. Raises ValueError for a seed of the other split, and FileExistsError where a finished
+    set lies already.
     """
-    about = _about(seed, count, split)
+    about = _about(seed, count, split, first)
     return _make(about, plans(seed, count), make_trial, out, jobs=jobs, progress=progress)
 
 
@@ -70,6 +72,7 @@ def make_bench(
     count: int,
     out: Path,
     *,
+    first: int | None = None,
     split: str | None = None,
     judge: str | None = None,
     jobs: int = 2,
@@ -79,7 +82,7 @@ def make_bench(
 
     Raises ValueError as well for a judge that is not known, or that cannot run here.
     """
-    about = _about(seed, count, split) | {"bench": True} | ({"judge": judge} if judge else {})
+    about = _about(seed, count, split, first) | {"bench": True} | ({"judge": judge} if judge else {})
     if judge is not None and judge not in JUDGES:
         raise ValueError(f"judge is {judge!r}; it must be one of {', '.join(JUDGES)}")
     for name in JUDGED_BY if judge is None else (judge,):
@@ -89,13 +92,15 @@ def make_bench(
     return _make(about, planned, make_bench_trial, out, jobs=jobs, progress=progress)
 
 
-def _about(seed: int, count: int, split: str | None) -> dict[str, Any]:
+def _about(seed: int, count: int, split: str | None, first: int | None) -> dict[str, Any]:
     split = check_split(seed, split)
     if seed < 0 or count < 1:
         raise ValueError(
             f"seed {seed} and count {count}: the seed must not be negative, the count at least 1"
         )
-    return {"seed": seed, "split": split, "count": count}
+    if first is not None and not 1 <= first <= count:
+        raise ValueError(f"the first {first} of {count} trials: give a number from 1 to {count}")
+    return {"seed": seed, "split": split, "count": count} | ({"first": first} if first is not None else {})
 
 
 def _make(
@@ -112,7 +117,8 @@ def _make(
         shutil.rmtree(work, ignore_errors=True)  # the answers unsealed: a run was killed before it had removed them
         raise FileExistsError(f"{out} already holds a finished set of trials; choose another folder")
     work.mkdir(parents=True, exist_ok=True)
-    _same_set(work / "set.json", {key: value for key, value in about.items() if key != "split"})
+    _same_set(work / "set.json", {key: value for key, value in about.items() if key not in ("split", "first")})
+    planned = planned[: about.get("first")]
     left = [plan for plan in planned if not (work / f"{plan.name}.json").exists()]
     done = len(planned) - len(left)
     with workers(jobs) as pool:
