@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
+#include "rwn/model/sites.hpp"
 #include "rwn/simulate/active_effects.hpp"
 #include "rwn/simulate/transfer_function.hpp"
 #include "task.hpp"
@@ -87,6 +89,14 @@ py::list effect_table() {
   return table;
 }
 
+std::set<std::string> drive_sites(const std::string& drive) {
+  std::set<std::string> sites;
+  for (Site site : all_sites) {
+    if (has_site(drive_of(drive), site)) sites.emplace(to_string(site));
+  }
+  return sites;
+}
+
 /// Number of parameters of the effect of this name.
 std::size_t parameters_of(std::string_view name) {
   std::size_t count = 0;
@@ -163,6 +173,7 @@ Simulated run(const Task& task, const Array& parameters, const std::vector<int>&
 void bind_simulate(py::module_& m) {
   m.def("motor_parameter_table", [] { return describe_all(motor_parameters); }, "The motor's own parameters.");
   m.def("effect_table", &effect_table, "Every effect with its parameters, as the C++ table states them.");
+  m.def("drive_sites", &drive_sites, "drive"_a, "Where effects can attach to a kind of drive, by its name.");
   m.def("special_case_parameters", &special_case_parameters, "effect"_a, "parameters"_a,
         "Parameters of an effect's special case, in the order of the table, from those of the effect.");
   m.attr("scale_quantities") = std::vector<std::string>(Scale::quantities.begin(), Scale::quantities.end());

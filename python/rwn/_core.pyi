@@ -278,6 +278,10 @@ class StructuredFit:
     @property
     def theta(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         ...
+def drive_sites(drive: str) -> set[str]:
+    """
+    Where effects can attach to a kind of drive, by its name.
+    """
 def dyadic_grid(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], wavelets: typing.SupportsInt | typing.SupportsIndex, finest: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
     ...
 def effect_table() -> list:

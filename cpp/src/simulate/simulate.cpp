@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "rwn/model/sites.hpp"
 #include "rwn/numerics/isa.hpp"
 #include "rwn/simulate/active_effects.hpp"
 #include "rwn/simulate/simulation_slice.hpp"
@@ -65,7 +66,12 @@ void check_own(const SimulationTask& task) {
   require(!has_coefficients(task.drive) || task.own.empty(),
           "simulate: a transfer function has no equations for own effects");
   const int effects = effect_count + static_cast<int>(task.own.size());
-  for (int effect : task.active) require(effect >= 0 && effect < effects, "simulate: no such effect");
+  for (int effect : task.active) {
+    require(effect >= 0 && effect < effects, "simulate: no such effect");
+    const Site site = effect < effect_count ? site_of(effect)
+                                            : site_of(task.own[static_cast<std::size_t>(effect - effect_count)].term);
+    require(has_site(task.drive, site), "simulate: the drive's equations have no term for an effect");
+  }
 }
 
 std::array<OwnProgram, max_own_effects> programs_of(std::span<const OwnEffect> own) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "effect_index.hpp"
+#include "formulas.hpp"
 #include "rwn/simulate/simulate.hpp"
 #include "rwn/simulate/transfer_function.hpp"
 #include "rwn/simulate/unknown_inputs.hpp"
@@ -103,6 +105,18 @@ TEST(Simulation, TasksThatDoNotFitAreRefusedForTheirReason) {
       {[](Case& c) { c.active.resize(9); }, "too many effects at once"},
       {[](Case& c) { c.active = {-1}; }, "no such effect"},
       {[](Case& c) { c.active = {effect_count}; }, "no such effect"},
+      {[](Case& c) { c.active = {effect_index("supply-sag")}; }, ""},
+      {[](Case& c) { c.drive = drive_of("axis"), c.active = {effect_index("supply-sag")}; }, "no term for an effect"},
+      {[](Case& c) { c.drive = drive_of("axis"), c.active = {effect_index("coulomb-friction")}; }, ""},
+      {[](Case& c) { c.own.emplace_back(Term::drop, drag(), 1), c.active = {effect_count}; }, ""},
+      {[](Case& c) {
+         c.drive = drive_of("axis");
+         c.own.emplace_back(Term::drop, drag(), 1);
+         c.active = {effect_count};
+       },
+       "no term for an effect"},
+      {[](Case& c) { c.drive = drive_of("lti"), c.order = 1, c.active = {effect_index("constant-load")}; },
+       "no term for an effect"},
       {[](Case& c) { c.by = {-1}; }, "no such parameter"},
       {[](Case& c) { c.by = {parameter_count()}; }, "no such parameter"},
       {[](Case& c) { c.speed.pop_back(); }, "an output differs in length"},

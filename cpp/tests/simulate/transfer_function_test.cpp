@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "allocations.hpp"
+#include "effect_index.hpp"
 #include "rwn/fit/normal_equations.hpp"
 #include "rwn/simulate/simulate.hpp"
 
@@ -63,13 +64,6 @@ Case belt() {
   c.b(1) = -40.0;
   c.b(2) = 0.5;
   return c;
-}
-
-int index_of(std::string_view name) {
-  int found = -1, k = 0;
-  std::apply([&](auto... e) { ((decltype(e)::info.name == name ? void(found = k) : void(), ++k), ...); },
-             rwn::Effects{});
-  return found;
 }
 
 void check_slopes(Case c) {
@@ -187,7 +181,7 @@ TEST(TransferFunction, ActuatorAndSensorEffectsAttachWithTheirSlopes) {
     SCOPED_TRACE(std::string(name));
     Case c = belt();
     const auto plain = c.output();
-    const int effect = index_of(name);
+    const int effect = rwn::effect_index(name);
     ASSERT_GE(effect, 0);
     c.active = {effect};
     for (std::size_t k = 0; k < values.size(); ++k) c.of(effect, static_cast<int>(k)) = values[k];
@@ -201,7 +195,7 @@ TEST(TransferFunction, ActuatorAndSensorEffectsAttachWithTheirSlopes) {
 TEST(TransferFunction, RectifierShowsTheMagnitude) {
   Case c = belt();
   const auto plain = c.output();
-  c.active = {index_of("sensor-rectification")};
+  c.active = {rwn::effect_index("sensor-rectification")};
   c.of(c.active[0], 0) = 1.0;
   c.of(c.active[0], 1) = 2.0;
   const auto seen = c.output();

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 Numbers = TypeVar("Numbers", float, NDArray[np.float64])
 
 USUAL_VOLTAGE = 24.0
-SITES = frozenset({"torque", "load", "voltage", "flux", "actuator", "sensor"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +55,6 @@ class Drive:
     input: str
     outputs: tuple[str, ...]
     parameters: tuple[NominalParameter, ...]
-    sites: frozenset[str] = SITES  # where effects can attach
     # parameter -> the term of the equations that it stands in, and what it is multiplied with there
     terms: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     one_numbers: tuple[OneNumber, ...] = ()
@@ -67,6 +65,11 @@ class Drive:
     shaft: bool = True  # turns, so that a pendulum may hang on it
     on_a_line: Drive | None = None  # the same moving along a line, where there is such
     mechanics: Drive | None = None  # what its shaft is by itself, driven by the torque of a recorded current
+
+    @property
+    def sites(self) -> frozenset[str]:
+        """Where effects can attach to it."""
+        return frozenset(_core.drive_sites(self.kind))
 
     def nominal_parameters(self, order: int) -> tuple[NominalParameter, ...]:  # noqa: ARG002
         """The nominal parameters that a model of this kind can have; `order`: of a transfer function."""

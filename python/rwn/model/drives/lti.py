@@ -56,8 +56,7 @@ class TransferFunction(Drive):
 
 
 LTI = TransferFunction(
-    kind="lti", input="voltage", outputs=("speed",), parameters=(), sites=frozenset({"actuator", "sensor"}),
-    coefficients=True, shaft=False,
+    kind="lti", input="voltage", outputs=("speed",), parameters=(), coefficients=True, shaft=False,
 )  # fmt: skip
 
 
