@@ -26,6 +26,7 @@
 #include "rwn/model/effects/power_law_drag.hpp"
 #include "rwn/model/effects/power_law_load_friction.hpp"
 #include "rwn/model/effects/presliding_hysteresis.hpp"
+#include "rwn/model/effects/pwm_supply_sag.hpp"
 #include "rwn/model/effects/quadratic_drag.hpp"
 #include "rwn/model/effects/resistance_heating.hpp"
 #include "rwn/model/effects/sensor_bias.hpp"
@@ -51,10 +52,11 @@ using Effects =
     std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
                PowerLawDrag, LoadDependentFriction, PowerLawLoadFriction, PreslidingHysteresis,
                PositionDependentFriction, CoggingTorque, Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash,
-               ShaftCompliance, InertiaVariation, BrushVoltageDrop, CoastingBridge, ResistanceHeating,
-               MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation, SupplySag, CurrentLimit,
-               SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag, SpeedMovingAverage, SpeedSensorDelay,
-               CurrentSensorLag, CurrentSensorDelay, SensorRectification, SensorGain, SensorBias, SensorQuantization>;
+               ShaftCompliance, InertiaVariation, BrushVoltageDrop,
+               CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation,
+               SupplySag, PwmSupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag,
+               SpeedMovingAverage, SpeedSensorDelay, CurrentSensorLag, CurrentSensorDelay, SensorRectification,
+               SensorGain, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 
