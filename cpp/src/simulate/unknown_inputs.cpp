@@ -71,10 +71,17 @@ void along(const SimulationTask& task, const GivenMotion& motion, std::span<doub
   State s;
   move(s, 0);
   s.memory.use(effects.memories);
+  const auto carried = [&](State& of, std::size_t k) {
+    const Real driving = equations.electrics().torque(of.x, Real(1.0), Real(task.input[k]));
+    if constexpr (masses == 2) equations.second().carry(of, motion.acceleration[k], driving);
+  };
   if constexpr (masses == 2) equations.second().begin(s);
+  if (equations.second().drives()) carried(s, 0);
   for (std::size_t k = 0; k < task.time.size(); ++k) {
     equations.begin(Real(task.input[k]), task.time[k] - task.time[0]);
-    if constexpr (masses == 2) equations.second().touch(s);
+    if constexpr (masses == 2) {
+      if (!equations.second().drives()) equations.second().touch(s);
+    }
     effects.failed = false;
     const UnknownInputs<Real> left =
         equations.unknown(s, motion.acceleration[k], motion.current_slope.empty() ? 0.0 : motion.current_slope[k]);
@@ -84,7 +91,11 @@ void along(const SimulationTask& task, const GivenMotion& motion, std::span<doub
     State next = s;
     const double h = task.time[k + 1] - task.time[k];
     move(next, k + 1);
-    if constexpr (masses == 2) equations.second().follow(next, s.x[State::w], next.x[State::w], h);
+    if (equations.second().drives()) {
+      carried(next, k + 1);
+    } else if constexpr (masses == 2) {
+      equations.second().follow(next, s.x[State::w], next.x[State::w], h);
+    }
     equations.finish(s, next, Real(h));
     s = next;
   }

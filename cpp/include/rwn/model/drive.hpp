@@ -48,7 +48,7 @@ concept WithStates = requires(const E& e, AnyState& x, const AnyMotion& s, const
   { e.resting_current(v, v) } -> std::convertible_to<double>;
   { e.settled(s, v, v) } -> std::same_as<AnyMotion>;
   { e.rate(t) } -> std::convertible_to<double>;
-  { e.is_settled(x, x, t) } -> std::convertible_to<bool>;
+  { e.is_settled(x, v, x, t) } -> std::convertible_to<bool>;
   { e.speed_up(t, 0.0) } -> std::convertible_to<double>;
 };
 

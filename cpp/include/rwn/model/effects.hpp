@@ -20,6 +20,8 @@
 #include "rwn/model/effects/input_delay.hpp"
 #include "rwn/model/effects/load_dependent_friction.hpp"
 #include "rwn/model/effects/load_disturbance.hpp"
+#include "rwn/model/effects/load_encoder_backlash.hpp"
+#include "rwn/model/effects/load_encoder_compliance.hpp"
 #include "rwn/model/effects/load_spring.hpp"
 #include "rwn/model/effects/magnetic_saturation.hpp"
 #include "rwn/model/effects/position_dependent_friction.hpp"
@@ -52,7 +54,7 @@ using Effects =
     std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
                PowerLawDrag, LoadDependentFriction, PowerLawLoadFriction, PreslidingHysteresis,
                PositionDependentFriction, CoggingTorque, Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash,
-               ShaftCompliance, InertiaVariation, BrushVoltageDrop,
+               ShaftCompliance, LoadEncoderBacklash, LoadEncoderCompliance, InertiaVariation, BrushVoltageDrop,
                CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation,
                SupplySag, PwmSupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag,
                SpeedMovingAverage, SpeedSensorDelay, CurrentSensorLag, CurrentSensorDelay, SensorRectification,

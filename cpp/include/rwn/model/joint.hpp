@@ -1,4 +1,5 @@
-// What couples the motor to a second mass: an elastic shaft, or one with play. The torque in it is
+// What couples the mass whose motion is measured to a second one: an elastic shaft, or one with play. The first is the
+// motor, with a load behind it; or the load, with the motor behind it. The torque in the joint is
 //
 //   T = k bend + c (w - w_L),   bend = theta - theta_L beyond half the gap on the side of contact,
 //
@@ -29,6 +30,7 @@ struct Joint {
   S load_viscous{};  // part of B behind it [N m s/rad]
   S half_gap{};      // [rad]
   bool play = false;
+  bool drives = false;  // the drive turns the second mass, and the first one, which is measured and rubs, follows
 };
 
 }  // namespace rwn

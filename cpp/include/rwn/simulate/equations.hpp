@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rwn/simulate/by_direction.hpp"
 #include "rwn/simulate/division.hpp"
+#include "rwn/simulate/drive_torque.hpp"
 #include "rwn/simulate/effect_terms.hpp"
 #include "rwn/simulate/second_mass.hpp"
 #include "rwn/simulate/winding_level.hpp"
@@ -18,6 +20,7 @@ class Equations {
   using State = DriveState<S, Drive, masses>;
   static constexpr int n = State::n;
   static constexpr std::size_t w = State::w;
+  using Torque = DriveTorque<S, Drive>;
   using Vector = SmallVector<S, n>;
   using Matrix = SmallMatrix<S, n>;
 
@@ -52,7 +55,7 @@ class Equations {
   }
 
   /// Whether the motor keeps an inertia of its own in front of a joint.
-  bool sound() const { return value_of(inertia_) > 0.0; }
+  bool sound() const { return value_of(inertia_) > 0.0 && second_.sound(); }
 
   bool varies() const { return varies_; }      // within a step, other than with the direction of sliding
   bool rates() const { return rates_; }        // something asks for short steps
@@ -63,15 +66,12 @@ class Equations {
   bool electrical() const { return Drive::states > 0 && winds_; }
 
   /// A gap opens and closes.
-  bool plays() const {
-    if constexpr (masses == 2) return second_.play();
-    return false;
-  }
+  bool plays() const { return second_.play(); }
 
   /// Input and time (middle of the interval) of what is integrated next.
   void begin(const S& input, double time) {
     effects_.begin(input, time);
-    if (timed_) constants_known_ = {};
+    if (timed_) constants_.forget();
   }
 
   /// Recorded minus simulated position, where angle-dependent effects follow the recorded one.
@@ -89,7 +89,8 @@ class Equations {
   Matrix system_matrix(const Regime& regime) const {
     Matrix a{};
     if constexpr (Drive::states > 0) {
-      electrics_.couple(a, n, w, resistances_of(regime.level()), inverse_inertia_, regime.stick());
+      const bool stick = regime.stick() && !second_.drives();
+      electrics_.couple(a, n, driven(), resistances_of(regime.level()), inverse_driven(), stick);
     }
     if (!regime.stick()) a[w * n + w] = -(viscous_ * inverse_inertia_);
     if constexpr (masses == 2) second_.couple(a, regime);
@@ -103,7 +104,7 @@ class Equations {
       if (!electrical()) return 0;
       double ratio = speed_up(s, t);
       if (h * electrics_.rate(t) > angle_of_a_winding) {
-        const State there = electrics_.settled(s, s.x[w], input());
+        const State there = electrics_.settled(s, s.x[driven()], input());
         ratio = std::max(ratio, speed_up(there, terms_of(there, s.position)));
       }
       return level_of(ratio);
@@ -118,8 +119,8 @@ class Equations {
     const double fastest_effect = effects_.rate(s, acceleration, h);
     if constexpr (Drive::states > 0) {
       const double rate = electrics_.rate({});
-      if (settles_ && h * rate > angle_of_a_slow_winding && !electrics_.is_settled(s.x, f, t)) {
-        const State there = electrics_.settled(s, s.x[w], input());
+      if (settles_ && h * rate > angle_of_a_slow_winding && !electrics_.is_settled(s.x, s.x[driven()], f, t)) {
+        const State there = electrics_.settled(s, s.x[driven()], input());
         const double fastest = std::max(electrics_.rate(t), electrics_.rate(terms_of(there, s.position)));
         return {h, fastest_effect, rate, level_of(fastest / rate)};
       }
@@ -134,15 +135,17 @@ class Equations {
     if constexpr (masses == 2) f[State::load_speed] = second_.constant_torque(s) * second_.inverse_load();
     if (!winds_ && value_of(t.inertia) == 0.0 && value_of(t.inertia_slope) == 0.0) {  // torques alone are added
       if constexpr (Drive::states > 0) electrics_.drive(f, input());
+      if (second_.drives()) f[driven()] += Torque::given(input()) * inverse_driven();
       if (sticks(s)) return f;
       S torque = t.torque;
-      if constexpr (Drive::forced) torque += input();
+      if (Drive::forced && !second_.drives()) torque += input();
       if (dry_) torque -= s.direction * t.friction;
       if constexpr (masses == 2) torque -= second_.constant_torque(s);
       f[w] = torque * inverse_inertia_;
       return f;
     }
-    if constexpr (Drive::states > 0) electrics_.remainder(f, s.x, s.x[w], t, input(), resistances_of(level));
+    if constexpr (Drive::states > 0) electrics_.remainder(f, s.x, s.x[driven()], t, input(), resistances_of(level));
+    if (second_.drives()) f[driven()] += (drive_torque(s, t) - Torque::linear(electrics_, s.x)) * inverse_driven();
     if (sticks(s)) return f;
     const S torque = accelerating_torque(s, t);
     const S linear_rate = linear_acceleration(s);
@@ -158,7 +161,7 @@ class Equations {
     if (stick) f[w] = S(0.0);
     if constexpr (masses == 2) {
       const S torque = second_.constant_torque(s);
-      f[State::load_speed] = torque * second_.inverse_load();
+      f[State::load_speed] += torque * second_.inverse_load();
       if (!stick) f[w] -= torque * inverse_inertia_;
     }
     return f;
@@ -172,7 +175,7 @@ class Equations {
     Vector f{};
     f[w] = steady;
     if constexpr (Drive::states > 0) electrics_.drive(f, input);
-    if constexpr (Drive::forced) f[w] += input * inverse_inertia_;
+    if constexpr (Drive::forced) f[driven()] += input * inverse_driven();
     return f;
   }
 
@@ -187,14 +190,13 @@ class Equations {
     if constexpr (masses == 2) load = second_.torque(s);
     if (!varies_) {
       const Constants& c = constants(s, direction);
-      if constexpr (Drive::states > 0) load -= electrics_.linear_torque(s.x);
-      if constexpr (Drive::forced) load -= input();
+      if (!second_.drives()) load -= Torque::linear(electrics_, s.x) + Torque::given(input());
       return direction * (c.torque - load) - c.friction;
     }
     State sliding = s;
     sliding.direction = direction;
     const Terms<S> t = terms_of(sliding, s.position);
-    return direction * (electrics_.torque(sliding.x, t.flux, input()) + t.torque - load) - t.friction;
+    return direction * ((second_.drives() ? S(0.0) : drive_torque(sliding, t)) + t.torque - load) - t.friction;
   }
 
   /// Sliding direction that the torque on a standing shaft leads to; 0 while friction holds.
@@ -215,7 +217,7 @@ class Equations {
     const Terms<S> t = terms_of(s, s.position);
     UnknownInputs<S> left;
     left.torque = (inertia_ + t.inertia) * acceleration - accelerating_torque(s, t);
-    if constexpr (Drive::states > 0) left.voltage = electrics_.unknown_voltage(s.x, s.x[w], t, input(), slope);
+    if constexpr (Drive::states > 0) left.voltage = electrics_.unknown_voltage(s.x, s.x[driven()], t, input(), slope);
     return left;
   }
 
@@ -226,6 +228,11 @@ class Equations {
   struct Constants {
     S torque{}, friction{}, acceleration{};
   };
+
+  /// Place in x of the speed of the mass that the drive turns, and the inverse of its inertia.
+  std::size_t driven() const { return second_.drives() ? State::load_speed : w; }
+  const S& inverse_driven() const { return second_.inverse_driven(inverse_inertia_); }
+  S drive_torque(const Moving& s, const Terms<S>& t) const { return electrics_.torque(s.x, t.flux, input()); }
 
   bool sticks(const Moving& s) const { return dry_ && s.direction == 0.0; }
 
@@ -253,7 +260,7 @@ class Equations {
 
   /// What accelerates the motor's mass while it slides.
   S accelerating_torque(const Moving& s, const Terms<S>& t) const {
-    S torque = electrics_.torque(s.x, t.flux, input()) + t.torque - viscous_ * s.x[w];
+    S torque = (second_.drives() ? S(0.0) : drive_torque(s, t)) + t.torque - viscous_ * s.x[w];
     if constexpr (masses == 2) torque -= second_.torque(s);
     if (dry_) torque -= s.direction * t.friction;
     if (value_of(t.inertia_slope) != 0.0) torque -= 0.5 * t.inertia_slope * s.x[w] * s.x[w];
@@ -262,15 +269,12 @@ class Equations {
 
   /// Terms of sliding in `direction` where they depend on nothing else; made once.
   const Constants& constants(const State& s, double direction) {
-    const std::size_t place = direction > 0.0 ? 2 : direction < 0.0 ? 0 : 1;
-    Constants& c = constants_[place];
-    if (constants_known_[place]) return c;
-    State sliding = s;
-    sliding.direction = direction;
-    const Terms<S> t = terms_of(sliding, s.position);
-    c = {t.torque, t.friction, (t.torque - direction * t.friction) * inverse_inertia_};
-    constants_known_[place] = true;
-    return c;
+    return constants_.at(direction, [&]() -> Constants {
+      State sliding = s;
+      sliding.direction = direction;
+      const Terms<S> t = terms_of(sliding, s.position);
+      return {t.torque, t.friction, (t.torque - direction * t.friction) * inverse_inertia_};
+    });
   }
 
   S linear_acceleration(const Moving& s) const {
@@ -278,7 +282,7 @@ class Equations {
     if constexpr (masses == 2) {
       if (s.contact != 0.0) torque -= second_.spring(s);
     }
-    if constexpr (Drive::states > 0) torque += electrics_.linear_torque(s.x);
+    if (!second_.drives()) torque += Torque::linear(electrics_, s.x);
     return torque * inverse_inertia_;
   }
 
@@ -290,8 +294,7 @@ class Equations {
   S base_friction_{}, inertia_{}, inverse_inertia_{};
   S viscous_{};  // of the motor alone
   [[no_unique_address]] std::conditional_t<masses == 2, SecondMass<S, Drive>, NoSecondMass> second_{};
-  std::array<Constants, 3> constants_{};  // sliding back, standing, sliding forth
-  std::array<bool, 3> constants_known_{};
+  ByDirection<Constants> constants_;
 };
 
 }  // namespace rwn

@@ -9,7 +9,12 @@
 
 namespace rwn {
 
-struct NoSecondMass {};
+struct NoSecondMass {
+  static constexpr bool play() { return false; }
+  static constexpr bool drives() { return false; }
+  static constexpr bool sound() { return true; }
+  static const auto& inverse_driven(const auto& first) { return first; }
+};
 
 template <class S, class Drive>
 class SecondMass {
@@ -33,6 +38,11 @@ class SecondMass {
   }
 
   bool play() const { return joint_.play; }
+  bool drives() const { return joint_.drives; }  // it is the motor
+  bool sound() const { return value_of(inverse_load_) > 0.0; }
+
+  /// Of the mass that the drive turns; `first`: of the first one.
+  const S& inverse_driven(const S& first) const { return joint_.drives ? inverse_load_ : first; }
   const S& motor_inertia() const { return motor_inertia_; }  // without the load
   S motor_viscous(const Motor<S>& motor) const { return motor[viscous_friction] - drag_; }
 
@@ -70,6 +80,14 @@ class SecondMass {
     if (!joint_.play) return;
     s.contact = value_of(s.x[twist]) > 0.0 ? 1.0 : -1.0;
     if (value_of(overlap(s, s.contact)) <= 0.0 || value_of(pressing(s, s.contact)) <= 0.0) s.contact = 0.0;
+  }
+
+  /// Twists the joint as this mass asks for where it turns with the first at an acceleration, driven by a torque.
+  void carry(Moving& s, double acceleration, const S& driving) const {
+    s.x[load_speed] = s.x[w];
+    const S passed = acceleration / inverse_load_ + drag_ * s.x[w] - driving;
+    if (joint_.play) s.contact = value_of(passed) > 0.0 ? 1.0 : -1.0;
+    s.x[twist] = (passed + s.contact * preload_) / scaled_stiffness_;
   }
 
   /// Takes twist and speed of the load over h while the motor's speed goes evenly from `from` to `to` (midpoint rule).

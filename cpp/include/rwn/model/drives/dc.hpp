@@ -79,8 +79,8 @@ struct DcDrive {
 
     /// Whether the current is about where it would settle, where `f` is what the linear part leaves of dx/dt. A step
     /// counts the current of its start for a sixth.
-    bool is_settled(const auto& x, const auto& f, const Terms<S>& t) const {
-      const double drop = value_of(winding_.resting_voltage(x[0]) + winding_.back_emf(x[states]));
+    bool is_settled(const auto& x, const S& speed, const auto& f, const Terms<S>& t) const {
+      const double drop = value_of(winding_.resting_voltage(x[0]) + winding_.back_emf(speed));
       const double slope = value_of(f[0]) - drop * value_of(inverse_inductance_);
       return std::abs(slope) < settled_within * rate(t) * std::abs(value_of(x[0]));
     }
