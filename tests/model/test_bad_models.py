@@ -49,6 +49,15 @@ MODELS: dict[str, tuple[str, tuple[str, ...]]] = {
         MODEL + "[effects.coulomb-friction]\ncoulomb_torqe = 1.0\n",
         ("'coulomb_torqe'", "did you mean 'coulomb_torque'"),
     ),
+    "an effect without a term": (
+        '[motor]\nkind = "axis"\ninertia = 1e-4\nviscous_friction = 1e-5\n[effects.pwm-supply-sag]\nsag = 1e-3\n',
+        ("pwm-supply-sag acts on the voltage", "a drive of kind axis has no equation", "load, sensor, torque"),
+    ),
+    "an own effect without a term": (
+        '[motor]\nkind = "axis"\ninertia = 1e-4\nviscous_friction = 1e-5\n[own_effects.arc]\nterm = "drop"\n'
+        'equation = "a*current"\nparameters.a = { unit = "ohm", start = 0.1, lower = 0, upper = 1, strength = true }\n',
+        ("[own_effects.arc]", "acts on the voltage", "a drive of kind axis has no equation"),
+    ),
     "a part of a further line": (
         MODEL + "[effects.cogging-torque]\namplitude = 0.01\nperiods_per_rev = 7\nphase = 0\nperiods_per_rev_3 = 14\n",
         ("there is no amplitude_3", "N m", "add amplitude_3"),

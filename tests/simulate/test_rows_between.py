@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rwn
+from rwn.model.drives import KINDS
 from rwn.model.vocabulary import table
 from started_effects import started
 
@@ -22,7 +23,7 @@ def _drawn(rng: np.random.Generator) -> tuple[rwn.Model, str]:
         motor |= {"resistance": rng.uniform(1.0, 4.0), "inductance": 10.0 ** rng.uniform(-5.0, -3.3)}
     sizes = {"torque": 0.1, "speed": 100.0, "voltage": 10.0, "current": 3.0, "inertia": motor["inertia"],
              "time_step": 2e-3, "duration": 3.0, "loss": 10.0}  # fmt: skip
-    names = list(table())
+    names = [name for name, effect in table().items() if effect.site in KINDS[kind].sites]
     effects = {}
     for name in rng.choice(names, int(rng.integers(0, 3)), replace=False):
         effects[str(name)] = started(table()[str(name)], sizes)

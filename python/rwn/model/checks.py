@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rwn.errors import InputError
-from rwn.model.drives.drive import NominalParameter
+from rwn.model.drives.drive import Drive, NominalParameter
 from rwn.model.vocabulary import Effect, Parameter
 
 LARGEST = 1e15  # of any number in SI: no drive comes near
@@ -79,6 +79,17 @@ def check_uncertainty(values: Mapping[str, float], parameters: Mapping[str, floa
                 expected="a nominal value that is not 0",
                 fix="give a guess of the value, or write inf",
             )
+
+
+def check_site(effect: Effect, drive: Drive, *, where: str) -> None:
+    """The drive's equations have the term that an effect changes. Raises InputError."""
+    if effect.site not in drive.sites:
+        raise InputError(
+            f"{effect.name} acts on the {effect.site}, which a drive of kind {drive.kind} has no equation for",
+            where=where,
+            expected=f"effects on {', '.join(sorted(drive.sites))}",
+            fix="take it out, or describe the whole drive by another kind",
+        )
 
 
 def check_effect(effect: Effect, values: Mapping[str, float], *, where: str) -> None:

@@ -20,6 +20,7 @@ from rwn.model.checks import (
     check_effect,
     check_nominal,
     check_numbers,
+    check_site,
     check_uncertainty,
 )
 from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
@@ -125,6 +126,8 @@ class Model(Shown):
 
         check_numbers(self.parameters, where=motor, largest=LARGEST_COEFFICIENT if self.drive.coefficients else LARGEST)
         check_nominal(self.parameters, self.nominal_parameters, linear=self.linear, where=motor)
+        for name in (*self.effects, *(own.name for own in self.own_effects)):
+            check_site(self.effect_table[name], self.drive, where=places.get(name, f"{where}, [own_effects.{name}]"))
         for name, values in self.effects.items():
             check_numbers(values, where=places[name])
             check_effect(table[name], values, where=places[name])
