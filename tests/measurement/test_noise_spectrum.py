@@ -48,6 +48,19 @@ def test_white_noise_has_passed_no_filter(beside: float, typical: float) -> None
     assert max(f.evidence for f in found) < 3.0
 
 
+@pytest.mark.parametrize("amplitude", [0.7, 5.0])
+@pytest.mark.parametrize("frequency", [0.11, 0.2376, 0.4])
+def test_a_line_tells_nothing_of_a_filter(frequency: float, amplitude: float) -> None:
+    """As the ripple of a bridge: it was taken for the colour of the noise."""
+    line = amplitude * np.cos(2.0 * np.pi * frequency * np.arange(4000))
+    white = [noise_colour([_noise(0.0, seed) + line]) for seed in SEEDS]
+    assert max(f.filtered for f in white) < CERTAINLY
+    filtered = [noise_colour([_noise(0.6, seed) + line]) for seed in SEEDS]
+    off = np.array([(f.share - 0.6) / f.deviation for f in filtered])
+    assert np.all(np.abs(off) < 3.5)
+    assert np.median([f.filtered for f in filtered]) > 0.85
+
+
 def test_more_samples_tell_more() -> None:
     few, many = (noise_colour([_noise(0.5, 1, samples)]) for samples in (500, 20_000))
     assert many.deviation < 0.5 * few.deviation

@@ -19,6 +19,8 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from rwn.recording.spectral_lines import without_lines
+
 Array = NDArray[np.float64]
 
 WINDOWS = (32, 64)  # samples: the shorter are freer of steps of the input, the longer tell more slopes apart
@@ -49,7 +51,9 @@ def noise_colour(residuals: Sequence[Array]) -> NoiseColour:
     """What the noise of residuals (n,) each shows; samples that are left out are NaN.
 
     What is missing may mislead windows of one length: what is said is the mean of what those of either length say.
+    Lines, as the ripple of a bridge makes one, went through the filter too and tell nothing of it: they are taken off.
     """
+    residuals = [without_lines(x) for x in residuals]
     told = [one for window in WINDOWS if (one := _probabilities(residuals, window)) is not None]
     if not told:
         return NoiseColour()

@@ -1,14 +1,12 @@
 """Mains hum on the wires of a sensor: lines at 50 or 60 Hz and their harmonics, in whatever else the signal does.
 
-A sine that lasts through a recording is told from a spectrum that is smooth about it by Thomson's harmonic F-test
-(Thomson 1982, Proc. IEEE 70:1055), with the sine tapers of Riedel and Sidorenko (1995, IEEE Trans. SP 43:188). A
-nonlinear drive answers a periodic input with all multiples of its frequency: where the mains is one, none is sought.
+A nonlinear drive answers a periodic input with all multiples of its frequency: where the mains is one, none is sought.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
@@ -19,27 +17,17 @@ from rwn.recording.columns import si_unit
 from rwn.recording.inspection.finding import Finding
 from rwn.recording.recording import ENOUGH, Recording
 from rwn.recording.signals import MEASURED, SIGNALS
+from rwn.recording.spectral_lines import FINER, TAPERS, Line, amplitude, line_chances, sum_of
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 MAINS = (50.0, 60.0)  # Hz
 ORDERS = (1, 2, 3, 4, 5, 7)  # harmonics; a rectifier makes the even ones
 LOWEST = (1, 2)  # harmonics of which hum has one at least
 CLOCK = 0.002  # how far a line may lie off, relatively: the mains 0.1 Hz, and a logger's clock as much
 LEVEL = 0.001  # chance of hum in a signal without it: 1 % of a diagnosis, of some ten signals
-TAPERS = 7  # of which the odd ones see a line; each line takes a band of (TAPERS + 1) / length
-FINER = 4  # frequencies looked at per 1 / length
 NOT_SIMULATED: Mapping[str, Array] = MappingProxyType({})
 CYCLES = 25  # fewest of the mains in what is looked at: the band of a line is then a third of its frequency at most
-
-
-@dataclass(frozen=True, kw_only=True)
-class Line:
-    """Re(amplitude exp(2 pi i frequency t)), t from the first row."""
-
-    frequency: float  # Hz
-    amplitude: complex
 
 
 def without_hum(
@@ -58,7 +46,7 @@ def without_hum(
             time = recording.time[part] - recording.time[part][:1]
             beside = simulated[signal][part] if signal in simulated else 0.0
             lines = _hum(time, x[part] - beside, [signals[s][part] for s in signals if s not in MEASURED])
-            x[part] -= _sum(lines, time)
+            x[part] -= sum_of(lines, time)
             found += lines
         if found:
             hum = (signals[signal] - x)[known]
@@ -98,7 +86,7 @@ def _hum(time: Array, x: Array, inputs: Sequence[Array]) -> list[Line]:
     answers = _lines_of_its_own(evenly, step, list(seen.values()), band)
     given = [f for u in even for f in _lines_of_its_own(u, step, list(seen.values()), band)]
     own = [f for f in given if any(_is_multiple(line, [f], band) for line in answers)]
-    frequencies, chances = _test(evenly, step, finer=FINER, inputs=even)
+    frequencies, chances = line_chances(evenly, step, finer=FINER, inputs=even)
     found: dict[tuple[float, int], Line] = {}
     for which, f in seen.items():
         alias = _alias(f, step)
@@ -106,7 +94,7 @@ def _hum(time: Array, x: Array, inputs: Sequence[Array]) -> list[Line]:
         best = near[int(np.argmin(chances[near]))]
         line = f + float(frequencies[best] - alias) * (1.0 if _is_upright(f, step) else -1.0)
         if chances[best] * near.size / FINER * len(seen) < LEVEL and not _is_multiple(f, own, band):
-            found[which] = Line(frequency=line, amplitude=_amplitude(time, x, inputs, line, step))
+            found[which] = Line(frequency=line, amplitude=amplitude(time, x, inputs, line, step))
     return max((_of(mains, found, step, band) for mains in MAINS), key=len)
 
 
@@ -125,14 +113,6 @@ def _evenly(time: Array, x: Array, step: float) -> Array:
     return even
 
 
-def _sum(lines: Sequence[Line], time: Array) -> Array:
-    """(n,)."""
-    total = np.zeros(time.size)
-    for line in lines:
-        total += np.real(line.amplitude * np.exp(2j * np.pi * line.frequency * time))
-    return total
-
-
 def _alias(frequency: float, step: float) -> float:
     """Where samples show a frequency [Hz]."""
     return abs(frequency - round(frequency * step) / step)
@@ -143,71 +123,11 @@ def _is_upright(frequency: float, step: float) -> bool:
     return frequency * step % 1.0 < 0.5
 
 
-def _test(x: Array, step: float, *, finer: int = 1, inputs: Sequence[Array] = ()) -> tuple[Array, Array]:
-    """Frequencies (m,), and the chance (m,) of so much at each in a smooth spectrum.
-
-    Of differences, since the spectrum of a motion falls steeply. `finer`: how many per 1 / length. `inputs`: what x
-    (n,) may answer to, by a gain that is smooth too.
-    """
-    from scipy.fft import next_fast_len, rfft, rfftfreq  # late: the command line starts without it
-
-    tapers = _tapers(x.size - 1)
-    size = next_fast_len(finer * (x.size - 1), real=True)
-    seen, *answered = (rfft(tapers * np.diff(one), size).T for one in (x, *inputs))
-    return rfftfreq(size, step), _f_test(seen, tapers.sum(axis=1), answered)
-
-
-def _amplitude(time: Array, x: Array, inputs: Sequence[Array], frequency: float, step: float) -> complex:
-    """Of a line of a signal (n,), beside what that answers to the inputs."""
-    tapers = _tapers(x.size - 1)
-    turning = np.exp(-2j * np.pi * frequency * time[:-1])
-    seen, *answered = (((tapers * np.diff(one)) @ turning)[None, :] for one in (x, *inputs))
-    seen, line = _beside(seen, tapers.sum(axis=1), answered)
-    found = np.sum(np.conj(line) * seen) / np.sum(np.abs(line) ** 2)
-    return complex(2.0 * found / (np.exp(2j * np.pi * frequency * step) - 1.0))
-
-
-def _f_test(seen: Complex, weights: Array, answered: Sequence[Complex]) -> Array:
-    """The chance (m,) of tapered spectra (m, TAPERS) without a line, and with an answer to others.
-
-    `weights`: what each taper shows of a line.
-    """
-    seen, line = _beside(seen, weights, answered)
-    energy = np.sum(np.abs(line) ** 2, axis=1)
-    explained = np.abs(np.sum(np.conj(line) * seen, axis=1)) ** 2 / np.maximum(energy, 1e-12 * float(weights @ weights))
-    left = np.maximum(np.sum(np.abs(seen) ** 2, axis=1) - explained, 1e-300)
-    free = TAPERS - 1 - len(answered)
-    chances: Array = (1.0 + explained / left) ** -float(free)  # of F with 2 and 2 free degrees of freedom
-    return chances
-
-
-def _beside(seen: Complex, weights: Array, answered: Sequence[Complex]) -> tuple[Complex, Complex]:
-    """Tapered spectra (m, TAPERS), and those of a line of 1, without what they have in common with others."""
-    line: Complex = np.broadcast_to(weights.astype(complex), seen.shape)
-    for u in answered:
-        seen, line = _without(seen, u), _without(line, u)
-    return seen, line
-
-
-def _without(x: Complex, u: Complex) -> Complex:
-    """What of x (m, TAPERS) is orthogonal to u, at each frequency."""
-    gain = np.sum(np.conj(u) * x, axis=1) / np.maximum(np.sum(np.abs(u) ** 2, axis=1), 1e-300)
-    found: Complex = x - gain[:, None] * u
-    return found
-
-
-def _tapers(count: int) -> Array:
-    """(TAPERS, count)."""
-    n = np.arange(1, count + 1) / (count + 1)
-    found: Array = np.sqrt(2.0 / (count + 1)) * np.sin(np.pi * np.outer(np.arange(1, TAPERS + 1), n))
-    return found
-
-
 def _lines_of_its_own(u: Array, step: float, mains: Sequence[float], band: float) -> list[float]:
     """Frequencies of the lines of a signal (n,) that is periodic; not of a mains, which a controller lets through."""
     if np.ptp(np.diff(u)) == 0.0:
         return []
-    frequencies, chances = _test(u, step)
+    frequencies, chances = line_chances(u, step)
     of_mains = np.min(np.abs(frequencies[:, None] - [_alias(f, step) for f in mains]), axis=1) < band
     found = (chances * chances.size < LEVEL) & ~of_mains & (frequencies > 0.0)
     return [float(f) for f in frequencies[found]]
