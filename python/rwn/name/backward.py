@@ -19,19 +19,20 @@ from rwn.parallel import side_by_side
 def with_simpler(problem: Problem, nominal: Fit, fits: list[Fit]) -> list[Fit]:
     """The fits and simpler ones than the best; where one of these is better, simpler ones than that too.
 
-    The best has the least cost with what its unknowns count by BIC: of two that leave noise alone the simpler one.
+    The best has the least price: of two that leave noise alone the simpler one.
     """
-
-    def price(this: Fit) -> float:
-        return this.cost + this.unknowns_seen * float(np.log(problem.samples))
-
-    fits, best = distinct(fits), min([nominal, *fits], key=price)
+    fits, best = distinct(fits), min([nominal, *fits], key=lambda f: price(problem, f))
     for _ in best.added:  # of which each time one at least is left out or made plainer
         fits = distinct([*fits, *_simpler(problem, best)])
-        last, best = best, min([nominal, *fits], key=price)
+        last, best = best, min([nominal, *fits], key=lambda f: price(problem, f))
         if len(best.added) >= len(last.added):
             break
     return fits
+
+
+def price(problem: Problem, this: Fit) -> float:
+    """Its cost with what its unknowns count by BIC."""
+    return this.cost + this.unknowns_seen * float(np.log(problem.samples))
 
 
 def _simpler(problem: Problem, best: Fit) -> list[Fit]:

@@ -24,6 +24,7 @@ from rwn.measurement.coarse_speed import as_recorded, recorded_steps, unrounded_
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.name.backward import distinct, replaced, with_simpler
 from rwn.name.degenerate import adds
+from rwn.name.exchange import with_plainer_instead
 from rwn.name.further_lines import with_further_lines
 from rwn.name.measurement import Measurement, is_explained
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
@@ -84,7 +85,8 @@ def _ranked(
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
         problem, nominal, fits, _ = _under_own_noise(problem, nominal, fits)
-    fits = with_simpler(problem, nominal, fits) if names is None and not grown.measured else fits
+    if names is None and not grown.measured:
+        fits = with_plainer_instead(problem, with_simpler(problem, nominal, fits), wanted, begun=begun)
     best = min([nominal, *fits], key=lambda f: f.cost)
     measured = grown.measured or made.otherwise(problem, best, completely=at_once == MOST_EFFECTS, others=fits)
     while measured:  # otherwise than thought, beside whatever is missing
