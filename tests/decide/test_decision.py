@@ -9,7 +9,10 @@ from typing import Any
 import pytest
 
 from rwn.decide import decision
-from rwn.decide.account import Account, ActingEffect
+from rwn.decide.account import Account, ActingEffect, Remainder
+from rwn.decide.calibration import ACTS
+from rwn.fit.intervals import Estimate
+from rwn.model.vocabulary import table
 
 
 @dataclass(frozen=True)
@@ -38,8 +41,63 @@ def test_a_law_that_runs_into_a_limit_without_the_rest_is_not_stated(
         for name, p in probability.items()
     ]
     monkeypatch.setattr(decision, "together", lambda _ranking, _leading, names: _fit(names))
+    monkeypatch.setattr(decision, "_maybe_absent", lambda *_: [])
     leading: Any = None
     ranking, found, chosen = decision._stated(_Ranking(), Account(effects=tuple(rows), leading=leading))  # type: ignore[arg-type]
     assert tuple(e.name for e in found.stated) == stated
     assert chosen.fit.added == tuple(sorted(stated))
     assert [f.added for f in ranking.at_a_limit] == bent
+
+
+INTERVALS = {
+    # strengths that two loads leave each other, and what each has alone
+    ("constant-load", "load-disturbance"): {
+        "constant-load.torque": (-1.0, 2.0),
+        "load-disturbance.torque": (-2.0, 1.0),
+    },
+    ("constant-load",): {"constant-load.torque": (0.5, 1.0)},
+    ("asymmetric-friction",): {
+        "asymmetric-friction.coulomb_torque_plus": (0.0, 1.0),
+        "asymmetric-friction.coulomb_torque_minus": (0.3, 0.8),
+    },
+    ("stribeck-friction",): {"stribeck-friction.static_torque": (0.0, 1.0)},
+    ("backlash",): {"backlash.gap": (0.0, 1.0)},
+}
+
+
+@pytest.mark.parametrize(
+    ("named", "stated"),
+    [
+        (("constant-load", "load-disturbance"), ("constant-load",)),  # the one that removes less goes first
+        (("asymmetric-friction",), ("asymmetric-friction",)),  # one of its strengths is there
+        (("stribeck-friction",), ()),
+        (("backlash",), ("backlash",)),  # a gap is no strength: it has a limit above zero
+    ],
+)
+def test_what_may_as_well_be_absent_is_not_stated(
+    monkeypatch: pytest.MonkeyPatch, named: tuple[str, ...], stated: tuple[str, ...]
+) -> None:
+    def fitted(_ranking: Any, _leading: Any, names: set[str]) -> Any:
+        this = SimpleNamespace(added=tuple(sorted(names)), limits_met=(), hypothesis=SimpleNamespace(table=table()))
+        return SimpleNamespace(fit=this, final=this)
+
+    def estimated(this: Any, _counted: Any, *, widening: Any) -> dict[str, Estimate]:
+        assert widening.birge == 1.7
+        known = INTERVALS.get(this.added, {})
+        return {name: Estimate(value=0.5, unit="1", interval=interval) for name, interval in known.items()}
+
+    monkeypatch.setattr(decision, "together", fitted)
+    monkeypatch.setattr(decision, "estimates", estimated)
+    monkeypatch.setattr(decision, "remainder", lambda *_: Remainder())
+    rows: Any = tuple(
+        ActingEffect(name=name, probability=0.6, together=0.9, share=0.5, evidence=SimpleNamespace())  # type: ignore[arg-type]
+        for name in named
+    )
+    ranking: Any = SimpleNamespace(counted=None)
+    leading: Any = None
+    _, found, chosen = decision._stated(ranking, Account(effects=rows, leading=leading, birge=1.7))
+    assert tuple(e.name for e in found.stated) == chosen.fit.added == stated
+    assert {e.name for e in found.effects} == set(named)  # it stays in the account
+    for e in found.effects:
+        kept = 1.0 if e.name in stated else ACTS / 0.9
+        assert (e.together, e.probability) == (pytest.approx(0.9 * kept), pytest.approx(0.6 * kept))

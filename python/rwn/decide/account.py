@@ -45,6 +45,11 @@ class ActingEffect:
         """Whether it or a rival acts more likely than not."""
         return self.together > ACTS
 
+    def undetermined(self) -> ActingEffect:
+        """The effect as one that need not act: with an even chance at most."""
+        share = min(ACTS / self.together, 1.0)
+        return replace(self, probability=self.probability * share, together=self.together * share)
+
     def contradicted_by(self, half: str) -> ActingEffect:
         """The effect with the probability that is left (Bayes) when a half of the drive contradicts it.
 
@@ -76,6 +81,10 @@ class Account:
     def stated(self) -> tuple[ActingEffect, ...]:
         """The effects that are stated."""
         return tuple(e for e in self.effects if e.stated)
+
+    def undetermined(self, name: str) -> Account:
+        """The account with one effect that need not act."""
+        return replace(self, effects=tuple(e.undetermined() if e.name == name else e for e in self.effects))
 
     def without(self, names: Collection[str]) -> Account:
         """The account of the others."""

@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from rwn.decide.account import Account, Remainder, account, remainder
+from rwn.decide.calibration import calibration
 from rwn.decide.excitation import moves
 from rwn.decide.other_law import curve_beside
 from rwn.decide.shaft_alone import ShaftAlone, shaft_alone
 from rwn.decide.verdict import Verdict, verdict_of
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
+from rwn.fit.intervals import Widening, estimates
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit, weighed_beside
@@ -55,14 +59,37 @@ def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedF
     """The effects that are stated, fitted without the others; with the ranking and the account that go with them.
 
     A law whose shape runs into a limit without the others bends towards another law: it is taken out of the account,
-    and its fit is kept among those of the ranking that are at a limit.
+    and its fit is kept among those of the ranking that are at a limit. An effect whose strength may as well be zero
+    (95 %) is not stated, the one that removes least first.
     """
-    chosen = together(ranking, found.leading, {e.name for e in found.stated})
-    while bent := {name.split(".")[0] for name in chosen.fit.limits_met}:
-        ranking = replace(ranking, at_a_limit=(chosen.fit, *ranking.at_a_limit))
-        found = found.without(bent)
+    while True:
         chosen = together(ranking, found.leading, {e.name for e in found.stated})
-    return ranking, found, chosen
+        if bent := {name.split(".")[0] for name in chosen.fit.limits_met}:
+            ranking = replace(ranking, at_a_limit=(chosen.fit, *ranking.at_a_limit))
+            found = found.without(bent)
+        elif absent := _maybe_absent(ranking, found, chosen):
+            found = found.undetermined(absent[-1])
+        else:
+            return ranking, found, chosen
+
+
+def widening(found: Account, left: Remainder) -> Widening:
+    """Of the parameters of what is stated: what is left of the mismatch may bias them."""
+    share = float(np.clip(left.share, 0.0, 1.0)) if left.signals else 0.0
+    return Widening(birge=found.birge, bias=calibration().bias * float(np.sqrt(share)))
+
+
+def _maybe_absent(ranking: Ranking, found: Account, chosen: RankedFit) -> list[str]:
+    """The stated effects of which the intervals of all strengths hold the zero at which an effect is absent."""
+    wide = widening(found, remainder(ranking, chosen.final))
+    numbers, known = estimates(chosen.final, ranking.counted, widening=wide), chosen.final.hypothesis.table
+    absent = []
+    for name in (e.name for e in found.stated):
+        strengths = (f"{name}.{p.name}" for p in known[name].parameters if p.strength)
+        intervals = [numbers[s].interval for s in strengths if s in numbers]
+        if intervals and all(i is not None and i[0] <= 0.0 <= i[1] for i in intervals):
+            absent.append(name)
+    return absent
 
 
 def together(ranking: Ranking, leading: RankedFit, names: Collection[str]) -> RankedFit:
