@@ -24,13 +24,13 @@ from rwn.measurement.coarse_speed import as_recorded, recorded_steps, unrounded_
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.name.backward import distinct, replaced, with_simpler
 from rwn.name.degenerate import adds
-from rwn.name.exchange import with_plainer_instead
 from rwn.name.further_lines import with_further_lines
 from rwn.name.measurement import Measurement, is_explained
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.observable import observable
 from rwn.name.prior_odds import loaded, prior_odds, steady_loads
 from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits, Ranking
+from rwn.name.replacement import with_plainer_instead
 from rwn.name.screening import OF_THE_MACHINE, screen
 from rwn.name.weights import weigh
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from rwn.model.vocabulary import table
-from rwn.name import exchange
+from rwn.name import replacement
 
 Asked = list[tuple[tuple[str, ...], list[str]]]
 
@@ -32,9 +32,9 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Asked:
         seen.append((base.added, names))
         return [_fit(*base.added, name, cost=99.0) for name in names if name == "input-delay"]
 
-    monkeypatch.setattr(exchange, "screen", screen)
-    monkeypatch.setattr(exchange, "affords_more", lambda _work: True)
-    monkeypatch.setattr(exchange, "renew", lambda work, begun: seen.append(((work,), [str(begun)])))
+    monkeypatch.setattr(replacement, "screen", screen)
+    monkeypatch.setattr(replacement, "affords_more", lambda _work: True)
+    monkeypatch.setattr(replacement, "renew", lambda work, begun: seen.append(((work,), [str(begun)])))
     return seen
 
 
@@ -44,7 +44,7 @@ def test_those_of_fewer_parameters_are_tried_in_the_place_of_each(asked: Asked) 
         _fit("coulomb-friction", "shaft-compliance", cost=100.0), _fit("coulomb-friction", cost=500.0),
         _fit("shaft-compliance", cost=400.0), _fit("backlash", "load-disturbance", "input-delay", cost=98.0),
     ]  # fmt: skip
-    found = exchange.with_plainer_instead(problem, fits, WANTED, begun=7)
+    found = replacement.with_plainer_instead(problem, fits, WANTED, begun=7)
     # friction has one parameter: nothing is plainer; a gap idealises its contact, whose parameters do not count
     plainer = ["input-delay", "quadratic-drag", "load-disturbance", "backlash"]
     assert asked == [(("the meter",), ["7"]), (("coulomb-friction",), plainer)]
@@ -55,5 +55,5 @@ def test_those_of_fewer_parameters_are_tried_in_the_place_of_each(asked: Asked) 
 @pytest.mark.parametrize("fits", [[], [_fit("shaft-compliance", cost=1.0)]], ids=["nothing", "one"])
 def test_one_effect_has_been_tried_against_all_others(fits: list[Any], asked: Asked) -> None:
     problem: Any = SimpleNamespace(samples=1000, work=None)
-    assert exchange.with_plainer_instead(problem, fits, WANTED, begun=7) == fits
+    assert replacement.with_plainer_instead(problem, fits, WANTED, begun=7) == fits
     assert not asked
