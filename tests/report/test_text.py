@@ -134,6 +134,8 @@ def test_a_signal_that_got_worse_is_said_beside_the_one_that_improves() -> None:
     said = verdict_sentence(replace(found, heldout=(found.heldout[0], bad)))
     assert "But the current error on heldout_1.csv gets worse, from 0.100 A to 0.300 A." in said
     assert "worse" not in verdict_sentence(found)
+    hardly = replace(bad, corrected=0.1000001, gain=-1e-6, gain_interval=(-2e-6, -1e-7))
+    assert "worse" not in verdict_sentence(replace(found, heldout=(found.heldout[0], hardly)))
 
 
 def test_a_current_that_stays_far_off_is_said_beside_the_speed() -> None:

@@ -252,10 +252,10 @@ def _proof(found: DiagnosisData, how: str) -> Iterator[str]:
     for other in found.heldout:
         if other is not row and other.region == "all" and worse(other):
             before, after = before_after(other)
-            if math.isfinite(other.left):
-                yield f"But the {other.signal} error on {other.recording} gets worse, from {before} to {after}."
-            else:
+            if not math.isfinite(other.left):
                 yield f"But the simulated {other.signal} on {other.recording} runs away."
+            elif before != after:  # by less than its figures show is nothing to speak of
+                yield f"But the {other.signal} error on {other.recording} gets worse, from {before} to {after}."
         elif _hides(row, other):
             after, times = before_after(other)[1], number(over_noise(other), 2)
             still = f"error there is still {times} times its noise, {after}"
