@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from rwn.decide import decision
-from rwn.decide.account import Account, ActingEffect, Remainder
+from rwn.decide.account import Account, ActingEffect
 from rwn.decide.calibration import ACTS
 from rwn.fit.intervals import Estimate
 from rwn.model.vocabulary import table
@@ -88,7 +88,7 @@ def test_what_may_as_well_be_absent_is_not_stated(
 
     monkeypatch.setattr(decision, "together", fitted)
     monkeypatch.setattr(decision, "estimates", estimated)
-    monkeypatch.setattr(decision, "remainder", lambda *_: Remainder())
+    monkeypatch.setattr(decision, "_free_of_drift", lambda _ranking, _found, this: (this.final, None))
     rows: Any = tuple(
         ActingEffect(name=name, probability=0.6, together=0.9, share=0.5, evidence=SimpleNamespace())  # type: ignore[arg-type]
         for name in named

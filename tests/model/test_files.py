@@ -38,7 +38,7 @@ def models(draw: st.DrawFn) -> Model:
     linear = drive.on_a_line is not None and draw(st.booleans())
     parameters = {p.name: draw(POSITIVE if p.positive else st.just(0.0) | POSITIVE) for p in drive.parameters}
     uncertainty = {n: draw(st.floats(0.001, 1.0)) for n, v in parameters.items() if v != 0.0 and draw(st.booleans())}
-    known = [n for n, e in table().items() if not e.second_mass]
+    known = [n for n, e in table().items() if not e.second_mass and e.site in drive.sites]
     names = draw(st.lists(st.sampled_from(known), max_size=3, unique=True))
     replaced: set[str] = set()
     effects = {}

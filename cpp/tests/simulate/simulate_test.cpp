@@ -47,7 +47,7 @@ std::vector<double> current_of(const Case& c, std::span<double> slopes = {}) {
   return current;
 }
 
-/// Derivatives of the speed, or of the current, by `c.by` against central differences: over the one of two steps that
+/// Derivatives of the speed, or of the current, by `c.by` against central differences: over the one of three steps that
 /// suits the parameter better, since a short one drowns in rounding where the parameter does little, and a long one
 /// bends where it does much.
 void expect_slopes(const Case& c, bool of_current = false) {
@@ -62,7 +62,7 @@ void expect_slopes(const Case& c, bool of_current = false) {
     const auto index = static_cast<std::size_t>(c.by[j]);
     const double value = c.parameters[index];
     double off = std::numeric_limits<double>::infinity();
-    for (const double relative : {1e-7, 1e-6}) {
+    for (const double relative : {1e-7, 1e-6, 1e-5}) {
       const double nudge = relative * (value != 0.0 ? std::abs(value) : 1.0);
       Case up = c, down = c;
       up.parameters[index] = value + nudge;

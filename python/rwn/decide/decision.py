@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from rwn.decide.account import Account, Remainder, account, remainder
-from rwn.decide.calibration import calibration
 from rwn.decide.excitation import moves
 from rwn.decide.other_law import curve_beside
 from rwn.decide.shaft_alone import ShaftAlone, shaft_alone
 from rwn.decide.verdict import Verdict, verdict_of
-from rwn.fit.fit import Fit, fit
+from rwn.fit.budget import one_stage
+from rwn.fit.driving_force import DrivingForceProblem
+from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intervals import Widening, estimates
+from rwn.fit.residual_noise import without_drift
+from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit, weighed_beside
@@ -73,16 +74,27 @@ def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedF
             return ranking, found, chosen
 
 
-def widening(found: Account, left: Remainder) -> Widening:
-    """Of the parameters of what is stated: what is left of the mismatch may bias them."""
-    share = float(np.clip(left.share, 0.0, 1.0)) if left.signals else 0.0
-    return Widening(birge=found.birge, bias=calibration().bias * float(np.sqrt(share)))
+def _free_of_drift(ranking: Ranking, found: Account, chosen: RankedFit) -> tuple[Fit, Statistics]:
+    """The stated explanation as it is known best, and what it leaves: where a position drifts, fitted to its steps."""
+    problem, this = ranking.weighted, chosen.final
+    if isinstance(problem, DrivingForceProblem) or problem.drive.coefficients:
+        return this, ranking.counted
+    weighted = without_drift(problem, found.leading.final)
+    if weighted is None:
+        return this, ranking.counted
+    final = refit(this, weighted, share=one_stage(weighted.work))
+    return final, statistics(weighted, final)
 
 
 def _maybe_absent(ranking: Ranking, found: Account, chosen: RankedFit) -> list[str]:
-    """The stated effects of which the intervals of all strengths hold the zero at which an effect is absent."""
-    wide = widening(found, remainder(ranking, chosen.final))
-    numbers, known = estimates(chosen.final, ranking.counted, widening=wide), chosen.final.hypothesis.table
+    """The stated effects of which the intervals of all strengths hold the zero at which an effect is absent.
+
+    By noise and by how far fits to the halves disagree: what is left besides takes no name away.
+    """
+    final, left = _free_of_drift(ranking, found, chosen)
+    # halves that followed a drift lie as far apart as that took them
+    wide = Widening(birge=found.birge if final is chosen.final else 1.0)
+    numbers, known = estimates(final, left, widening=wide), final.hypothesis.table
     absent = []
     for name in (e.name for e in found.stated):
         strengths = (f"{name}.{p.name}" for p in known[name].parameters if p.strength)

@@ -12,14 +12,15 @@ from rwn._core import __version__
 from rwn.correct.correction import Correction
 from rwn.decide import excitation
 from rwn.decide.account import Account
-from rwn.decide.decision import Decision, widening
+from rwn.decide.calibration import calibration
+from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.statement import Statement, statement
 from rwn.faults.fault import Fault
 from rwn.faults.held_shaft import withstood
 from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import with_uncertainty
-from rwn.fit.intervals import estimates
+from rwn.fit.intervals import Widening, estimates
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
@@ -61,7 +62,7 @@ def assemble(
     model = correction.network.model if correction.network else model
     problem, nominal = ranking.problem.in_free_run(), ranking.nominal_fit
     named = decision.verdict == "missing-physics"
-    stated, wide = decision.account.stated, widening(decision.account, decision.remainder)
+    stated, wide = decision.account.stated, _widening(decision)
     sure = {e.name: e.probability for e in stated}
     physics = found_effects(ranking, chosen, sure, widening=wide) if named else ()
     effects = (*said.faults, *physics, *((said.coarse,) if said.coarse else ()))
@@ -112,6 +113,13 @@ def assemble(
         added=tuple(name for name in correction.final.added if name in correction.model.effects),
         corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, widening=wide)),
     )
+
+
+def _widening(decision: Decision) -> Widening:
+    """Of the parameters of what is stated: what is left of the mismatch may bias them."""
+    left = decision.remainder
+    share = float(np.clip(left.share, 0.0, 1.0)) if left.signals else 0.0
+    return Widening(birge=decision.account.birge, bias=calibration().bias * float(np.sqrt(share)))
 
 
 def _unknown_inputs(this: Fit, problem: Problem) -> list[UnknownInputs]:
