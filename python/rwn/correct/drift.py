@@ -12,12 +12,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from rwn.decide.decision import Decision
+from rwn.decide.decision import Decision, weighted_free_of_drift
 from rwn.fit.budget import equal_shares
-from rwn.fit.driving_force import DrivingForceProblem
 from rwn.fit.fit import Fit, refit
 from rwn.fit.problem import Problem
-from rwn.fit.residual_noise import without_drift
 from rwn.fit.residuals import statistics
 from rwn.name.weights import RankedFit
 from rwn.parallel import side_by_side
@@ -28,9 +26,7 @@ from rwn.simulate.run import Run
 def free_of_drift(decision: Decision, heldout: Sequence[Run], *, seed: int) -> Decision:
     """The decision with parameters that follow no drift, where its position drifts and they do not predict worse."""
     ranking, leading = decision.ranking, decision.account.leading
-    if isinstance(ranking.weighted, DrivingForceProblem) or ranking.weighted.drive.coefficients:
-        return decision
-    weighted = without_drift(ranking.weighted, leading.final)
+    weighted = weighted_free_of_drift(ranking, leading)
     if weighted is None:
         return decision
     rows = list({id(r): r for r in (*ranking.fits, decision.chosen, leading)}.values())

@@ -15,6 +15,7 @@ from rwn.fit.driving_force import DrivingForceProblem
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.intervals import Widening, estimates
+from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import without_drift
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
@@ -76,14 +77,19 @@ def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedF
 
 def _free_of_drift(ranking: Ranking, found: Account, chosen: RankedFit) -> tuple[Fit, Statistics]:
     """The stated explanation as it is known best, and what it leaves: where a position drifts, fitted to its steps."""
-    problem, this = ranking.weighted, chosen.final
-    if isinstance(problem, DrivingForceProblem) or problem.drive.coefficients:
-        return this, ranking.counted
-    weighted = without_drift(problem, found.leading.final)
+    weighted = weighted_free_of_drift(ranking, found.leading)
     if weighted is None:
-        return this, ranking.counted
-    final = refit(this, weighted, share=one_stage(weighted.work))
+        return chosen.final, ranking.counted
+    final = refit(chosen.final, weighted, share=one_stage(weighted.work))
     return final, statistics(weighted, final)
+
+
+def weighted_free_of_drift(ranking: Ranking, leading: RankedFit) -> Problem | None:
+    """The problem that compares a position by its steps; None where the leading explanation lets none drift."""
+    problem = ranking.weighted
+    if isinstance(problem, DrivingForceProblem) or problem.drive.coefficients:
+        return None
+    return without_drift(problem, leading.final)
 
 
 def _maybe_absent(ranking: Ranking, found: Account, chosen: RankedFit) -> list[str]:

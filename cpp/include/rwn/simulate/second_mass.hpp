@@ -43,7 +43,7 @@ class SecondMass {
 
   /// Of the mass that the drive turns; `first`: of the first one.
   const S& inverse_driven(const S& first) const { return joint_.drives ? inverse_load_ : first; }
-  const S& motor_inertia() const { return motor_inertia_; }  // without the load
+  const S& motor_inertia() const { return motor_inertia_; }  // of the first mass: the load where `drives`
   S motor_viscous(const Motor<S>& motor) const { return motor[viscous_friction] - drag_; }
 
   /// The load starts with the motor, in the middle of the gap.

@@ -17,7 +17,7 @@ struct PwmSupplySag {
                 .lower = 0.0,
                 .upper = 2.0,
                 .start = 0.15,
-                .scale = 1.0 * scale::none / (scale::voltage * scale::current),
+                .scale = scale::none / (scale::voltage * scale::current),
                 .scan = {0.05, 0.4},
                 .strength = true}};
   static constexpr EffectTraits traits{.hooks = Hook::apply};
