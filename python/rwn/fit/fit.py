@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +35,7 @@ class Fit:
 
     hypothesis: Hypothesis
     minimum: Minimum
+    problem: Problem | None = field(default=None, repr=False, compare=False)  # that it was fitted to, where known
 
     @property
     def added(self) -> tuple[str, ...]:
@@ -183,11 +184,12 @@ def _meets(unknown: Unknown, value: float) -> bool:
 
 def fit(
     problem: Problem, this: Hypothesis, *, max_iterations: int = TO_THE_END, tolerance: float = 1e-2,
-    damping: float = DAMPING, share: float = np.inf, roughly: bool = False,
+    damping: float = DAMPING, share: float = np.inf, roughly: bool = False, ended: Fit | None = None,
 ) -> Fit:  # fmt: skip
     """Fits the unknowns of a hypothesis to the runs, by one iteration at least.
 
-    `share`: what it may cost. `roughly`: the curvature need not be that of where it ends.
+    `share`: what it may cost. `roughly`: the curvature need not be that of where it ends. `ended`: the fit from whose
+    end this one goes on; where it was of the same problem, its end is not simulated again.
     """
     own = problem.metered()
 
@@ -200,9 +202,17 @@ def fit(
     end = minimise(
         evaluate, this.start, this.unknowns, max_iterations=max_iterations, tolerance=tolerance, damping=damping,
         prior_scale=problem.inflation, probe=probe, enough=lambda: own.work.done >= share, roughly=roughly,
+        known=_known_at(problem, this, ended),
     )  # fmt: skip
     problem.work.add(own.work.done)
-    return Fit(hypothesis=this, minimum=end)
+    return Fit(hypothesis=this, minimum=end, problem=problem)
+
+
+def _known_at(problem: Problem, this: Hypothesis, ended: Fit | None) -> NormalEquations | None:
+    """The normal equations at the start of a hypothesis, where a fit of the same problem ended; None: not known."""
+    if ended is None or ended.problem is not problem or (ended.active, ended.hypothesis.by) != (this.active, this.by):
+        return None
+    return ended.minimum.normal if np.array_equal(ended.vector, this.vector) else None
 
 
 def fit_nominal(problem: Problem) -> Fit:
@@ -213,7 +223,7 @@ def fit_nominal(problem: Problem) -> Fit:
 def refit(this: Fit, problem: Problem, *, iterations: int = TO_THE_END, share: float = np.inf) -> Fit:
     """The same hypothesis fitted to another problem (other weights, other runs), from where it ended."""
     start = this.hypothesis.starting_at(this.minimum.values)
-    return fit(problem, start, max_iterations=iterations, share=share)
+    return fit(problem, start, max_iterations=iterations, share=share, ended=this)
 
 
 def refit_all(these: Sequence[Fit], problem: Problem) -> list[Fit]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -44,6 +44,7 @@ class Minimum:
     status: FitStatus
     iterations: int
     damping: float = DAMPING  # of the last step, or that the next one wants
+    normal: NormalEquations | None = None  # at `values`; None: not known there
 
 
 def minimise(
@@ -51,30 +52,25 @@ def minimise(
     start: Array,
     unknowns: tuple[Unknown, ...],
     *,
-    max_iterations: int = 60,
-    tolerance: float = 1e-2,
-    damping: float = DAMPING,
-    prior_scale: float = 1.0,
-    probe: Evaluate | None = None,
-    doubt: int = 1,
-    enough: Callable[[], bool] | None = None,
-    roughly: bool = False,
-) -> Minimum:
+    max_iterations: int = 60, tolerance: float = 1e-2, damping: float = DAMPING, prior_scale: float = 1.0,
+    probe: Evaluate | None = None, doubt: int = 1, enough: Callable[[], bool] | None = None, roughly: bool = False,
+    known: NormalEquations | None = None,
+) -> Minimum:  # fmt: skip
     """Levenberg-Marquardt (Nielsen's damping) from `start` (p,) within the unknowns' bounds.
 
     Ends when a step promises less than `tolerance` of cost, in units of the residual's variance. `prior_scale`: factor
     on the priors, as large as samples are more than independent samples. `probe`: the error without derivatives, which
     is asked before `evaluate` once `doubt` steps in a row were refused. `enough`: asked after every iteration; ends the
     fit as the iteration limit does. `roughly`: where that limit ends the fit, the curvature may be the one before the
-    last iteration.
+    last iteration. `known`: the normal equations at `start`.
     """
     search = SearchCoordinates(evaluate, probe, unknowns, prior_scale)
     z = search.begun(start)
-    cost, normal = search.at(z)
+    cost, normal = search.at(z, known)
     if not np.isfinite(cost):
         return _minimum(search, z, normal, normal.chi2, cost, cost, FitStatus.DIVERGED, 0, damping)
     gradient, curvature = search.slopes(z, normal)
-    first, chi2, status = cost, normal.chi2, FitStatus.ITERATION_LIMIT
+    first, chi2, status, exact = cost, normal.chi2, FitStatus.ITERATION_LIMIT, True  # exact: `normal` is at `z`
     growth, count, misses = 2.0, 0, 0
     for count in range(1, max_iterations + 1):
         if count > 1 and enough is not None and enough():
@@ -97,7 +93,7 @@ def minimise(
         reached, there = search.tried(z + step, least, last=last, doubted=misses >= doubt)
         if reached < least:
             damping *= max(1.0 / 5.0, 1.0 - (2.0 * (cost - reached) / promised - 1.0) ** 3)
-            z, cost, chi2, normal = z + step, reached, there.chi2, normal if last else there
+            z, cost, chi2, normal, exact = z + step, reached, there.chi2, normal if last else there, not last
             gradient, curvature = search.slopes(z, normal)
             growth, misses = 2.0, 0
         else:
@@ -105,7 +101,8 @@ def minimise(
             if misses > 8:
                 status = FitStatus.STALLED
                 break
-    return _minimum(search, z, normal, chi2, cost, first, status, count, damping)
+    end = _minimum(search, z, normal, chi2, cost, first, status, count, damping)
+    return replace(end, normal=normal if exact else None)
 
 
 def _relieved(

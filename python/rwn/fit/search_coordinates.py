@@ -59,9 +59,9 @@ class SearchCoordinates:
             values[phase] = np.arctan2(z[phase], z[amplitude])
         return values
 
-    def at(self, z: Array) -> tuple[float, NormalEquations]:
-        """Cost at search coordinates (p,), and what it is made of."""
-        return self._priced(z, self.evaluate(self.values(z)))
+    def at(self, z: Array, known: NormalEquations | None = None) -> tuple[float, NormalEquations]:
+        """Cost at search coordinates (p,), and what it is made of: simulated, where it is not `known`."""
+        return self._priced(z, known or self.evaluate(self.values(z)))
 
     def tried(self, z: Array, bar: float, *, last: bool, doubted: bool) -> tuple[float, NormalEquations]:
         """Cost at `z` (p,) and what it is made of.

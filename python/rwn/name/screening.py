@@ -90,7 +90,7 @@ def _round(these: Sequence[Start], *, iterations: int, on: Problem, problem: Pro
 def _attempt(start: Start, iterations: int, on: Problem, *, share: float, roughly: bool = False) -> FittedStart:
     end = fit(
         on, start.hypothesis, max_iterations=iterations, tolerance=RESOLUTION, damping=start.damping, share=share,
-        roughly=roughly,
+        roughly=roughly, ended=start.ended,
     )  # fmt: skip
     return FittedStart(start.after(end), end)
 

@@ -35,11 +35,12 @@ class Start(NamedTuple):
     motor: int  # 0: begins from the motor as the base has it, 1: from any other
     hypothesis: Hypothesis
     damping: float = DAMPING  # that its next iterations begin with
+    ended: Fit | None = None  # what it goes on from
 
     def after(self, this: Fit) -> Start:
         """The same where a fit ended; steps that were too long there are not tried again."""
         begun = self.hypothesis.starting_at(this.minimum.values)
-        return self._replace(hypothesis=begun, damping=max(this.minimum.damping, DAMPING))
+        return self._replace(hypothesis=begun, damping=max(this.minimum.damping, DAMPING), ended=this)
 
 
 class FittedStart(NamedTuple):
