@@ -19,9 +19,10 @@ from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics, statistics_of, structured_of
 from rwn.model.model import Model
-from rwn.name import forward
+from rwn.name import extending
 from rwn.name.backward import with_simpler
-from rwn.name.forward import _beside, _diverse, _grown
+from rwn.name.extending import beside, diverse
+from rwn.name.forward import _grown
 from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits
 from rwn.name.screening import screen
@@ -64,7 +65,7 @@ def test_more_effects_are_kept_where_they_are_likelier(
     price = 0.5 * further * np.log(samples) + np.log(len(wanted))
     price *= 2.0 * max(left.variance, 1.0) * left.count / samples
     single = replace(single, minimum=replace(single.minimum, cost=several.cost + gain * price))
-    monkeypatch.setattr(forward, "_beside", lambda *_: Extensions([several], frozenset()))
+    monkeypatch.setattr(extending, "beside", lambda *_: Extensions([several], frozenset()))
     nominal = replace(single, minimum=replace(single.minimum, cost=2.0 * single.cost))
     grown = _grown(
         Fits(problem, nominal, [single]), [single], wanted, NO_EXTENSIONS, at_once=2, begun=0, progress=_silent
@@ -104,7 +105,7 @@ def test_second_effects_are_added_to_explanations_of_different_kinds(problem: Pr
     names = ("asymmetric-friction", "stribeck-friction", "coulomb-friction", "actuator-deadzone", "quadratic-drag")
     drag = fit_with("quadratic-drag")
     fits = [replace(drag, hypothesis=_with(problem, name)) for name in names]
-    assert [f.added[0] for f in _diverse(fits)] == ["asymmetric-friction", "stribeck-friction", "actuator-deadzone"]
+    assert [f.added[0] for f in diverse(fits)] == ["asymmetric-friction", "stribeck-friction", "actuator-deadzone"]
 
 
 def _with(problem: Problem, name: str) -> Hypothesis:
@@ -187,7 +188,7 @@ def test_pairs_that_were_tried_are_not_tried_again(problem: Problem, monkeypatch
         tried.extend(wanted)
         return []
 
-    monkeypatch.setattr("rwn.name.forward.screen", none)
+    monkeypatch.setattr("rwn.name.extending.screen", none)
     again = ranked(problem, names, at_once=2, after=pairs)
     assert tried == []
     assert [r.score for r in again.fits] == [r.score for r in pairs.fits]
@@ -204,15 +205,15 @@ def test_beside_an_explanation_of_all_its_parts_alone_are_tried(
     noise = np.random.default_rng(1).normal(size=1000)
     joined = {"speed": noise if at_the_floor else 9.0 * np.cumsum(noise)}
     left = statistics_of(joined, structured=structured_of(joined))
-    monkeypatch.setattr("rwn.name.forward.statistics", lambda *_: left)
+    monkeypatch.setattr("rwn.name.extending.statistics", lambda *_: left)
     tried: dict[str, list[str]] = {}
 
     def found(_: Problem, base: Fit, wanted: list[str], **__: float) -> list[Fit]:
         tried[base.added[0]] = list(wanted)
         return [pair]
 
-    monkeypatch.setattr("rwn.name.forward.screen", found)
-    _beside(problem, [first, part, other], names, [first, part, other], NO_EXTENSIONS)
+    monkeypatch.setattr("rwn.name.extending.screen", found)
+    beside(problem, [first, part, other], names, [first, part, other], NO_EXTENSIONS)
     met = names[:3]
     assert tried == {names[0]: names, names[1]: met, names[2]: names[:2] if at_the_floor else met}
 

@@ -22,7 +22,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics, statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
-from rwn.name import forward
+from rwn.name import extending, forward
 from rwn.name.forward import _grown
 from rwn.name.measurement import CHANGES, Measurement, is_explained
 from rwn.name.ranking import NO_EXTENSIONS, Fits
@@ -146,7 +146,7 @@ def test_nothing_is_built_on_what_another_measurement_shows(
 ) -> None:
     """How recordings were made is asked of the best single effect, before pairs of effects are tried."""
     single, asked = fit_with("coulomb-friction"), list[Fit]()
-    monkeypatch.setattr(forward, "_beside", lambda *_: pytest.fail("pairs were tried"))
+    monkeypatch.setattr(extending, "beside", lambda *_: pytest.fail("pairs were tried"))
     nominal = replace(single, minimum=replace(single.minimum, cost=9.0 * single.cost))
     another = Measurement(as_prepared=problem)
 

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rwn.fit.budget import affords_more, one_stage, renew
+from rwn.fit.budget import affords_more, renew
 from rwn.fit.coloured_noise import final_fits
-from rwn.fit.fit import Fit, best_few, fit_nominal, refit, refit_all
+from rwn.fit.fit import Fit, best_few, fit_nominal, refit_all
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
@@ -22,11 +22,12 @@ from rwn.fit.secant import all_down_secants
 from rwn.measurement.angle import along_the_simulated_angle
 from rwn.measurement.coarse_speed import as_recorded, recorded_steps, unrounded_fits
 from rwn.measurement.filter_colour import SensorFilter
-from rwn.name.backward import distinct, replaced, with_simpler
+from rwn.name.backward import distinct, with_simpler
 from rwn.name.degenerate import adds
+from rwn.name.extending import at_its_floor, beside_and_in_windows, diverse, made_of
 from rwn.name.further_lines import with_further_lines
 from rwn.name.measurement import Measurement, is_explained
-from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
+from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion
 from rwn.name.observable import observable
 from rwn.name.prior_odds import loaded, prior_odds, steady_loads
 from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits, Ranking
@@ -76,7 +77,7 @@ def _ranked(
     begun = problem.work.done
     wanted = [n for n in names or problem.prior.table if observable(n, problem)]
     alone = after.alone if after else _each_alone(problem, wanted, progress)
-    problem, nominal, fits = alone.problem, alone.nominal_fit, [f for f in alone.fits if _made_of(f, wanted)]
+    problem, nominal, fits = alone.problem, alone.nominal_fit, [f for f in alone.fits if made_of(f, wanted)]
     before = statistics(problem, nominal)
     extensions = after.extensions if after else NO_EXTENSIONS
     in_noise = partial(made.in_noise, problem) if names is None and not after else None
@@ -138,7 +139,7 @@ def _grown(
     problem = alone.problem
     fits = with_further_lines(problem, fits)
     best, left = _best_of(problem, [alone.nominal_fit, *fits])
-    bases, windowed = _diverse([f for f in fits if adds(f, problem)]), alone.windowed
+    bases, windowed = diverse([f for f in fits if adds(f, problem)]), alone.windowed
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     measured = None
     for size in range(2, at_once + 1):
@@ -148,7 +149,7 @@ def _grown(
         known = extensions if size == 2 else NO_EXTENSIONS
         renew(problem.work, begun)
         progress(f"trying {size} effects at once", 0.9 - 0.7 * 0.5 ** (size - 1))
-        found, windowed = _beside_and_in_windows(
+        found, windowed = beside_and_in_windows(
             alone, best, bases, wanted, fits, known, size=size, windowed=windowed
         )  # fmt: skip
         more, extensions = with_further_lines(problem, found.fits), found if size == 2 else extensions
@@ -159,28 +160,8 @@ def _grown(
         fits, paired = [*fits, *more], True
         best, left = _best_of(problem, fits)
         bases = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2]
-        complete = left.at_the_floor or _at_its_floor(problem, best)
+        complete = left.at_the_floor or at_its_floor(problem, best)
     return _ForwardSelection(fits, extensions, paired, complete, cut_short, measured)
-
-
-def _beside_and_in_windows(
-    alone: Fits, best: Fit, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Extensions, *,
-    size: int, windowed: Sequence[Fit],
-) -> tuple[Extensions, Sequence[Fit]]:  # fmt: skip
-    """What helps beside `bases`, with what is found in short windows where a free run is far off.
-
-    In windows first once free run has lost the motion, since it finds nothing then and would use up what a search may
-    cost; else where free run has found nothing near. Returned with it is all that was found in windows, before too.
-    """
-    problem, more = alone.problem, list[Fit]()
-    lost = has_lost_the_motion(problem, best)
-    if lost:
-        more = fitted_in_windows(problem, alone.nominal_fit, wanted, size, windowed)
-    found = _beside(problem, bases, wanted, fits, known)
-    closest = min([best, *found.fits], key=lambda f: f.cost)
-    if not lost and affords_more(problem.work) and is_far_off(problem, closest):
-        more = fitted_in_windows(problem, alone.nominal_fit, wanted, size, windowed)
-    return found._replace(fits=distinct([*found.fits, *fitted_to_free_run(more, problem)])), [*windowed, *more]
 
 
 def _is_worth_it(problem: Problem, more: Sequence[Fit], best: Fit, *, rivals: int) -> bool:
@@ -218,66 +199,12 @@ def _each_alone(problem: Problem, wanted: Sequence[str], progress: Progress) -> 
     return _under_own_noise(problem, nominal, fits)._replace(windowed=windowed)
 
 
-def _made_of(this: Fit, wanted: Sequence[str]) -> bool:
-    return all(name in wanted or this.hypothesis.table[name].steady for name in this.added)
-
-
 def _under_own_noise(problem: Problem, nominal: Fit, fits: list[Fit]) -> Fits:
     """The fits under the noise, along the angle and to the speed that the best of them makes probable."""
     problem, nominal, fits = _reweighted(as_recorded(problem), nominal, fits)
     problem, nominal, fits = along_the_simulated_angle(problem, nominal, fits)
     fits = all_down_secants(problem, nominal, fits)
     return Fits(*unrounded_fits(problem, nominal, fits))
-
-
-def _at_its_floor(problem: Problem, best: Fit) -> bool:
-    """Whether the best explanation leaves but noise under the noise and the weight of priors that go with itself.
-
-    Those of the search go with what was best before it: under them a right pair is held off its minimum.
-    """
-    own, best = with_priors_weighed(with_noise_of(problem, best), best)
-    again = refit(best, own, share=one_stage(own.work))
-    return statistics(own, again).at_the_floor
-
-
-def _beside(
-    problem: Problem, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Extensions
-) -> Extensions:
-    """What helps beside each of `bases`: any effect beside the best, promising ones beside the others.
-
-    Once the best found leaves noise alone, one that has no part in it is tried beside its parts: it may rival one.
-    """
-    found, tried, names, skipped = [f for f in known.fits if _made_of(f, wanted)], known.tried, list(wanted), False
-    for place, base in enumerate(bases):
-        parts = _complete_explanation(problem, found)
-        rivals = bool(parts) and not parts & set(base.added)
-        if (place or known.fits) and not rivals and not affords_more(problem.work):
-            skipped = True
-            continue
-        beside = [n for n in names if n in parts] if rivals else names
-        new = [name for name in beside if (base.added, name) not in tried]
-        found += screen(problem, base, new, keep=1, best=min((f.cost for f in found), default=np.inf))
-        tried |= {(base.added, name) for name in new}
-        met = {name for f in (*fits, *found) for name in f.added}
-        names = [name for name in wanted if name in met]
-    return Extensions(distinct(found), tried, cut_short=skipped)
-
-
-def _complete_explanation(problem: Problem, found: Sequence[Fit]) -> frozenset[str]:
-    """The effects of the best that was found if it leaves but noise; none otherwise."""
-    best = min(found, key=lambda f: f.cost, default=None)
-    done = best and (statistics(problem, best).at_the_floor or _at_its_floor(problem, best))
-    return frozenset(best.added) if best and done else frozenset()
-
-
-def _diverse(fits: Sequence[Fit]) -> list[Fit]:
-    """The three best explanations, at most two of them with a law in place of the same nominal parameters."""
-    kept: list[Fit] = []
-    for f in fits:
-        alike = [k for k in kept if replaced(k) and replaced(k) == replaced(f)]
-        if len(alike) < 2:
-            kept.append(f)
-    return kept[:3]
 
 
 def _reweighted(problem: Problem, nominal: Fit, fits: list[Fit]) -> tuple[Problem, Fit, list[Fit]]:
