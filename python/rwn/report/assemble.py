@@ -15,6 +15,7 @@ from rwn.decide.account import Account
 from rwn.decide.calibration import calibration
 from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
+from rwn.decide.shaft_alone import ShaftAlone
 from rwn.decide.statement import Statement, statement
 from rwn.faults.fault import Fault
 from rwn.faults.held_shaft import withstood
@@ -25,7 +26,7 @@ from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
 from rwn.measurement.noise_spectrum import FASTEST
-from rwn.mismatch_map.dependence import laws
+from rwn.mismatch_map.dependence import Law, laws
 from rwn.mismatch_map.regions import regions
 from rwn.model.model import Model
 from rwn.name.found_effect import found_effects
@@ -36,6 +37,7 @@ from rwn.prove.proof import LEFT_OUT
 from rwn.report import figures
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.diagnosis_data import Alternative, Beneath, Location
+from rwn.report.file_units import Units, regions_in_file_units
 from rwn.report.fitted_filter import FittedFilter, fitted_filters
 from rwn.report.next_steps import NEAR
 from rwn.report.nominal_fit import nominal_fit
@@ -54,9 +56,13 @@ from rwn.simulate.unknown_inputs import UnknownInputs, unknown_inputs
 
 
 def assemble(
-    correction: Correction, faults: Sequence[Fault], model: Model, heldout: Sequence[Run], *, seed: int, elapsed: float
-) -> Diagnosis:
-    """The diagnosis, of a model that has the network among its own effects where one stands in."""
+    correction: Correction, faults: Sequence[Fault], model: Model, heldout: Sequence[Run], *, units: Units, seed: int,
+    elapsed: float,
+) -> Diagnosis:  # fmt: skip
+    """The diagnosis, of a model that has the network among its own effects where one stands in.
+
+    `units`: of the signals in the files, in which it is said where the mismatch is.
+    """
     decision = correction.decision
     ranking, chosen, rows, said = decision.ranking, decision.chosen, decision.rows, statement(decision, faults)
     model = correction.network.model if correction.network else model
@@ -70,15 +76,9 @@ def assemble(
     equation = effects[0].equation if effects else ""
     winding = decision.shaft is not None and decision.shaft.moves_as_recorded
     inputs = [replace(u, lacking="voltage" if winding else "torque") for u in _unknown_inputs(nominal, problem)]
-    where = regions(inputs, linear=model.linear)
     # a transfer function has none, and what the winding lacks is no torque
     torque_unknown = said.verdict != "adequate" and not model.drive.coefficients and not winding
     depends = laws(problem, nominal, inputs, linear=model.linear) if torque_unknown else ()
-    motion = not model.drive.coefficients
-    place, briefly = (
-        in_words(where, depends, linear=model.linear, motion=motion, shaft=decision.shaft)
-        for in_words in (located, located_briefly)
-    )
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
     filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
     shown = correction.by_free_run or chosen
@@ -93,7 +93,7 @@ def assemble(
         beneath=Beneath(verdict=said.beneath.verdict, set=said.beneath.names) if said.beneath else None,
         explanation=_explanation(decision),
         alternatives=alternatives,
-        location=Location(equation=equation, regions=where, description=place, briefly=briefly),
+        location=_location(equation, inputs, depends, model, shaft=decision.shaft, units=units),
         nominal_fit=nominal_fit(ranking, chosen, model, widening=wide),
         heldout=rows,
         curves=drawn,
@@ -114,6 +114,20 @@ def assemble(
         corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, widening=wide)),
     )
 
+
+
+def _location(
+    equation: str, inputs: Sequence[UnknownInputs], depends: Sequence[Law], model: Model, *, shaft: ShaftAlone | None,
+    units: Units,
+) -> Location:  # fmt: skip
+    """Where the mismatch is, in the units of the files."""
+    where = regions_in_file_units(regions(inputs, linear=model.linear), units, linear=model.linear)
+    motion = not model.drive.coefficients
+    place, briefly = (
+        in_words(where, depends, linear=model.linear, motion=motion, shaft=shaft)
+        for in_words in (located, located_briefly)
+    )
+    return Location(equation=equation, regions=where, description=place, briefly=briefly)
 
 def _widening(decision: Decision) -> Widening:
     """Of the parameters of what is stated: what is left of the mismatch may bias them."""

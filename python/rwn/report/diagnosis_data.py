@@ -107,7 +107,7 @@ class DiagnosisData:
         return _text({"format": FORMAT, **kept})
 
     def curves_json(self) -> bytes:
-        """`curves.json`: the pictures, SI, to six digits. NaN becomes null."""
+        """`curves.json`: the pictures, each with its units, to six digits. NaN becomes null."""
         plots = _in_words(msgspec.to_builtins(self.curves, enc_hook=_plain))
         lines = b",\n".join(msgspec.json.encode(plot) for plot in plots)
         return b'{"format": %d, "curves": [\n%b\n]}\n' % (FORMAT, lines)
