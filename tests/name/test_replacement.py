@@ -34,6 +34,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Asked:
 
     monkeypatch.setattr(replacement, "screen", screen)
     monkeypatch.setattr(replacement, "affords_more", lambda _work: True)
+    monkeypatch.setattr(replacement, "one_stage", lambda _work: 1.0)
     monkeypatch.setattr(replacement, "renew", lambda work, begun: seen.append(((work,), [str(begun)])))
     return seen
 

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from rwn.decide.innovations import Innovations, innovations
 from rwn.decide.other_law import curve_instead
 from rwn.fit.budget import one_stage
-from rwn.fit.fit import NEAR_ITS_END, Fit, fit, refit
-from rwn.fit.hypothesis import hypothesis
+from rwn.fit.fit import NEAR_ITS_END, Fit, refit
 from rwn.fit.intervals import deviations
 from rwn.fit.problem import Problem
+from rwn.fit.refitting import fitted_without
 from rwn.fit.residuals import statistics, variances
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
@@ -148,15 +148,10 @@ def _without_drift(variances: Mapping[str, float]) -> Mapping[str, float]:
 
 
 def _without(ranking: Ranking, leading: RankedFit, name: str) -> Fit:
-    """The explanation without one of its effects: as it was fitted, or fitted from where it ended."""
-    others = tuple(n for n in leading.added if n != name)
-    known = next((r.final for r in ranking.fits if set(r.added) == set(others)), None)
-    if known is not None:
-        return known
-    problem, this = ranking.weighted, leading.final
-    starts = this.starts(others)
-    begun = hypothesis(problem.prior, others, problem.scales, starts, this.motor)
-    return fit(problem, begun, max_iterations=NEAR_ITS_END, share=one_stage(problem.work) / PARTS)
+    """The explanation without one of its effects."""
+    problem, known = ranking.weighted, (r.final for r in ranking.fits)
+    share = one_stage(problem.work) / PARTS
+    return fitted_without(problem, leading.final, name, known, iterations=NEAR_ITS_END, share=share)
 
 
 def _refit(this: Fit, half: Problem) -> Fit:

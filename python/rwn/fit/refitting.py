@@ -1,11 +1,11 @@
-"""Explanations that were found under one measurement, fitted under another."""
+"""Explanations that were found under one measurement, fitted under another, and with one effect less."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from rwn.fit.budget import shares_by_rank
-from rwn.fit.fit import NEAR_ITS_END, Fit, fit, refit
+from rwn.fit.fit import NEAR_ITS_END, TO_THE_END, Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import with_noise_of
@@ -33,3 +33,15 @@ def under_own_noise(explanation: Fit, problem: Problem) -> tuple[Problem, Fit]:
     (this,) = refitted_beside([explanation], problem)
     problem = with_noise_of(problem, this)
     return problem, refit(this, problem, iterations=NEAR_ITS_END)
+
+
+def fitted_without(
+    problem: Problem, this: Fit, name: str, known: Iterable[Fit], *, iterations: int = TO_THE_END, share: float
+) -> Fit:
+    """An explanation without one of its effects: as it is `known`, or fitted from where that ended."""
+    rest = tuple(n for n in this.added if n != name)
+    ready = next((f for f in known if set(f.added) == set(rest)), None)
+    if ready is not None:
+        return ready
+    begun = hypothesis(problem.prior, rest, problem.scales, this.starts(rest), this.motor)
+    return fit(problem, begun, max_iterations=iterations, share=share)

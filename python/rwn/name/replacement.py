@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rwn.fit.budget import affords_more, one_stage, renew
-from rwn.fit.fit import Fit, fit
-from rwn.fit.hypothesis import hypothesis
+from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
+from rwn.fit.refitting import fitted_without
 from rwn.name.backward import distinct, price
 from rwn.name.screening import screen
 
@@ -29,20 +29,11 @@ def with_plainer_instead(problem: Problem, fits: list[Fit], wanted: Sequence[str
     for name in best.added:
         fewer = [n for n in wanted if n not in best.added and _size(best, n) < _size(best, name)]
         if fewer and affords_more(problem.work):
-            found += screen(problem, _without(problem, fits, best, name), fewer, keep=1, best=best.cost)
+            rest = fitted_without(problem, best, name, fits, share=one_stage(problem.work))
+            found += screen(problem, rest, fewer, keep=1, best=best.cost)
     return distinct(found)
 
 
 def _size(this: Fit, name: str) -> int:
     """Parameters of an effect that are not known from its law."""
     return sum(not p.idealised for p in this.hypothesis.table[name].parameters)
-
-
-def _without(problem: Problem, fits: Sequence[Fit], best: Fit, name: str) -> Fit:
-    """The best explanation without one of its effects: as it is known, or fitted from where that ended."""
-    rest = tuple(n for n in best.added if n != name)
-    known = next((f for f in fits if set(f.added) == set(rest)), None)
-    if known is not None:
-        return known
-    begun = hypothesis(problem.prior, rest, problem.scales, best.starts(rest), best.motor)
-    return fit(problem, begun, share=one_stage(problem.work))
