@@ -8,6 +8,7 @@
 // (rwn/simulate/contact_events.hpp).
 #pragma once
 
+#include "rwn/model/motor.hpp"
 #include "rwn/model/parameter.hpp"
 
 namespace rwn {
@@ -24,13 +25,22 @@ inline constexpr Parameter load_viscous_share{.name = "load_viscous_share",
 
 template <class S>
 struct Joint {
-  S stiffness{};     // k [N m/rad]
-  S damping{};       // c [N m s/rad]
-  S load_inertia{};  // part of J behind it [kg m^2]
-  S load_viscous{};  // part of B behind it [N m s/rad]
-  S half_gap{};      // [rad]
+  S stiffness{};       // k [N m/rad]
+  S damping{};         // c [N m s/rad]
+  S inertia_behind{};  // part of J behind it [kg m^2]
+  S viscous_behind{};  // part of B behind it [N m s/rad]
+  S half_gap{};        // [rad]
   bool play = false;
   bool drives = false;  // the drive turns the second mass, and the first one, which is measured and rubs, follows
 };
+
+/// A joint with the load before it, which is measured, and the motor behind it, which the drive turns.
+template <class S>
+Joint<S> with_load_first(Joint<S> joint, const Motor<S>& motor) {
+  joint.inertia_behind = motor[inertia] - joint.inertia_behind;
+  joint.viscous_behind = motor[viscous_friction] - joint.viscous_behind;
+  joint.drives = true;
+  return joint;
+}
 
 }  // namespace rwn

@@ -48,8 +48,8 @@ class Equations {
     inertia_ = motor_[inertia];
     viscous_ = motor_[viscous_friction];
     if constexpr (masses == 2) {
-      inertia_ = second_.motor_inertia();
-      viscous_ = second_.motor_viscous(motor_);
+      inertia_ = second_.first_inertia();
+      viscous_ = second_.first_viscous(motor_);
     }
     inverse_inertia_ = 1.0 / inertia_;
   }
@@ -292,7 +292,7 @@ class Equations {
   bool varies_ = false, dry_ = false, finishes_ = false, pendulum_ = false, winds_ = false, rates_ = false,
        settles_ = false, timed_ = false;
   S base_friction_{}, inertia_{}, inverse_inertia_{};
-  S viscous_{};  // of the motor alone
+  S viscous_{};  // of the first mass alone
   [[no_unique_address]] std::conditional_t<masses == 2, SecondMass<S, Drive>, NoSecondMass> second_{};
   ByDirection<Constants> constants_;
 };

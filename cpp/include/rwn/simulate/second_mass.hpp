@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rwn/simulate/drive_state.hpp"
 #include "rwn/model/joint.hpp"
+#include "rwn/simulate/drive_state.hpp"
 
 namespace rwn {
 
@@ -26,13 +26,11 @@ class SecondMass {
 
   SecondMass() = default;
   SecondMass(const Joint<S>& joint, const Motor<S>& motor)
-      : joint_(joint),
-        motor_inertia_(motor[inertia] - joint.load_inertia),
-        drag_(joint.load_viscous) {
-    const S inverse = 1.0 / motor_inertia_ + 1.0 / joint_.load_inertia;
+      : joint_(joint), first_inertia_(motor[inertia] - joint.inertia_behind), drag_(joint.viscous_behind) {
+    const S inverse = 1.0 / first_inertia_ + 1.0 / joint_.inertia_behind;
     rate_ = std::sqrt(std::abs(value_of(joint_.stiffness * inverse)));
     if (!(rate_ > 1.0)) rate_ = 1.0;
-    inverse_load_ = 1.0 / joint_.load_inertia;
+    inverse_load_ = 1.0 / joint_.inertia_behind;
     scaled_stiffness_ = joint_.stiffness / rate_;
     preload_ = joint_.stiffness * joint_.half_gap;
   }
@@ -43,8 +41,8 @@ class SecondMass {
 
   /// Of the mass that the drive turns; `first`: of the first one.
   const S& inverse_driven(const S& first) const { return joint_.drives ? inverse_load_ : first; }
-  const S& motor_inertia() const { return motor_inertia_; }  // of the first mass: the load where `drives`
-  S motor_viscous(const Motor<S>& motor) const { return motor[viscous_friction] - drag_; }
+  const S& first_inertia() const { return first_inertia_; }  // of the first mass: the load where `drives`
+  S first_viscous(const Motor<S>& motor) const { return motor[viscous_friction] - drag_; }
 
   /// The load starts with the motor, in the middle of the gap.
   void begin(Moving& s) const {
@@ -59,9 +57,7 @@ class SecondMass {
   }
 
   /// How far into contact a gap is on `side` [rad]: T / k of the closed joint.
-  S pressing(const Moving& s, double side) const {
-    return side * (spring(s) / joint_.stiffness) - joint_.half_gap;
-  }
+  S pressing(const Moving& s, double side) const { return side * (spring(s) / joint_.stiffness) - joint_.half_gap; }
 
   /// How far the gap is overlapped on `side` [rad].
   S overlap(const Moving& s, double side) const { return side / rate_ * s.x[twist] - joint_.half_gap; }
@@ -93,7 +89,7 @@ class SecondMass {
   /// Takes twist and speed of the load over h while the motor's speed goes evenly from `from` to `to` (midpoint rule).
   void follow(Moving& s, const S& from, const S& to, double h) const {
     const double asked =
-        std::ceil(h * (rate_ + value_of(joint_.damping * (1.0 / motor_inertia_ + inverse_load_))) / 0.3);
+        std::ceil(h * (rate_ + value_of(joint_.damping * (1.0 / first_inertia_ + inverse_load_))) / 0.3);
     const int steps = asked > 1.0 ? static_cast<int>(std::min(asked, most_steps_along)) : 1;
     const Moving end = s;
     for (int k = 0; k < steps; ++k) {
@@ -123,7 +119,7 @@ class SecondMass {
     at(a, load_speed, twist) = scaled_stiffness_ * inverse_load_;
     at(a, load_speed, load_speed) -= at(a, load_speed, w);
     if (regime.stick()) return;
-    const S inverse = 1.0 / motor_inertia_;
+    const S inverse = 1.0 / first_inertia_;
     at(a, w, load_speed) = joint_.damping * inverse;
     at(a, w, twist) = -(scaled_stiffness_ * inverse);
     at(a, w, w) -= at(a, w, load_speed);
@@ -135,7 +131,7 @@ class SecondMass {
   int step_count(const Moving& s, const Rates& rates, bool dry, double held, double h) const {
     if (s.contact == 0.0 || (!joint_.play && !dry)) return 1;
     const bool stick = dry && s.direction == 0.0;
-    const double inverse = value_of(inverse_load_) + (stick ? 0.0 : 1.0 / value_of(motor_inertia_));
+    const double inverse = value_of(inverse_load_) + (stick ? 0.0 : 1.0 / value_of(first_inertia_));
     const double omega = std::sqrt(value_of(joint_.stiffness) * inverse);
     const double damping = value_of(joint_.damping) * inverse;
     const double turning = s.contact * (value_of(s.x[w]) - value_of(s.x[load_speed]));
@@ -158,7 +154,7 @@ class SecondMass {
   static S& at(Matrix& a, std::size_t row, std::size_t column) { return a[row * n + column]; }
 
   Joint<S> joint_{};
-  S motor_inertia_{}, drag_{}, inverse_load_{}, scaled_stiffness_{}, preload_{};
+  S first_inertia_{}, drag_{}, inverse_load_{}, scaled_stiffness_{}, preload_{};
   double rate_ = 1.0;  // unit of the twist in x, so that all of x is of one size
 };
 

@@ -49,8 +49,8 @@ struct Backlash {
     const S reduced = load * (m[inertia] - load) / m[inertia];
     return {.stiffness = reduced * p[2] * p[2],
             .damping = 2.0 * p[3] * reduced * p[2],
-            .load_inertia = load,
-            .load_viscous = p[4] * m[viscous_friction],
+            .inertia_behind = load,
+            .viscous_behind = p[4] * m[viscous_friction],
             .half_gap = 0.5 * p[0],
             .play = true};
   }

@@ -16,11 +16,7 @@ struct LoadEncoderCompliance {
 
   template <class S>
   static Joint<S> joint(const S* p, const Motor<S>& m) {
-    Joint<S> joint = ShaftCompliance::joint(p, m);
-    joint.load_inertia = m[inertia] - joint.load_inertia;  // behind the load is the motor
-    joint.load_viscous = m[viscous_friction] - joint.load_viscous;
-    joint.drives = true;
-    return joint;
+    return with_load_first(ShaftCompliance::joint(p, m), m);
   }
 };
 

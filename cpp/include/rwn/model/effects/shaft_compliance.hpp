@@ -41,7 +41,7 @@ struct ShaftCompliance {
 
   template <class S>
   static Joint<S> joint(const S* p, const Motor<S>& m) {
-    return {.stiffness = p[0], .damping = p[1], .load_inertia = p[2], .load_viscous = p[3] * m[viscous_friction]};
+    return {.stiffness = p[0], .damping = p[1], .inertia_behind = p[2], .viscous_behind = p[3] * m[viscous_friction]};
   }
 };
 
