@@ -93,6 +93,7 @@ def test_a_level_that_no_scale_makes_is_no_gear(model: rwn.Model) -> None:
     assert wrong_scale([replace(unseen, signals={"voltage": voltage, "speed": speed})], model) is None
 
 
+@pytest.mark.slow
 def test_a_gear_that_stood_in_for_a_drag_is_none(model: rwn.Model) -> None:
     """A drag that takes most of the speed looks like a gear until it is known itself."""
     time = np.arange(0.0, 3.0, 1e-3)

@@ -28,6 +28,7 @@ def _run(effects: dict[str, dict[str, float]]) -> rwn.Recording:
     return replace(bare, time=time[kept], signals={"voltage": voltage[kept], "speed": speed[kept]})
 
 
+@pytest.mark.slow
 def test_the_voltage_of_lost_rows_is_inferred_again_beside_the_physics_that_was_found() -> None:
     """Beside the nominal model it was inferred from what friction did."""
     run = _run({"coulomb-friction": {"coulomb_torque": 1e-2}})

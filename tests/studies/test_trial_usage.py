@@ -45,6 +45,7 @@ def test_an_unfinished_set_is_not_gone_on_with_as_another(tmp_path: Path) -> Non
     assert json.loads((tmp_path / WORK / "set.json").read_text())["seed"] == 4
 
 
+@pytest.mark.slow
 def test_a_part_of_a_set_is_its_first_trials_as_they_are_in_the_whole(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="the first 3 of 2 trials: give a number from 1 to 2"):
         make(3, 2, tmp_path / "part", first=3)
