@@ -210,9 +210,10 @@ def fit(
 
 def _known_at(problem: Problem, this: Hypothesis, ended: Fit | None) -> NormalEquations | None:
     """The normal equations at the start of a hypothesis, where a fit of the same problem ended; None: not known."""
-    if ended is None or ended.problem is not problem or (ended.active, ended.hypothesis.by) != (this.active, this.by):
+    end = ended.minimum.simulated if ended and ended.problem is problem else None
+    if ended is None or end is None or (ended.active, ended.hypothesis.by) != (this.active, this.by):
         return None
-    return ended.minimum.normal if np.array_equal(ended.vector, this.vector) else None
+    return end.normal if np.array_equal(ended.hypothesis.with_values(end.values), this.vector) else None
 
 
 def fit_nominal(problem: Problem) -> Fit:

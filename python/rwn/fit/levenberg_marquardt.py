@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,13 @@ class FitStatus(Enum):
     DIVERGED = "The simulation diverged at the starting values: check signs and units of the model."
 
 
+class Simulated(NamedTuple):
+    """The normal equations at a point."""
+
+    values: Array  # (p,) in SI
+    normal: NormalEquations
+
+
 @dataclass(frozen=True, kw_only=True)
 class Minimum:
     """Where a fit ended."""
@@ -44,7 +52,7 @@ class Minimum:
     status: FitStatus
     iterations: int
     damping: float = DAMPING  # of the last step, or that the next one wants
-    normal: NormalEquations | None = None  # at `values`; None: not known there
+    simulated: Simulated | None = None  # the end, as it was simulated with derivatives; None: without any
 
 
 def minimise(
@@ -102,7 +110,7 @@ def minimise(
                 status = FitStatus.STALLED
                 break
     end = _minimum(search, z, normal, chi2, cost, first, status, count, damping)
-    return replace(end, normal=normal if exact else None)
+    return replace(end, simulated=Simulated(end.values, normal) if exact else None)
 
 
 def _relieved(

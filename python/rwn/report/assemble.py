@@ -115,7 +115,6 @@ def assemble(
     )
 
 
-
 def _location(
     equation: str, inputs: Sequence[UnknownInputs], depends: Sequence[Law], model: Model, *, shaft: ShaftAlone | None,
     units: Units,
@@ -128,6 +127,7 @@ def _location(
         for in_words in (located, located_briefly)
     )
     return Location(equation=equation, regions=where, description=place, briefly=briefly)
+
 
 def _widening(decision: Decision) -> Widening:
     """Of the parameters of what is stated: what is left of the mismatch may bias them."""
