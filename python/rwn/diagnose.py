@@ -92,8 +92,10 @@ def diagnose(
         say("correcting the model", 0.9)
         correction = correct(decision, unseen.runs, found.model, seed=seed)
         say("drawing", 0.95)
-        elapsed, units = time.perf_counter() - began, fitted[0].units
-        made = assemble(correction, found.faults, found.model, unseen.runs, units=units, seed=seed, elapsed=elapsed)
+        elapsed = time.perf_counter() - began
+        made = assemble(
+            correction, found.faults, found.model, unseen.runs, units=fitted[0].units, seed=seed, elapsed=elapsed
+        )  # fmt: skip
     findings = (*seen_in_fitted, *held, *held_back, *found.findings, *seen_in_judged, *common, *unseen.findings(found))
     layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
     corrected = replace(made.corrected, recording=layout)
