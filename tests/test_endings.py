@@ -53,12 +53,12 @@ def _stopped_and_reworded() -> None:
     ],
 )
 def test_a_command_ends_with_its_code_and_one_line(
-    command: Callable[[], Any], code: int, said: str, capsys: pytest.CaptureFixture[str]
+    command: Callable[[], Any], code: int, said: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit) as end:
         run(command)
     assert end.value.code == code
-    error = capsys.readouterr().err
+    error = capfd.readouterr().err
     assert error.startswith(said)
     assert error.count("\n") == bool(said)
 
@@ -90,6 +90,21 @@ run(deaf)
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=30, check=False)
     assert (done.returncode, done.stderr) == (STOPPED, "rwn: stopped\n")
+
+
+@pytest.mark.parametrize("rest", ["", "sys.stderr.close(); os.close(2)"])
+def test_ctrl_c_while_a_command_ends_after_ctrl_c_changes_nothing(rest: str) -> None:
+    script = f"""
+import atexit, os, signal, sys
+from rwn.endings import run
+atexit.register(os.kill, os.getpid(), signal.SIGINT)
+def command():
+    {rest or "pass"}
+    os.kill(os.getpid(), signal.SIGINT)
+run(command)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=30, check=False)
+    assert (done.returncode, done.stderr) == (STOPPED, "" if rest else "rwn: stopped\n")
 
 
 LATE = [pytest.param(module, marks=pytest.mark.slow) for module in ("rwn.diagnose", "rwn.cli")]

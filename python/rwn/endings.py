@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import sys
@@ -21,14 +22,17 @@ STOPPED = 130  # exit code after Ctrl-C
 
 
 class _CtrlC:
-    """The first one is an exception, so that what is half written is removed; the second ends the process as it is."""
+    """The first is an exception, so that what is half written is removed; the second ends the process as it is.
+
+    Those after it, and any once the first has been answered, find an end that is under way and change nothing.
+    """
 
     def __init__(self) -> None:
         self.pressed = False
 
     def __call__(self, _number: int, _frame: FrameType | None) -> None:
         if self.pressed:
-            _say_stopped()
+            _stopped()
             os._exit(STOPPED)
         self.pressed = True
         raise KeyboardInterrupt
@@ -58,15 +62,18 @@ def run(command: Callable[[], Any]) -> NoReturn:
             _refuse(error)
         status = STOPPED
     if status == STOPPED:
-        ctrl_c.pressed = True
-        _say_stopped()
+        _stopped()
         if threading.active_count() > 1:
             os._exit(STOPPED)  # what still computes in threads would be waited for
     sys.exit(status if isinstance(status, int) else 0)
 
 
-def _say_stopped() -> None:
-    print("rwn: stopped", file=sys.stderr, flush=True)
+def _stopped() -> None:
+    """Says so, once: past the streams of Python, which may be in the middle of a line when a signal comes."""
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with contextlib.suppress(OSError):  # closed by who started it
+        os.write(2, b"rwn: stopped\n")
 
 
 def _refuse(error: Exception) -> NoReturn:

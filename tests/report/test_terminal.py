@@ -116,7 +116,7 @@ def test_the_time_that_is_left_is_that_of_what_is_done_once_more(monkeypatch: py
         monkeypatch.setattr(progress._bar, "update", lambda *_, left, **__: said.append(left))
         for clock[0], fraction in ((100.0, 0.85), (100.0, 0.0), (105.0, 0.1)):
             progress("searching", fraction)
-    assert said == ["about 18 s left", "", "about 45 s left"]
+    assert said == ["about 18 s left", "", "about 45 s left of this search"]
 
 
 def test_a_terminal_sees_a_bar_that_vanishes() -> None:

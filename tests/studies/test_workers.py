@@ -62,6 +62,24 @@ def test_workers_end_with_a_killed_parent(tmp_path: Path, by: signal.Signals) ->
             os.kill(pid, signal.SIGKILL)
 
 
+def test_the_second_ctrl_c_leaves_semaphores_that_go_without_a_word() -> None:
+    script = """
+import os, signal
+from rwn.endings import run
+from rwn.studies.trials.workers import workers
+def command():
+    with workers(1):
+        for _ in range(2):
+            try:
+                os.kill(os.getpid(), signal.SIGINT)
+            except KeyboardInterrupt:
+                pass
+run(command)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (130, "rwn: stopped\n")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("wait", [0.05, 1.0])  # while its workers start, and while they work
 @pytest.mark.parametrize("command", [("trials", "make", "--seed", "7", "--count", "50"), ("thesis", "run", "--all")])

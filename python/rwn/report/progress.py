@@ -36,6 +36,8 @@ class Progress:
             stage = f"search {self._search}: {stage}"
         if self._bar is not None and self._task is not None:
             left = remaining(time.monotonic() - self._began, fraction)
+            if left and self._search > 1:
+                left += " of this search"
             self._bar.update(self._task, completed=fraction, description=stage, left=left)
         elif stage != self._stage:
             self._stream.write(f"{100 * fraction:3.0f} %  {stage}\n")

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from multiprocessing import active_children, parent_process
+from multiprocessing import active_children, parent_process, resource_tracker
 from multiprocessing.connection import wait
 from multiprocessing.context import SpawnContext, SpawnProcess
 
@@ -31,6 +32,7 @@ class _Spawn(SpawnContext):
 @contextmanager
 def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     """A pool of `jobs` fresh processes; an error or Ctrl-C in the block ends them at once, what they do is lost."""
+    _start_the_tracker()
     before = set(active_children())
     pool = ProcessPoolExecutor(max_workers=jobs, mp_context=_Spawn(), initializer=_end_with_the_parent)
     try:
@@ -41,6 +43,16 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
         pool.shutdown(cancel_futures=True)
         raise
     pool.shutdown()
+
+
+def _start_the_tracker() -> None:
+    """The process that removes the semaphores of pools: where a second Ctrl-C left some, it does so without a warning."""
+    quiet = "ignore:resource_tracker"
+    sys.warnoptions.append(quiet)  # goes to processes that start as an option of Python
+    try:
+        resource_tracker.ensure_running()
+    finally:
+        sys.warnoptions.remove(quiet)
 
 
 def _end_with_the_parent() -> None:
