@@ -46,7 +46,7 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
 
 
 def _start_the_tracker() -> None:
-    """The process that removes the semaphores of pools: where a second Ctrl-C left some, it does so without a warning."""
+    """The process that unlinks semaphores: where a second Ctrl-C left some, it removes them without a warning."""
     quiet = "ignore:resource_tracker"
     sys.warnoptions.append(quiet)  # goes to processes that start as an option of Python
     try:
