@@ -1,6 +1,7 @@
 // Forward-mode dual numbers: a value and its derivatives by N parameters, so that one set of equations gives both.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -111,6 +112,9 @@ struct Slopes<0, Isa> {
 template <int N, class Isa>
 struct Dual {
   using Value = Dual<0, Isa>;
+  template <int M>
+  using By = Dual<M, Isa>;  // by as many other parameters
+  static constexpr int derivatives = N;
 
   [[no_unique_address]] Slopes<N, Isa> d{};
   double v = 0.0;
@@ -128,6 +132,14 @@ struct Dual {
   RWN_INLINE Dual chain(double f, double slope) const {
     Dual y(f);
     y.d = slope * d;
+    return y;
+  }
+
+  /// The same number by the parameters of `inner`, the k-th of which this one's k-th derivative is by.
+  template <int M>
+  RWN_INLINE Dual<M, Isa> chain(const std::array<Dual<M, Isa>, static_cast<std::size_t>(N)>& inner) const {
+    Dual<M, Isa> y(v);
+    for (std::size_t k = 0; k < inner.size(); ++k) y.d += d[static_cast<int>(k)] * inner[k].d;
     return y;
   }
 

@@ -9,6 +9,7 @@
 #include "rwn/numerics/flow.hpp"
 #include "rwn/numerics/room.hpp"
 #include "rwn/simulate/step_counts.hpp"
+#include "rwn/simulate/step_matrices.hpp"
 
 namespace rwn {
 
@@ -33,24 +34,20 @@ class Operators {
     double fastest = 0.0;  // bound on the rates of its solutions
   };
 
-  /// What moves a state under constant terms, in scalar T (S, or values alone): e^{Ah}, h phi1, h^2 phi2.
   template <class T>
-  struct LinearStep {
-    SmallMatrix<T, n> e{}, p1{}, p2{};
-  };
+  using LinearStep = LinearMatrices<T, n>;
 
   /// In scalar T: S, or values alone.
   template <class T>
-  struct Step : LinearStep<T> {  // p2 of linear steps only
+  struct Step : StepMatrices<T, n> {
     double h = -1.0;
     Regime regime{};
-    SmallMatrix<T, n> eh{}, p1h{}, f1{}, f2{}, f3{};  // half step and Cox-Matthews weights (nonlinear steps only)
 
     /// x after half the step with f.
     Vector half(const Vector& x, const Vector& f) const {
       SmallVector<T, n> y{};
-      add_product<T, n>(y, eh, in<T>(x));
-      add_product<T, n>(y, p1h, in<T>(f));
+      add_product<T, n>(y, this->eh, in<T>(x));
+      add_product<T, n>(y, this->p1h, in<T>(f));
       return in<S>(y);
     }
 
@@ -58,9 +55,9 @@ class Operators {
     Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
       SmallVector<T, n> y{};
       add_product<T, n>(y, this->e, in<T>(x));
-      add_product<T, n>(y, f1, in<T>(f));
-      add_product<T, n>(y, f2, in<T>(middle));
-      add_product<T, n>(y, f3, in<T>(last));
+      add_product<T, n>(y, this->f1, in<T>(f));
+      add_product<T, n>(y, this->f2, in<T>(middle));
+      add_product<T, n>(y, this->f3, in<T>(last));
       return in<S>(y);
     }
   };
@@ -176,30 +173,11 @@ class Operators {
   }
 
   template <class T>
-  static SmallMatrix<T, n> scaled(SmallMatrix<T, n> a, double h) {
-    for (T& entry : a) entry *= h;
-    return a;
-  }
-
-  template <class T>
   void make(Step<T>& o, double h, const Regime& regime) {
-    const SmallMatrix<T, n> a = as<T>(system(regime).a);
-    (std::is_same_v<T, S> ? counts.matrices : counts.matrices_of_values) += equations_.varies() ? 2 : 1;
-    const PhiFunctions<T, n> f = phi_functions<T, n>(scaled(a, h));
+    ++(std::is_same_v<T, S> ? counts.matrices : counts.matrices_of_values);
     o.h = h;
     o.regime = regime;
-    o.e = f.p0;
-    o.p1 = scaled(f.p1, h);
-    if (!equations_.varies()) {
-      o.p2 = scaled(f.p2, h * h);
-      return;
-    }
-    const PhiFunctions<T, n> half = phi_functions<T, n>(scaled(a, 0.5 * h));
-    o.eh = half.p0;
-    o.p1h = scaled(half.p1, 0.5 * h);
-    o.f1 = scaled(combine<T, n>(1.0, combine<T, n>(1.0, f.p1, -3.0, f.p2), 4.0, f.p3), h);
-    o.f2 = scaled(combine<T, n>(2.0, f.p2, -4.0, f.p3), h);
-    o.f3 = scaled(combine<T, n>(-1.0, f.p2, 4.0, f.p3), h);
+    make_matrices<T, n>(o, as<T>(system(regime).a), h, equations_.varies());
   }
 
   /// By Lagrange's polynomial through six lengths of a grid, whose spacing is exact to 1e-9.
