@@ -101,3 +101,18 @@ def test_what_may_as_well_be_absent_is_not_stated(
     for e in found.effects:
         kept = 1.0 if e.name in stated else ACTS / 0.9
         assert (e.together, e.probability) == (pytest.approx(0.9 * kept), pytest.approx(0.6 * kept))
+
+
+def test_intervals_go_by_what_the_stated_effects_leave(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The leading explanation may hold effects that are not stated, and leaves less."""
+    chosen: Any = SimpleNamespace(fit=None, final="with the stated effects alone")
+    ranking: Any = SimpleNamespace(problem=SimpleNamespace(whole=None), weighted="recordings", counted="of all of them")
+    fakes: dict[str, Any] = {
+        "account": lambda *_: None, "_stated": lambda ranking, found: (ranking, found, chosen), "moves": lambda _: True,
+        "proved": lambda *_, **__: (), "remainder": lambda *_: SimpleNamespace(signals=()),
+        "verdict_of": lambda *_: "missing-physics", "statistics": lambda problem, this: (problem, this),
+    }  # fmt: skip
+    for name, fake in fakes.items():
+        monkeypatch.setattr(decision, name, fake)
+    found = decision.decide(ranking, (), None, seed=0)  # type: ignore[arg-type]
+    assert found.left == ("recordings", "with the stated effects alone")

@@ -11,7 +11,7 @@ import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.intervals import Estimate, Widening, estimates
+from rwn.fit.intervals import AGREEMENT, Estimate, Widening, deviations, estimates
 from rwn.fit.preparation import prepare
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
@@ -44,7 +44,7 @@ def test_a_doubt_widens_what_nobody_declared_and_no_interval_beyond_the_data_she
 ) -> None:
     this, left = rubbing
     sure = estimates(this, left)
-    doubted = estimates(this, left, widening=Widening(birge=3.0, bias=0.3))
+    doubted = estimates(this, left, widening=Widening(birge=2000.0))
     assert _width(doubted["coulomb-friction.coulomb_torque"]) > 1.0
     for name, std in KNOWN_TO.items():
         declared = MOTOR[name] * np.exp(np.array([-1.96, 1.96]) * std)
@@ -53,8 +53,15 @@ def test_a_doubt_widens_what_nobody_declared_and_no_interval_beyond_the_data_she
         assert most == pytest.approx(max(declared[1], high))
 
 
-def test_a_small_doubt_is_added_to_the_noise(rubbing: tuple[Fit, Statistics]) -> None:
+def test_what_is_not_explained_moves_a_value_in_proportion_to_its_noise(rubbing: tuple[Fit, Statistics]) -> None:
+    """Half of the square is no noise: 1 + 6^2 / 2 times the variance of each value, and none where all is noise."""
     this, left = rubbing
-    widths = [_width(estimates(this, left, widening=Widening(bias=b))["resistance"]) for b in (0.0, 0.005)]
-    bias = 2.0 * 1.96 * 0.005
-    assert widths[1] == pytest.approx(np.hypot(widths[0], bias), rel=0.01)
+    name, wide = "coulomb-friction.coulomb_torque", Widening(misfit_factor=6.0)
+    halved = replace(left, variance=2.0, structured=("speed",))
+    k = [u.name for u in this.hypothesis.unknowns].index(name)
+    noise = float(deviations(this, halved)[k] / this.minimum.values[k])
+    expected = 2.0 * 1.96 * np.hypot(np.sqrt(19.0) * noise, AGREEMENT)
+    assert _width(estimates(this, halved, widening=wide)[name]) == pytest.approx(expected, rel=1e-6)
+    quiet = replace(left, structured=())
+    assert estimates(this, quiet, widening=wide) == estimates(this, quiet)
+

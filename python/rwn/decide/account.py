@@ -15,7 +15,7 @@ from rwn.decide.elaboration import elaborated
 from rwn.decide.evidence import CrossValidation, Evidence
 from rwn.decide.witness import contradicted
 from rwn.fit.fit import Fit
-from rwn.fit.residuals import LEVEL, structured, variance
+from rwn.fit.residuals import LEVEL, misfit, structured, variance
 from rwn.model.model import Model
 from rwn.name.backward import family
 from rwn.name.ranking import Ranking
@@ -67,6 +67,11 @@ class Remainder:
     share: float = 0.0  # of the removable squared error
     error: float = 1.0  # mean squared error, in units of the noise
     signals: tuple[str, ...] = ()  # in which it has structure: white noise has it in one of 100 such tests
+
+    @property
+    def misfit(self) -> float:
+        """Share of that error that is no noise."""
+        return misfit(self.error, self.signals)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -34,7 +34,8 @@ class Decision:
     ranking: Ranking
     account: Account
     chosen: RankedFit  # the effects that are stated together, or the nominal model
-    remainder: Remainder  # what it leaves
+    left: Statistics  # what it leaves, which its intervals go by
+    remainder: Remainder  # the same, as it is said
     verdict: Verdict
     rows: tuple[HeldoutRow, ...]
     other: Place | None = None  # where a law without a name is seen in what is left
@@ -52,7 +53,8 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
     curve = curve_beside(ranking.problem, chosen.fit, model) if left.signals else None
     other = curve.place if curve is not None and curve.is_a_law else None
     return Decision(
-        ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other,
+        ranking=ranking, account=found, chosen=chosen, left=statistics(ranking.weighted, chosen.final), remainder=left,
+        verdict=verdict, rows=rows, other=other,
         shaft=shaft_alone(chosen.final, ranking.problem, model) if verdict == "unexplained" else None,
     )  # fmt: skip
 

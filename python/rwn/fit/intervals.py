@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,12 +47,24 @@ def covariance(this: Fit, left: Statistics) -> Array:
     return result
 
 
+class Left(Protocol):
+    """What a fit leaves, as far as intervals go by it."""
+
+    @property
+    def misfit(self) -> float:
+        """Share of its square that is no noise."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Widening:
     """What makes the values of a fit less sure than its noise."""
 
     birge: float = 1.0  # how much farther apart than their deviations values lie that were fitted to parts
-    bias: float = 0.0  # relative standard deviation of the bias by what the fit does not explain
+    misfit_factor: float = 0.0  # how many times as far as noise of its size what the fit does not explain moves them
+
+    def factor(self, left: Left) -> float:
+        """Of the deviations of a fit that leaves so much."""
+        return self.birge * math.hypot(1.0, self.misfit_factor * math.sqrt(left.misfit))
 
 
 NO_WIDENING = Widening()
@@ -64,8 +77,8 @@ def estimates(this: Fit, left: Statistics, *, widening: Widening = NO_WIDENING) 
     """
     seen = np.diag(this.minimum.information) > 0.0
     noise = deviations(this, left)
-    sure = np.hypot(noise, _systematic(this, 0.0))
-    doubted = np.hypot(widening.birge * noise, _systematic(this, widening.bias))
+    sure = np.hypot(noise, _systematic(this))
+    doubted = np.hypot(widening.factor(left) * noise, _systematic(this))
     found = {}
     for k, (u, fitted) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):
         if u.nuisance or not seen[k]:
@@ -91,12 +104,8 @@ def _interval(u: Unknown, value: float, std: float) -> tuple[float, float]:
     return max(value - HALF_WIDTH * std, u.lower), min(value + HALF_WIDTH * std, u.upper)
 
 
-def _systematic(this: Fit, bias: float) -> Array:
-    """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians.
-
-    `bias`: what is added to that part, in quadrature, but to no number of periods: these add up along the way, where
-    what is not explained moves the phase but once.
-    """
+def _systematic(this: Fit) -> Array:
+    """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians."""
     known = this.hypothesis.table
     of_effects = {f"{name}.{p.name}": p for name in this.hypothesis.effects for p in known[name].every}
     contacts = nonsmooth_unknowns(this.hypothesis)
@@ -104,6 +113,5 @@ def _systematic(this: Fit, bias: float) -> Array:
     for k, (u, value) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):
         p = of_effects.get(u.name)
         part = IDEALISED if k in contacts else AGREEMENT
-        part = part if p and p.order else np.hypot(part, bias)
         parts.append(part * (1.0 if p and p.cyclic else abs(value)))
     return np.array(parts)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
 from types import MappingProxyType
@@ -50,13 +50,22 @@ class Statistics:
         return self.count / self.correlation_time
 
     @property
+    def misfit(self) -> float:
+        """Share of its square that is no noise but what the model lacks."""
+        return misfit(self.variance, self.structured)
+
+    @property
     def most_independent(self) -> float:
         """How many samples it may count for, however long the recordings: a wrong model is wrong systematically.
 
         What is left above the noise is misfit, and has few independent samples; the noise beside it has more.
         """
-        misfit = 0.0 if self.at_the_floor else 1.0 - 1.0 / max(self.variance, 1.0)
-        return 1.0 / ((1.0 - misfit) / MOST_SAMPLES + misfit / MISSPECIFIED)
+        return 1.0 / ((1.0 - self.misfit) / MOST_SAMPLES + self.misfit / MISSPECIFIED)
+
+
+def misfit(variance: float, structured: Collection[str]) -> float:
+    """Share of a mean squared error, in units of the noise, that is no noise; 0 without structure, or of little."""
+    return 1.0 - 1.0 / variance if structured and variance >= NEGLIGIBLE else 0.0
 
 
 def correlation_time(x: Array) -> float:

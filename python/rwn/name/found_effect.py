@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rwn.fit.intervals import NO_WIDENING, Estimate, Widening, estimates
+from rwn.fit.residuals import Statistics
 from rwn.model.drives.drive import Drive
 from rwn.model.vocabulary import Effect
 from rwn.name.ranking import Ranking
@@ -32,11 +33,15 @@ class FoundEffect:
 
 
 def found_effects(
-    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float], *, widening: Widening = NO_WIDENING
-) -> tuple[FoundEffect, ...]:
-    """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts)."""
+    ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float], left: Statistics, *,
+    widening: Widening = NO_WIDENING,
+) -> tuple[FoundEffect, ...]:  # fmt: skip
+    """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts).
+
+    `left`: what it leaves.
+    """
     final = chosen.final
-    numbers, known = estimates(final, ranking.counted, widening=widening), final.hypothesis.table
+    numbers, known = estimates(final, left, widening=widening), final.hypothesis.table
     drive = ranking.problem.drive
     numbers = {name: replace(e, unit=_unit(name, e.unit, drive, known)) for name, e in numbers.items()}
     rows = []

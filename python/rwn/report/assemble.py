@@ -70,7 +70,7 @@ def assemble(
     named = decision.verdict == "missing-physics"
     stated, wide = decision.account.stated, _widening(decision)
     sure = {e.name: e.probability for e in stated}
-    physics = found_effects(ranking, chosen, sure, widening=wide) if named else ()
+    physics = found_effects(ranking, chosen, sure, decision.left, widening=wide) if named else ()
     effects = (*said.faults, *physics, *((said.coarse,) if said.coarse else ()))
     alternatives = _alternatives(ranking, chosen)
     equation = effects[0].equation if effects else ""
@@ -80,7 +80,7 @@ def assemble(
     torque_unknown = said.verdict != "adequate" and not model.drive.coefficients and not winding
     depends = laws(problem, nominal, inputs, linear=model.linear) if torque_unknown else ()
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
-    filters = fitted_filters(chosen.final, ranking.counted, ranking.problem.filters)
+    filters = fitted_filters(chosen.final, decision.left, ranking.problem.filters)
     shown = correction.by_free_run or chosen
     drawn = figures.plots(
         ranking, shown, correction.final, heldout, inputs, depends, correction.network, linear=model.linear
@@ -94,7 +94,7 @@ def assemble(
         explanation=_explanation(decision),
         alternatives=alternatives,
         location=_location(equation, inputs, depends, model, shaft=decision.shaft, units=units),
-        nominal_fit=nominal_fit(ranking, chosen, model, widening=wide),
+        nominal_fit=nominal_fit(ranking, chosen, decision.left, model, widening=wide),
         heldout=rows,
         curves=drawn,
         sensor_filters=filters,
@@ -111,7 +111,7 @@ def assemble(
         elapsed=elapsed,
         stand_in=correction.stands_in,
         added=tuple(name for name in correction.final.added if name in correction.model.effects),
-        corrected=with_uncertainty(correction.model, estimates(known, ranking.counted, widening=wide)),
+        corrected=with_uncertainty(correction.model, estimates(known, decision.left, widening=wide)),
     )
 
 
@@ -130,10 +130,8 @@ def _location(
 
 
 def _widening(decision: Decision) -> Widening:
-    """Of the parameters of what is stated: what is left of the mismatch may bias them."""
-    left = decision.remainder
-    share = float(np.clip(left.share, 0.0, 1.0)) if left.signals else 0.0
-    return Widening(birge=decision.account.birge, bias=calibration().bias * float(np.sqrt(share)))
+    """Of the parameters of what is stated: what is left of the mismatch has moved them."""
+    return Widening(birge=decision.account.birge, misfit_factor=calibration().misfit_factor)
 
 
 def _unknown_inputs(this: Fit, problem: Problem) -> list[UnknownInputs]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from rwn.fit.intervals import HALF_WIDTH, NO_WIDENING, Estimate, Widening, estimates
 from rwn.fit.prior_weight import BELIEVABLE
+from rwn.fit.residuals import Statistics
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
 from rwn.name.weights import RankedFit
@@ -73,10 +74,12 @@ class NominalFit:
     advice: str = ""
 
 
-def nominal_fit(ranking: Ranking, chosen: RankedFit, model: Model, *, widening: Widening = NO_WIDENING) -> NominalFit:
-    """Nominal parameters: as given, refitted alone, and together with the found effects, with intervals."""
+def nominal_fit(
+    ranking: Ranking, chosen: RankedFit, left: Statistics, model: Model, *, widening: Widening = NO_WIDENING
+) -> NominalFit:
+    """Nominal parameters: as given, refitted alone, and together with the found effects, which leave `left`."""
     alone = estimates(ranking.nominal_fit, ranking.before)
-    together = estimates(chosen.final, ranking.counted, widening=widening) if chosen.added else {}
+    together = estimates(chosen.final, left, widening=widening) if chosen.added else {}
     rows = {}
     given = dict(model.parameters) or dict(ranking.problem.prior.free)
     of_effects = model.effect_values

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rwn.decide.account import Remainder
 from rwn.decide.calibration import FEATURES, Calibration, calibration, features
 from rwn.errors import InputError
-from rwn.fit.intervals import HALF_WIDTH, Estimate
+from rwn.fit.intervals import Estimate, Widening
 from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.bench_trials.also_true import also_true
 from rwn.studies.trials.damaged import reading
@@ -91,52 +91,62 @@ def _true(answer: Mapping[str, Any]) -> set[str]:
     return set().union(*map(known_as, kinds), answer.get("equivalent", ()), beside)
 
 
-def bias_of(folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> float:
-    """Relative deviation of a parameter over the root of the share of the mismatch that a right name leaves.
+def misfit_of(folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> float:
+    """How many times as far as noise of its size what a right name does not explain moves a parameter.
 
-    Such that 95 % of all intervals cover; 0 where there are none. `check`: names of sets that do not count in it.
+    Such that 95 % of all intervals cover, where every trial counts alike: the parameters of one err together. 0 where
+    there are none. `check`: names of sets that do not count in it.
     """
-    needed = [
-        _bias_needed(
-            estimate, nearest_turn(name, float(answered["value"]), estimate.value), diagnosis.remainder, _bias_in(place)
-        )
-        for answer, diagnosis, place in _diagnosed(folders, results, check)
-        for effect in diagnosis.effects
-        for true in (e.get("parameters", {}) for e in answer["effects"] if e["name"] == effect.name)
-        for name, estimate in effect.parameters.items()
-        if estimate.interval and estimate.value and (answered := true.get(name)) and answered["value"]
-    ]
-    return float(np.quantile(needed, COVERED, method="higher")) if needed else 0.0
+    needed: list[float] = []
+    weights: list[float] = []
+    for answer, diagnosis, place in _diagnosed(folders, results, check):
+        known = [
+            (estimate, nearest_turn(name, float(answered["value"]), estimate.value))
+            for effect in diagnosis.effects
+            for true in (e.get("parameters", {}) for e in answer["effects"] if e["name"] == effect.name)
+            for name, estimate in effect.parameters.items()
+            if estimate.interval and estimate.value and (answered := true.get(name)) and answered["value"]
+        ]
+        needed += [_misfit_needed(e, t, diagnosis.remainder, misfit_factor=_misfit_in(place)) for e, t in known]
+        weights += [1.0 / max(len(known), 1)] * len(known)
+    if not needed:
+        return 0.0
+    order = np.argsort(needed)
+    covered = np.cumsum(np.array(weights)[order]) / np.sum(weights)
+    return float(np.array(needed)[order][np.searchsorted(covered, COVERED - 1e-12)])
 
 
-def _bias_in(place: Path) -> float:
-    """The bias that the intervals of a diagnosis count with. Raises InputError where timing.json does not say it."""
+def _misfit_in(place: Path) -> float:
+    """The misfit factor that the intervals of a diagnosis count with.
+
+    Raises InputError where timing.json does not say it.
+    """
     timing = timing_of(place)
-    if timing.bias is None:
+    if timing.misfit_factor is None:
         raise InputError(
-            "nothing says which bias these intervals count with",
+            "nothing says which misfit factor these intervals count with",
             where=place / TIMING,
-            expected=f'a "bias" as `rwn trials run` writes it ({calibration().bias:.3g} with the calibration of today)',
-            fix="diagnose the set anew, or leave it out of the bias by --check",
+            expected=f'a "misfit_factor" as `rwn trials run` writes it ({calibration().misfit_factor:.3g} today)',
+            fix="diagnose the set anew, or leave it out of the misfit factor by --check",
         )
-    return timing.bias
+    return timing.misfit_factor
 
 
-def _bias_needed(estimate: Estimate, true: float, left: Remainder, bias: float) -> float:
-    """What an interval needs to cover the truth, over the root of what is left; as a logarithm where that is less.
+def _misfit_needed(estimate: Estimate, true: float, left: Remainder, *, misfit_factor: float) -> float:
+    """The misfit factor with which an interval ends at the truth, as a logarithm where that is nearer; 0 within noise.
 
-    `bias`: what the interval counts with, which is taken out of it.
+    `misfit_factor`: what the interval counts with, which is taken out of it.
     """
     low, high = estimate.interval or (np.nan, np.nan)
-    root = float(np.sqrt(np.clip(left.share, 0.0, 1.0))) if left.signals else 0.0
     ratio = true / estimate.value
-    error = min(abs(ratio - 1.0), abs(np.log(ratio)) if ratio > 0.0 else np.inf) / HALF_WIDTH
-    noise = ((high - low) / (2.0 * HALF_WIDTH * estimate.value)) ** 2 - (bias * root) ** 2
-    more = float(np.sqrt(max(error**2 - noise, 0.0)))
-    return more / root if root else (np.inf if more else 0.0)
+    error = min(abs(ratio - 1.0), abs(np.log(ratio)) if ratio > 0.0 else np.inf)
+    noise = (high - low) / (2.0 * abs(estimate.value)) / Widening(misfit_factor=misfit_factor).factor(left)
+    if error <= noise:
+        return 0.0
+    return float(np.sqrt(((error / noise) ** 2 - 1.0) / left.misfit)) if left.misfit else np.inf
 
 
-def calibrated(names: Names, *, what: str, bias: float = 0.0) -> Calibrated:
+def calibrated(names: Names, *, what: str, misfit_factor: float = 0.0) -> Calibrated:
     """The calibration by all names; its reliability, and the prior of its weights, by those of trials left out.
 
     Raises ValueError where there are too few names to learn from.
@@ -151,7 +161,7 @@ def calibrated(names: Names, *, what: str, bias: float = 0.0) -> Calibrated:
     edges = np.array([0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 + 1e-9])
     bins = [(a, b, (unseen >= a) & (unseen < b)) for a, b in pairwise(edges)]
     return Calibrated(
-        calibration=replace(_fitted(names.features, names.acts, what, ridge), bias=bias),
+        calibration=replace(_fitted(names.features, names.acts, what, ridge), misfit_factor=misfit_factor),
         names=names.acts.size,
         trials=int(np.unique(names.trial).size),
         acting=int(names.acts.sum()),
@@ -172,10 +182,11 @@ def _left_out(names: Names, fold: NDArray[np.int64], ridge: float) -> Array:
     return unseen
 
 
-def with_bias(bias: float, what: str) -> Calibration:
-    """The calibration that comes with rwn, with another bias. `what`: it was fitted on."""
+def with_misfit(misfit_factor: float, what: str) -> Calibration:
+    """The calibration that comes with rwn, with another misfit factor. `what`: it was fitted on."""
     now = calibration()
-    return replace(now, bias=bias, fitted_on=f"{now.fitted_on.split('; bias by')[0]}; bias by {what}")
+    before = now.fitted_on.split("; misfit factor by")[0]
+    return replace(now, misfit_factor=misfit_factor, fitted_on=f"{before}; misfit factor by {what}")
 
 
 def write(found: Calibration, path: Path) -> None:
@@ -186,12 +197,12 @@ def write(found: Calibration, path: Path) -> None:
 def origin(names: Names, folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> str:
     """What a calibration was fitted on: names, trials, sets and the codes that diagnosed them.
 
-    `check`: names of the sets that do not count in its bias.
+    `check`: names of the sets that do not count in its misfit factor.
     """
     by = dict.fromkeys(code for f in folders for code in codes(f, results_of(f, folders, results)))
-    bias = f"; bias without {', '.join(check)}, which check it" if check else ""
+    checked = f"; misfit factor without {', '.join(check)}, which check it" if check else ""
     sets, trials = ", ".join(f.name for f in folders), np.unique(names.trial).size
-    return f"{names.acts.size} names of {trials} trials: {sets}, diagnosed by {' and '.join(by)}{bias}"
+    return f"{names.acts.size} names of {trials} trials: {sets}, diagnosed by {' and '.join(by)}{checked}"
 
 
 def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:
@@ -215,6 +226,11 @@ def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:
     )  # fmt: skip
 
 
+def misfit_words(factor: float) -> str:
+    """A misfit factor for people."""
+    return f"misfit factor: what is not explained moves a parameter {factor:.2f} times as far as noise of its size"
+
+
 def words(found: Calibrated) -> str:
     """What was fitted and how good it is, for people."""
     lines = [
@@ -226,6 +242,6 @@ def words(found: Calibrated) -> str:
         ),
         "weight per standard deviation of a feature: "
         + ", ".join(f"{n} {w:+.2f}" for n, w in zip(FEATURES, found.calibration.weights, strict=True)),
-        f"bias of a parameter: {found.calibration.bias:.2f} times the root of the share of the mismatch that is left",
+        misfit_words(found.calibration.misfit_factor),
     ]
     return "\n".join(lines)

@@ -123,15 +123,24 @@ def calibrate(
     results: Annotated[Path | None, typer.Option(help="As for score.")] = None,
     out: Annotated[Path | None, typer.Option(help="Write calibration.json here (default: print alone).")] = None,
     check: Annotated[
-        list[str] | None, typer.Option(help="Name of a set whose intervals check the bias and do not count in it.")
+        list[str] | None, typer.Option(help="Name of a set whose intervals check the misfit factor and count in none.")
     ] = None,
-    bias_alone: Annotated[
-        bool, typer.Option("--bias-alone", help="Fit the bias of intervals anew and keep the probabilities that are.")
+    misfit_alone: Annotated[
+        bool, typer.Option("--misfit-alone", help="Fit the misfit factor anew and keep the probabilities that are.")
     ] = False,
 ) -> None:
     """Fit the probability that an effect acts to the evidence and answers of development trials."""
     from rwn.errors import unrecognised
-    from rwn.studies.trials.calibrate import bias_of, calibrated, names_of, origin, with_bias, words, write
+    from rwn.studies.trials.calibrate import (
+        calibrated,
+        misfit_of,
+        misfit_words,
+        names_of,
+        origin,
+        with_misfit,
+        words,
+        write,
+    )  # fmt: skip
 
     check, known = check or [], [f.name for f in folders]
     for name in check:
@@ -139,11 +148,15 @@ def calibrate(
             raise unrecognised("set", name, known, where="--check")
     names = names_of(folders, results=results)
     what = origin(names, folders, results=results, check=check)
-    bias = bias_of(folders, results=results, check=check)
-    found = calibrated(names, what=what, bias=bias)
+    misfit_factor = misfit_of(folders, results=results, check=check)
+    if misfit_alone:
+        found, said = with_misfit(misfit_factor, what), misfit_words(misfit_factor)
+    else:
+        anew = calibrated(names, what=what, misfit_factor=misfit_factor)
+        found, said = anew.calibration, words(anew)
     if out is not None:
-        write(with_bias(bias, what) if bias_alone else found.calibration, out)
-    typer.echo(words(found))
+        write(found, out)
+    typer.echo(said)
 
 
 def _progress(done: int, count: int, name: str) -> None:
