@@ -174,7 +174,7 @@ class Operators {
 
   template <class T>
   void make(Step<T>& o, double h, const Regime& regime) {
-    ++(std::is_same_v<T, S> ? counts.matrices : counts.matrices_of_values);
+    (std::is_same_v<T, S> ? counts.matrices : counts.matrices_of_values) += equations_.varies() ? 2 : 1;
     o.h = h;
     o.regime = regime;
     make_matrices<T, n>(o, as<T>(system(regime).a), h, equations_.varies());
