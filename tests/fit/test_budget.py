@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import rwn
+from demo_problem import demo_problem
 from made_up_motor import MOTOR, recorded
 from ranked import ranked
 from rwn import _core
@@ -20,17 +20,11 @@ from rwn.fit.problem import Problem
 from rwn.name.screening import screen
 from rwn.parallel import thread_pool
 
-DEMO = Path(rwn.__file__).parent / "demo"
 LATE = ["quadratic-drag", "input-delay"]  # neither is what is missing in the demo
 
 
-def _problem(work: _core.Work | None = None) -> Problem:
-    model = rwn.read_model(DEMO / "model.toml")
-    return prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model, work=work)
-
-
 def _cost(problem: Problem, derivatives: int, name: str = "") -> int:
-    known = _problem()
+    known = demo_problem()
     this = hypothesis(known.prior, (name,) if name else (), known.scales)
     own = problem.metered()
     own.normal(this.vector, this.active, this.by[:derivatives])
@@ -44,7 +38,7 @@ def _spent(share: float) -> _core.Work:
 
 
 def test_a_run_costs_by_its_length_its_derivatives_and_its_equations() -> None:
-    problem = _problem()
+    problem = demo_problem()
     once = _cost(problem, 0)
     assert once == _cost(problem, 0) > 0
     half = replace(problem, runs=tuple(r.until(r.time.size // 2) for r in problem.runs))
@@ -53,7 +47,7 @@ def test_a_run_costs_by_its_length_its_derivatives_and_its_equations() -> None:
 
 
 def test_what_a_step_costs_is_told_from_the_beginning_of_the_recordings() -> None:
-    problem = _problem()
+    problem = demo_problem()
     for name in ("quadratic-drag", "shaft-compliance"):
         this = hypothesis(problem.prior, (name,), problem.scales)
         own = problem.metered()
@@ -65,7 +59,7 @@ def test_what_a_step_costs_is_told_from_the_beginning_of_the_recordings() -> Non
 def test_what_a_search_costs_does_not_depend_on_threads() -> None:
     costs = []
     for jobs in (1, 2):
-        problem = _problem()
+        problem = demo_problem()
         with thread_pool(jobs):
             ranked(problem, LATE)
         costs.append(problem.work.done)
@@ -73,7 +67,7 @@ def test_what_a_search_costs_does_not_depend_on_threads() -> None:
 
 
 def test_a_fit_ends_with_its_share() -> None:
-    problem = _problem()
+    problem = demo_problem()
     this = hypothesis(problem.prior, ("stribeck-friction",), problem.scales)
     whole = fit(problem, this)
     assert whole.minimum.iterations > 3
@@ -105,10 +99,10 @@ def test_something_is_left_however_much_was_spent() -> None:
 
 def test_where_the_budget_is_spent_more_effects_are_tried_beside_the_best_alone() -> None:
     names = [*LATE, "magnetic-saturation"]
-    ranking = ranked(_problem(_spent(0.9)), names)
+    ranking = ranked(demo_problem(_spent(0.9)), names)
     assert ranking.cut_short
     assert len({base for base, _ in ranking.extensions.tried}) == 1
-    whole = ranked(_problem(), names)
+    whole = ranked(demo_problem(), names)
     assert not whole.cut_short
     assert len({base for base, _ in whole.extensions.tried}) == 2
     assert whole.closest.cost <= ranking.closest.cost
@@ -153,5 +147,5 @@ def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_the_search_that_looks_no_further_still_finds_what_is_missing() -> None:
-    problem = _problem(_spent(5.0))
+    problem = demo_problem(_spent(5.0))
     assert screen(problem, fit_nominal(problem), ["coulomb-friction", *LATE])[0].added == ("coulomb-friction",)

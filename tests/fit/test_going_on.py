@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-import rwn
+from demo_problem import demo_problem
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
-
-DEMO = Path(rwn.__file__).parent / "demo"
 
 
 @pytest.fixture(scope="module")
 def problem() -> Problem:
     """The recording of the demo, prepared."""
-    model = rwn.read_model(DEMO / "model.toml")
-    return prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model)
+    return demo_problem()
 
 
 @pytest.fixture(scope="module")

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
-import rwn
+from demo_problem import demo_problem
 from rwn.fit.fit import Fit, fit_nominal
-from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.name.screening import screen
-
-DEMO = Path(rwn.__file__).parent / "demo"
 
 
 @pytest.fixture(scope="module")
 def problem() -> Problem:
     """The recording of the demo, prepared."""
-    model = rwn.read_model(DEMO / "model.toml")
-    return prepare([rwn.read_recording(DEMO / "train.csv", layout=model.recording)], model)
+    return demo_problem()
 
 
 @pytest.fixture(scope="module")
