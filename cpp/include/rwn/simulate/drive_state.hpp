@@ -11,7 +11,7 @@ namespace rwn {
 template <class S, class Drive, int masses>
 struct MovingState {
   static constexpr std::size_t w = Drive::states;                  // place of the motor's speed in x
-  static constexpr std::size_t twist = w + 1, load_speed = w + 2;  // places of what a second mass adds
+  static constexpr std::size_t twist = w + 1, speed_behind = w + 2;  // places of what a second mass adds
   static constexpr int n = static_cast<int>(w) + (masses == 2 ? 3 : 1);
   SmallVector<S, n>
       x{};  // states of the drive's electrical part, speed; twist [1/rate of the joint], speed of the load

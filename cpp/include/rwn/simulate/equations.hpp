@@ -132,7 +132,7 @@ class Equations {
   Vector nonlinear(const Moving& s, const S* memory, const S& start, int level, Terms<S>& t) const {
     put_terms(t, s, memory, start);
     Vector f{};
-    if constexpr (masses == 2) f[State::load_speed] = second_.constant_torque(s) * second_.inverse_load();
+    if constexpr (masses == 2) f[State::speed_behind] = second_.constant_torque(s) * second_.inverse_behind();
     if (!winds_ && value_of(t.inertia) == 0.0 && value_of(t.inertia_slope) == 0.0) {  // torques alone are added
       if constexpr (Drive::states > 0) electrics_.drive(f, input());
       if (second_.drives()) f[driven()] += Torque::given(input()) * inverse_driven();
@@ -161,7 +161,7 @@ class Equations {
     if (stick) f[w] = S(0.0);
     if constexpr (masses == 2) {
       const S torque = second_.constant_torque(s);
-      f[State::load_speed] += torque * second_.inverse_load();
+      f[State::speed_behind] += torque * second_.inverse_behind();
       if (!stick) f[w] -= torque * inverse_inertia_;
     }
     return f;
@@ -230,7 +230,7 @@ class Equations {
   };
 
   /// Place in x of the speed of the mass that the drive turns, and the inverse of its inertia.
-  std::size_t driven() const { return second_.drives() ? State::load_speed : w; }
+  std::size_t driven() const { return second_.drives() ? State::speed_behind : w; }
   const S& inverse_driven() const { return second_.inverse_driven(inverse_inertia_); }
   S drive_torque(const Moving& s, const Terms<S>& t) const { return electrics_.torque(s.x, t.flux, input()); }
 

@@ -22,7 +22,7 @@ class SecondMass {
   using Moving = MovingState<S, Drive, 2>;
   using Matrix = SmallMatrix<S, Moving::n>;
   static constexpr int n = Moving::n;
-  static constexpr std::size_t w = Moving::w, twist = Moving::twist, load_speed = Moving::load_speed;
+  static constexpr std::size_t w = Moving::w, twist = Moving::twist, speed_behind = Moving::speed_behind;
 
   SecondMass() = default;
   SecondMass(const Joint<S>& joint, const Motor<S>& motor)
@@ -30,23 +30,23 @@ class SecondMass {
     const S inverse = 1.0 / first_inertia_ + 1.0 / joint_.inertia_behind;
     rate_ = std::sqrt(std::abs(value_of(joint_.stiffness * inverse)));
     if (!(rate_ > 1.0)) rate_ = 1.0;
-    inverse_load_ = 1.0 / joint_.inertia_behind;
+    inverse_behind_ = 1.0 / joint_.inertia_behind;
     scaled_stiffness_ = joint_.stiffness / rate_;
     preload_ = joint_.stiffness * joint_.half_gap;
   }
 
   bool play() const { return joint_.play; }
   bool drives() const { return joint_.drives; }  // it is the motor
-  bool sound() const { return value_of(inverse_load_) > 0.0; }
+  bool sound() const { return value_of(inverse_behind_) > 0.0; }
 
   /// Of the mass that the drive turns; `first`: of the first one.
-  const S& inverse_driven(const S& first) const { return joint_.drives ? inverse_load_ : first; }
+  const S& inverse_driven(const S& first) const { return joint_.drives ? inverse_behind_ : first; }
   const S& first_inertia() const { return first_inertia_; }  // of the first mass: the load where `drives`
   S first_viscous(const Motor<S>& motor) const { return motor[viscous_friction] - drag_; }
 
-  /// The load starts with the motor, in the middle of the gap.
+  /// It starts with the first mass, in the middle of the gap.
   void begin(Moving& s) const {
-    s.x[load_speed] = s.x[w];
+    s.x[speed_behind] = s.x[w];
     s.contact = joint_.play ? 0.0 : 1.0;
   }
 
@@ -64,11 +64,11 @@ class SecondMass {
 
   /// Part of T that the linear equations leave out.
   S constant_torque(const Moving& s) const { return -s.contact * preload_; }
-  const S& inverse_load() const { return inverse_load_; }
+  const S& inverse_behind() const { return inverse_behind_; }
 
   /// Part of T in the linear equations.
   S spring(const Moving& s) const {
-    return scaled_stiffness_ * s.x[twist] + joint_.damping * (s.x[w] - s.x[load_speed]);
+    return scaled_stiffness_ * s.x[twist] + joint_.damping * (s.x[w] - s.x[speed_behind]);
   }
 
   /// Contact as the twist has it, of a state that has just been set.
@@ -80,16 +80,16 @@ class SecondMass {
 
   /// Twists the joint as this mass asks for where it turns with the first at an acceleration, driven by a torque.
   void carry(Moving& s, double acceleration, const S& driving) const {
-    s.x[load_speed] = s.x[w];
-    const S passed = acceleration / inverse_load_ + drag_ * s.x[w] - driving;
+    s.x[speed_behind] = s.x[w];
+    const S passed = acceleration / inverse_behind_ + drag_ * s.x[w] - driving;
     if (joint_.play) s.contact = value_of(passed) > 0.0 ? 1.0 : -1.0;
     s.x[twist] = (passed + s.contact * preload_) / scaled_stiffness_;
   }
 
-  /// Takes twist and speed of the load over h while the motor's speed goes evenly from `from` to `to` (midpoint rule).
+  /// Takes twist and speed behind over h while the first mass's speed goes evenly from `from` to `to` (midpoint rule).
   void follow(Moving& s, const S& from, const S& to, double h) const {
     const double asked =
-        std::ceil(h * (rate_ + value_of(joint_.damping * (1.0 / first_inertia_ + inverse_load_))) / 0.3);
+        std::ceil(h * (rate_ + value_of(joint_.damping * (1.0 / first_inertia_ + inverse_behind_))) / 0.3);
     const int steps = asked > 1.0 ? static_cast<int>(std::min(asked, most_steps_along)) : 1;
     const Moving end = s;
     for (int k = 0; k < steps; ++k) {
@@ -97,9 +97,9 @@ class SecondMass {
       const auto advance = [&](double share, double length) {
         s.x[w] = from + share * (to - from);
         touch(s);
-        const S twisting = rate_ * (s.x[w] - s.x[load_speed]), rate = load_acceleration(s);
+        const S twisting = rate_ * (s.x[w] - s.x[speed_behind]), rate = acceleration_behind(s);
         s.x[twist] = begin.x[twist] + length * twisting;
-        s.x[load_speed] = begin.x[load_speed] + length * rate;
+        s.x[speed_behind] = begin.x[speed_behind] + length * rate;
       };
       advance((k + 0.0) / steps, 0.5 * h / steps);
       advance((k + 0.5) / steps, h / steps);
@@ -107,22 +107,22 @@ class SecondMass {
     s.x[w] = end.x[w];
   }
 
-  S load_acceleration(const Moving& s) const { return (torque(s) - drag_ * s.x[load_speed]) * inverse_load_; }
+  S acceleration_behind(const Moving& s) const { return (torque(s) - drag_ * s.x[speed_behind]) * inverse_behind_; }
 
   /// Puts the second mass into A, where the motor's own part is.
   void couple(Matrix& a, const Regime& regime) const {
     at(a, twist, w) = S(rate_);
-    at(a, twist, load_speed) = S(-rate_);
-    at(a, load_speed, load_speed) = -(drag_ * inverse_load_);
+    at(a, twist, speed_behind) = S(-rate_);
+    at(a, speed_behind, speed_behind) = -(drag_ * inverse_behind_);
     if (!regime.closed()) return;
-    at(a, load_speed, w) = joint_.damping * inverse_load_;
-    at(a, load_speed, twist) = scaled_stiffness_ * inverse_load_;
-    at(a, load_speed, load_speed) -= at(a, load_speed, w);
+    at(a, speed_behind, w) = joint_.damping * inverse_behind_;
+    at(a, speed_behind, twist) = scaled_stiffness_ * inverse_behind_;
+    at(a, speed_behind, speed_behind) -= at(a, speed_behind, w);
     if (regime.stick()) return;
     const S inverse = 1.0 / first_inertia_;
-    at(a, w, load_speed) = joint_.damping * inverse;
+    at(a, w, speed_behind) = joint_.damping * inverse;
     at(a, w, twist) = -(scaled_stiffness_ * inverse);
-    at(a, w, w) -= at(a, w, load_speed);
+    at(a, w, w) -= at(a, w, speed_behind);
   }
 
   /// Steps over h that are short enough to notice where contact ends or motion reverses; one where the joint hardly
@@ -131,11 +131,11 @@ class SecondMass {
   int step_count(const Moving& s, const Rates& rates, bool dry, double held, double h) const {
     if (s.contact == 0.0 || (!joint_.play && !dry)) return 1;
     const bool stick = dry && s.direction == 0.0;
-    const double inverse = value_of(inverse_load_) + (stick ? 0.0 : 1.0 / value_of(first_inertia_));
+    const double inverse = value_of(inverse_behind_) + (stick ? 0.0 : 1.0 / value_of(first_inertia_));
     const double omega = std::sqrt(value_of(joint_.stiffness) * inverse);
     const double damping = value_of(joint_.damping) * inverse;
-    const double turning = s.contact * (value_of(s.x[w]) - value_of(s.x[load_speed]));
-    const double bending = s.contact * (rates[w] - rates[load_speed]);
+    const double turning = s.contact * (value_of(s.x[w]) - value_of(s.x[speed_behind]));
+    const double bending = s.contact * (rates[w] - rates[speed_behind]);
     // of the swing about where the joint would rest: its acceleration can be no larger than this
     const double swing = std::hypot(bending + damping * turning, omega * turning) * std::hypot(1.0, damping / omega);
     if (!std::isfinite(swing)) return 1;
@@ -154,7 +154,7 @@ class SecondMass {
   static S& at(Matrix& a, std::size_t row, std::size_t column) { return a[row * n + column]; }
 
   Joint<S> joint_{};
-  S first_inertia_{}, drag_{}, inverse_load_{}, scaled_stiffness_{}, preload_{};
+  S first_inertia_{}, drag_{}, inverse_behind_{}, scaled_stiffness_{}, preload_{};
   double rate_ = 1.0;  // unit of the twist in x, so that all of x is of one size
 };
 
