@@ -72,8 +72,8 @@ def _stopped() -> None:
     """Says so, once: past the streams of Python, which may be in the middle of a line when a signal comes."""
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-    with contextlib.suppress(OSError):  # closed by who started it
-        os.write(2, b"rwn: stopped\n")
+    with contextlib.suppress(OSError, ValueError):  # closed, by who started it or since
+        os.write(sys.stderr.fileno(), b"rwn: stopped\n")
 
 
 def _refuse(error: Exception) -> NoReturn:

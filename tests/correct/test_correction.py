@@ -143,7 +143,7 @@ def test_what_a_half_of_the_drive_contradicts_does_not_stand_in(
     )
     leading: Any = SimpleNamespace(added=("a", "b"), final=None)
     decision = Decision(
-        ranking=None, account=Account(effects=effects, leading=leading), chosen=None, left=None, remainder=None,  # type: ignore[arg-type]
+        ranking=None, account=Account(effects=effects, leading=leading), chosen=None, remainder=None,  # type: ignore[arg-type]
         verdict="unexplained", rows=(),
     )  # fmt: skip
     found = _without_a_name(decision, KEPT_BACK, None, seed=0)  # type: ignore[arg-type]

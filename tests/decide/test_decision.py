@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -116,3 +116,5 @@ def test_intervals_go_by_what_the_stated_effects_leave(monkeypatch: pytest.Monke
         monkeypatch.setattr(decision, name, fake)
     found = decision.decide(ranking, (), None, seed=0)  # type: ignore[arg-type]
     assert found.left == ("recordings", "with the stated effects alone")
+    stand_in: Any = SimpleNamespace(final="with what stands in for them")
+    assert replace(found, chosen=stand_in).left == ("recordings", "with what stands in for them")

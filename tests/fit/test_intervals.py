@@ -64,4 +64,3 @@ def test_what_is_not_explained_moves_a_value_in_proportion_to_its_noise(rubbing:
     assert _width(estimates(this, halved, widening=wide)[name]) == pytest.approx(expected, rel=1e-6)
     quiet = replace(left, structured=())
     assert estimates(this, quiet, widening=wide) == estimates(this, quiet)
-

@@ -31,16 +31,21 @@ from rwn.studies.trials.cli import app
 from rwn.studies.trials.grade import nearest_turn
 
 
+@pytest.mark.parametrize("logarithmic", [False, True])
 @pytest.mark.parametrize("misfit_factor", [0.0, 2.0, 7.0])
-def test_the_misfit_factor_needed_does_not_depend_on_the_one_that_intervals_count_with(misfit_factor: float) -> None:
-    """A value 12 % off with 2 % of noise, where three quarters of the error are no noise."""
-    left = Remainder(error=4.0, signals=("speed",))
-    wide = HALF_WIDTH * 2.0 * 0.02 * float(np.hypot(1.0, misfit_factor * np.sqrt(0.75)))
-    estimate = Estimate(value=2.0, unit="A", interval=(2.0 - wide, 2.0 + wide))
-    needed = _misfit_needed(estimate, 2.0 * 1.12, left, misfit_factor=misfit_factor)
-    assert needed == pytest.approx(np.sqrt((np.log(1.12) / (HALF_WIDTH * 0.02)) ** 2 - 1.0) / np.sqrt(0.75))
-    assert _misfit_needed(estimate, 2.02, left, misfit_factor=misfit_factor) == 0.0, "within its noise"
-    assert np.isinf(_misfit_needed(estimate, 20.0, Remainder(), misfit_factor=misfit_factor)), "nothing is left"
+def test_the_misfit_factor_needed_does_not_depend_on_the_one_that_intervals_count_with(
+    misfit_factor: float, logarithmic: bool
+) -> None:
+    """A value that is 12 times its noise off, where three quarters of the error are no noise."""
+    left, noise = Remainder(error=4.0, signals=("speed",)), 0.1
+    half = HALF_WIDTH * noise * float(np.hypot(1.0, misfit_factor * np.sqrt(0.75)))
+    ends = 2.0 * (np.exp([-half, half]) if logarithmic else 1.0 + np.array([-half, half]))
+    estimate = Estimate(value=2.0, unit="A", interval=(float(ends[0]), float(ends[1])))
+    off = 2.0 * (float(np.exp(12.0 * noise)) if logarithmic else 1.0 + 12.0 * noise)
+    needed = _misfit_needed(estimate, off, left, misfit_factor=misfit_factor)
+    assert needed == pytest.approx(np.sqrt((12.0 / HALF_WIDTH) ** 2 - 1.0) / np.sqrt(0.75))
+    assert _misfit_needed(estimate, 2.1, left, misfit_factor=misfit_factor) == 0.0, "within its noise"
+    assert np.isinf(_misfit_needed(estimate, 1e4, Remainder(), misfit_factor=misfit_factor)), "nothing is left"
 
 
 def test_intervals_of_an_unknown_misfit_factor_are_refused(tmp_path: Path) -> None:
@@ -128,6 +133,9 @@ def test_the_command_line_fits_says_and_writes_a_calibration(tmp_path: Path) -> 
     assert kept["fitted_on"].endswith("a, diagnosed by 1234567; misfit factor without a, which check it")
     assert kept["misfit_factor"] == 0.0, "no other set says what it should be"
     assert CliRunner().invoke(app, ["calibrate", str(folder)]).output == done.output
+    alone = CliRunner().invoke(app, ["calibrate", str(folder), "--misfit-alone", "--out", str(written)])
+    assert alone.output.startswith("misfit factor: what is not explained moves a parameter 0.00 times as far")
+    assert json.loads(written.read_text())["weights"] == list(calibration().weights)
     wrong = CliRunner().invoke(app, ["calibrate", str(folder), "--check", "b"])
     assert "unknown set 'b'" in str(wrong.exception)
 
@@ -153,7 +161,7 @@ def test_every_trial_counts_alike_in_the_misfit_factor(tmp_path: Path) -> None:
         out.mkdir(parents=True)
         (trial / "model.toml").touch()
         names, needed = (("gap", "load_inertia", "load_viscous_share"), 9.0) if k == 0 else (("gap",), 1.0)
-        true = {"name": "backlash", "parameters": {name: {"value": float(np.exp(0.1))} for name in names}}
+        true = {"name": "backlash", "parameters": {name: {"value": 1.1} for name in names}}
         (trial / "answer.json").write_text(json.dumps({"case": trial.name, "effects": [true], "background": {}}))
         half = 0.1 / float(np.hypot(1.0, needed * np.sqrt(0.75)))
         estimate = Estimate(value=1.0, unit="rad", interval=(1.0 - half, 1.0 + half))

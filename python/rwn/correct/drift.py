@@ -46,8 +46,7 @@ def free_of_drift(decision: Decision, heldout: Sequence[Run], *, seed: int) -> D
     )  # fmt: skip
     account = replace(decision.account, leading=moved(leading))
     found = proved(ranking, chosen, heldout, seed=seed)
-    left = statistics(weighted, chosen.final)
-    return replace(decision, ranking=ranking, chosen=chosen, account=account, left=left, rows=found)
+    return replace(decision, ranking=ranking, chosen=chosen, account=account, rows=found)
 
 
 def _log_change(problem: Problem, runs: Sequence[Run], before: Fit, after: Fit) -> float:

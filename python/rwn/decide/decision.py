@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from rwn.decide.account import Account, Remainder, account, remainder
 from rwn.decide.excitation import moves
@@ -34,12 +35,16 @@ class Decision:
     ranking: Ranking
     account: Account
     chosen: RankedFit  # the effects that are stated together, or the nominal model
-    left: Statistics  # what it leaves, which its intervals go by
-    remainder: Remainder  # the same, as it is said
+    remainder: Remainder  # what is said of what it leaves
     verdict: Verdict
     rows: tuple[HeldoutRow, ...]
     other: Place | None = None  # where a law without a name is seen in what is left
     shaft: ShaftAlone | None = None  # what is left with and without the winding, where nothing explains it
+
+    @cached_property
+    def left(self) -> Statistics:
+        """What the chosen effects leave, which their intervals go by."""
+        return statistics(self.ranking.weighted, self.chosen.final)
 
 
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
@@ -53,8 +58,7 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
     curve = curve_beside(ranking.problem, chosen.fit, model) if left.signals else None
     other = curve.place if curve is not None and curve.is_a_law else None
     return Decision(
-        ranking=ranking, account=found, chosen=chosen, left=statistics(ranking.weighted, chosen.final), remainder=left,
-        verdict=verdict, rows=rows, other=other,
+        ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other,
         shaft=shaft_alone(chosen.final, ranking.problem, model) if verdict == "unexplained" else None,
     )  # fmt: skip
 
@@ -78,7 +82,10 @@ def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedF
 
 
 def _free_of_drift(ranking: Ranking, found: Account, chosen: RankedFit) -> tuple[Fit, Statistics]:
-    """The stated explanation as it is known best, and what it leaves: where a position drifts, fitted to its steps."""
+    """The stated explanation as it is known best, and what the leading one leaves.
+
+    Where a position drifts, it is fitted to its steps, and what is left is its own.
+    """
     weighted = weighted_free_of_drift(ranking, found.leading)
     if weighted is None:
         return chosen.final, ranking.counted

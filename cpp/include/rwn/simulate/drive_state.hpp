@@ -10,11 +10,11 @@ namespace rwn {
 /// What moves within a step.
 template <class S, class Drive, int masses>
 struct MovingState {
-  static constexpr std::size_t w = Drive::states;                  // place of the motor's speed in x
+  static constexpr std::size_t w = Drive::states;                    // place of the first mass's speed in x
   static constexpr std::size_t twist = w + 1, speed_behind = w + 2;  // places of what a second mass adds
   static constexpr int n = static_cast<int>(w) + (masses == 2 ? 3 : 1);
   SmallVector<S, n>
-      x{};  // states of the drive's electrical part, speed; twist [1/rate of the joint], speed of the load
+      x{};  // states of the drive's electrical part, speed; twist [1/rate of the joint], speed behind it
   S position{};
   double direction = 0.0;  // of sliding; 0 sticks
   double contact = 0.0;    // side on which the joint transmits: 0 while its gap is open, 1 where there is none

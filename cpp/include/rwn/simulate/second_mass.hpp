@@ -109,7 +109,7 @@ class SecondMass {
 
   S acceleration_behind(const Moving& s) const { return (torque(s) - drag_ * s.x[speed_behind]) * inverse_behind_; }
 
-  /// Puts the second mass into A, where the motor's own part is.
+  /// Puts the second mass into A, where the first one's own part is.
   void couple(Matrix& a, const Regime& regime) const {
     at(a, twist, w) = S(rate_);
     at(a, twist, speed_behind) = S(-rate_);

@@ -95,7 +95,7 @@ def misfit_of(folders: Sequence[Path], *, results: Path | None = None, check: Co
     """How many times as far as noise of its size what a right name does not explain moves a parameter.
 
     Such that 95 % of all intervals cover, where every trial counts alike: the parameters of one err together. 0 where
-    there are none. `check`: names of sets that do not count in it.
+    there are none. `check`: names of sets that do not count in it. Raises InputError where no factor does that.
     """
     needed: list[float] = []
     weights: list[float] = []
@@ -113,7 +113,14 @@ def misfit_of(folders: Sequence[Path], *, results: Path | None = None, check: Co
         return 0.0
     order = np.argsort(needed)
     covered = np.cumsum(np.array(weights)[order]) / np.sum(weights)
-    return float(np.array(needed)[order][np.searchsorted(covered, COVERED - 1e-12)])
+    found = float(np.array(needed)[order][np.searchsorted(covered, COVERED - 1e-12)])
+    if not np.isfinite(found):
+        raise InputError(
+            f"more than {1.0 - COVERED:.0%} of the intervals miss the truth where no misfit is left",
+            expected="intervals that cover where a fit leaves noise alone",
+            fix="look at the noise that these diagnoses found",
+        )
+    return found
 
 
 def _misfit_in(place: Path) -> float:
@@ -133,14 +140,16 @@ def _misfit_in(place: Path) -> float:
 
 
 def _misfit_needed(estimate: Estimate, true: float, left: Remainder, *, misfit_factor: float) -> float:
-    """The misfit factor with which an interval ends at the truth, as a logarithm where that is nearer; 0 within noise.
+    """The misfit factor with which an interval ends at the truth; 0 within noise.
 
     `misfit_factor`: what the interval counts with, which is taken out of it.
     """
-    low, high = estimate.interval or (np.nan, np.nan)
+    low, high = np.array(estimate.interval or (np.nan, np.nan)) / estimate.value
     ratio = true / estimate.value
-    error = min(abs(ratio - 1.0), abs(np.log(ratio)) if ratio > 0.0 else np.inf)
-    noise = (high - low) / (2.0 * abs(estimate.value)) / Widening(misfit_factor=misfit_factor).factor(left)
+    if low > 0.0 and ratio > 0.0 and abs(np.log(high * low)) < abs(high + low - 2.0):  # even about its logarithm
+        low, high, ratio = 1.0 + np.log(low), 1.0 + np.log(high), 1.0 + np.log(ratio)
+    error = abs(ratio - 1.0)
+    noise = 0.5 * abs(high - low) / Widening(misfit_factor=misfit_factor).factor(left)
     if error <= noise:
         return 0.0
     return float(np.sqrt(((error / noise) ** 2 - 1.0) / left.misfit)) if left.misfit else np.inf
@@ -185,7 +194,7 @@ def _left_out(names: Names, fold: NDArray[np.int64], ridge: float) -> Array:
 def with_misfit(misfit_factor: float, what: str) -> Calibration:
     """The calibration that comes with rwn, with another misfit factor. `what`: it was fitted on."""
     now = calibration()
-    before = now.fitted_on.split("; misfit factor by")[0]
+    before = now.fitted_on.split("; misfit factor")[0]
     return replace(now, misfit_factor=misfit_factor, fitted_on=f"{before}; misfit factor by {what}")
 
 

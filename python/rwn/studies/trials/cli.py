@@ -123,7 +123,7 @@ def calibrate(
     results: Annotated[Path | None, typer.Option(help="As for score.")] = None,
     out: Annotated[Path | None, typer.Option(help="Write calibration.json here (default: print alone).")] = None,
     check: Annotated[
-        list[str] | None, typer.Option(help="Name of a set whose intervals check the misfit factor and count in none.")
+        list[str] | None, typer.Option(help="Name of a set whose intervals check the misfit factor and do not count.")
     ] = None,
     misfit_alone: Annotated[
         bool, typer.Option("--misfit-alone", help="Fit the misfit factor anew and keep the probabilities that are.")
