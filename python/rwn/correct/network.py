@@ -122,8 +122,9 @@ def _kept(ranking: Ranking, model: Model, network: _Network, *, orthogonal: bool
     end = fit(problem, this, max_iterations=20)
     chosen = RankedFit(fit=end, final=end, score=0.0, probability=0.0)
     return NetworkCorrection(
-        place=place, ranking=replace(ranking, problem=problem), chosen=chosen, model=known
-    )
+        place=place, ranking=replace(ranking, problem=problem, weighted=knowing(ranking.weighted, known)),
+        chosen=chosen, model=known,
+    )  # fmt: skip
 
 
 def _refitted_to(
