@@ -140,7 +140,7 @@ def calibrate(
         with_misfit,
         words,
         write,
-    )  # fmt: skip
+    )
 
     check, known = check or [], [f.name for f in folders]
     for name in check:
