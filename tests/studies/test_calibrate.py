@@ -1,4 +1,4 @@
-"""What a calibration is fitted on, and the misfit factor of intervals that counted with one already."""
+"""What a calibration is fitted on."""
 
 from __future__ import annotations
 
@@ -11,49 +11,16 @@ import pytest
 from typer.testing import CliRunner
 
 from made_up import acting
-from rwn.decide.account import Remainder
 from rwn.decide.calibration import calibration
-from rwn.errors import InputError
-from rwn.fit.intervals import HALF_WIDTH, Estimate
-from rwn.name.found_effect import FoundEffect
 from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.calibrate import (
     Names,
-    _misfit_in,
-    _misfit_needed,
     calibrated,
-    misfit_of,
     names_of,
     origin,
     with_misfit,
 )
 from rwn.studies.trials.cli import app
-from rwn.studies.trials.grade import nearest_turn
-
-
-@pytest.mark.parametrize("logarithmic", [False, True])
-@pytest.mark.parametrize("misfit_factor", [0.0, 2.0, 7.0])
-def test_the_misfit_factor_needed_does_not_depend_on_the_one_that_intervals_count_with(
-    misfit_factor: float, logarithmic: bool
-) -> None:
-    """A value that is 12 times its noise off, where three quarters of the error are no noise."""
-    left, noise = Remainder(error=4.0, signals=("speed",)), 0.1
-    half = HALF_WIDTH * noise * float(np.hypot(1.0, misfit_factor * np.sqrt(0.75)))
-    ends = 2.0 * (np.exp([-half, half]) if logarithmic else 1.0 + np.array([-half, half]))
-    estimate = Estimate(value=2.0, unit="A", interval=(float(ends[0]), float(ends[1])))
-    off = 2.0 * (float(np.exp(12.0 * noise)) if logarithmic else 1.0 + 12.0 * noise)
-    needed = _misfit_needed(estimate, off, left, misfit_factor=misfit_factor)
-    assert needed == pytest.approx(np.sqrt((12.0 / HALF_WIDTH) ** 2 - 1.0) / np.sqrt(0.75))
-    assert _misfit_needed(estimate, 2.1, left, misfit_factor=misfit_factor) == 0.0, "within its noise"
-    assert np.isinf(_misfit_needed(estimate, 1e4, Remainder(), misfit_factor=misfit_factor)), "nothing is left"
-
-
-def test_intervals_of_an_unknown_misfit_factor_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "timing.json").write_text('{"seconds": 2.0}')
-    with pytest.raises(InputError, match=r"timing\.json: nothing says which misfit factor .*; fix: diagnose the set"):
-        _misfit_in(tmp_path)
-    (tmp_path / "timing.json").write_text('{"seconds": 2.0, "misfit_factor": 0.4}')
-    assert _misfit_in(tmp_path) == 0.4
 
 
 def test_a_calibration_says_what_it_was_fitted_on(tmp_path: Path) -> None:
@@ -140,37 +107,9 @@ def test_the_command_line_fits_says_and_writes_a_calibration(tmp_path: Path) -> 
     assert "unknown set 'b'" in str(wrong.exception)
 
 
-def test_a_phase_is_known_but_for_whole_turns() -> None:
-    assert nearest_turn("phase", -3.1, 3.1) == pytest.approx(-3.1 + 2.0 * np.pi)
-    assert nearest_turn("phase", 0.2, 0.3) == 0.2
-    assert nearest_turn("amplitude", -3.1, 3.1) == -3.1
-
-
 def test_a_misfit_factor_of_its_own_keeps_the_probabilities() -> None:
     once = with_misfit(1.25, "trials of today")
     again = replace(once, misfit_factor=calibration().misfit_factor, fitted_on=calibration().fitted_on)
     assert again == calibration()
     assert once.misfit_factor == 1.25
     assert once.fitted_on.endswith("; misfit factor by trials of today")
-
-
-def test_every_trial_counts_alike_in_the_misfit_factor(tmp_path: Path) -> None:
-    """One of 20 trials needs 9 for each of its three parameters, the others 1 for their one: 95 % are covered."""
-    for k in range(20):
-        trial, out = tmp_path / f"trial_{k:04d}", tmp_path / f"trial_{k:04d}" / "out"
-        out.mkdir(parents=True)
-        (trial / "model.toml").touch()
-        names, needed = (("gap", "load_inertia", "load_viscous_share"), 9.0) if k == 0 else (("gap",), 1.0)
-        true = {"name": "backlash", "parameters": {name: {"value": 1.1} for name in names}}
-        (trial / "answer.json").write_text(json.dumps({"case": trial.name, "effects": [true], "background": {}}))
-        half = 0.1 / float(np.hypot(1.0, needed * np.sqrt(0.75)))
-        estimate = Estimate(value=1.0, unit="rad", interval=(1.0 - half, 1.0 + half))
-        effect = FoundEffect(
-            name="backlash", equation="mechanical", probability=0.9, parameters=dict.fromkeys(names, estimate)
-        )
-        left = Remainder(error=4.0, signals=("speed",))
-        (out / "diagnosis.json").write_bytes(
-            Diagnosis(verdict="missing-physics", effects=(effect,), remainder=left).to_json()
-        )
-        (out / "timing.json").write_text('{"commit": "1234567", "misfit_factor": 0.0}')
-    assert misfit_of([tmp_path]) == pytest.approx(1.0, rel=1e-3)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -12,23 +12,15 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.decide.account import Remainder
 from rwn.decide.calibration import FEATURES, Calibration, calibration, features
-from rwn.errors import InputError
-from rwn.fit.intervals import Estimate, Widening
-from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.bench_trials.also_true import also_true
-from rwn.studies.trials.damaged import reading
+from rwn.studies.trials.diagnosed import diagnosed
 from rwn.studies.trials.effects import known_as
-from rwn.studies.trials.grade import load_answers, nearest_turn
 from rwn.studies.trials.origins import codes, results_of
-from rwn.studies.trials.run import out_of, trial_folders
-from rwn.studies.trials.said import TIMING, timing_of
 
 Array = NDArray[np.float64]
 
 RIDGES = (1.0, 3.0, 10.0, 30.0)  # inverse variances of the weights' prior, per standard deviation of a feature
-COVERED = 0.95
 FOLDS = 10  # of the cross-validation; all names of a trial are in one
 
 
@@ -56,7 +48,7 @@ class Calibrated:
 def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
     """Every effect of the leading explanations of all trials that have a diagnosis."""
     rows, acts, trials = [], [], []
-    for count, (answer, diagnosis, _) in enumerate(_diagnosed(folders, results)):
+    for count, (answer, diagnosis, _) in enumerate(diagnosed(folders, results)):
         true = _true(answer)
         for e in diagnosis.account:
             rows.append(features(e.evidence))
@@ -65,94 +57,12 @@ def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
     return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
 
 
-def _diagnosed(
-    folders: Sequence[Path], results: Path | None, without: Collection[str] = ()
-) -> Iterator[tuple[Mapping[str, Any], Diagnosis, Path]]:
-    """The answer and the diagnosis of every trial that has both, and the folder of the diagnosis.
-
-    `without`: names of sets that do not count.
-    """
-    for folder in (f for f in folders if f.name not in without):
-        _, answers = load_answers(folder)
-        own = results_of(folder, folders, results)
-        for trial in trial_folders(folder):
-            found = out_of(trial, own) / "diagnosis.json"
-            if trial.name in answers and found.exists():
-                with reading(found):
-                    diagnosis = Diagnosis.from_json(found.read_bytes())
-                yield answers[trial.name], diagnosis, found.parent
-
-
 def _true(answer: Mapping[str, Any]) -> set[str]:
     """Every name that says rightly what acts, physics that the trials conceal without a name under the one it has."""
     background = answer.get("background") or {}
     kinds = [e["name"] for e in answer["effects"]] + ([str(background["kind"])] if "kind" in background else [])
     beside = also_true(answer) if "imperfections" in answer else set()
     return set().union(*map(known_as, kinds), answer.get("equivalent", ()), beside)
-
-
-def misfit_of(folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> float:
-    """How many times as far as noise of its size what a right name does not explain moves a parameter.
-
-    Such that 95 % of all intervals cover, where every trial counts alike: the parameters of one err together. 0 where
-    there are none. `check`: names of sets that do not count in it. Raises InputError where no factor does that.
-    """
-    needed: list[float] = []
-    weights: list[float] = []
-    for answer, diagnosis, place in _diagnosed(folders, results, check):
-        known = [
-            (estimate, nearest_turn(name, float(answered["value"]), estimate.value))
-            for effect in diagnosis.effects
-            for true in (e.get("parameters", {}) for e in answer["effects"] if e["name"] == effect.name)
-            for name, estimate in effect.parameters.items()
-            if estimate.interval and estimate.value and (answered := true.get(name)) and answered["value"]
-        ]
-        needed += [_misfit_needed(e, t, diagnosis.remainder, misfit_factor=_misfit_in(place)) for e, t in known]
-        weights += [1.0 / max(len(known), 1)] * len(known)
-    if not needed:
-        return 0.0
-    order = np.argsort(needed)
-    covered = np.cumsum(np.array(weights)[order]) / np.sum(weights)
-    found = float(np.array(needed)[order][np.searchsorted(covered, COVERED - 1e-12)])
-    if not np.isfinite(found):
-        raise InputError(
-            f"more than {1.0 - COVERED:.0%} of the intervals miss the truth where no misfit is left",
-            expected="intervals that cover where a fit leaves noise alone",
-            fix="look at the noise that these diagnoses found",
-        )
-    return found
-
-
-def _misfit_in(place: Path) -> float:
-    """The misfit factor that the intervals of a diagnosis count with.
-
-    Raises InputError where timing.json does not say it.
-    """
-    timing = timing_of(place)
-    if timing.misfit_factor is None:
-        raise InputError(
-            "nothing says which misfit factor these intervals count with",
-            where=place / TIMING,
-            expected=f'a "misfit_factor" as `rwn trials run` writes it ({calibration().misfit_factor:.3g} today)',
-            fix="diagnose the set anew, or leave it out of the misfit factor by --check",
-        )
-    return timing.misfit_factor
-
-
-def _misfit_needed(estimate: Estimate, true: float, left: Remainder, *, misfit_factor: float) -> float:
-    """The misfit factor with which an interval ends at the truth; 0 within noise.
-
-    `misfit_factor`: what the interval counts with, which is taken out of it.
-    """
-    low, high = np.array(estimate.interval or (np.nan, np.nan)) / estimate.value
-    ratio = true / estimate.value
-    if low > 0.0 and ratio > 0.0 and abs(np.log(high * low)) < abs(high + low - 2.0):  # even about its logarithm
-        low, high, ratio = 1.0 + np.log(low), 1.0 + np.log(high), 1.0 + np.log(ratio)
-    error = abs(ratio - 1.0)
-    noise = 0.5 * abs(high - low) / Widening(misfit_factor=misfit_factor).factor(left)
-    if error <= noise:
-        return 0.0
-    return float(np.sqrt(((error / noise) ** 2 - 1.0) / left.misfit)) if left.misfit else np.inf
 
 
 def calibrated(names: Names, *, what: str, misfit_factor: float = 0.0) -> Calibrated:
@@ -235,11 +145,6 @@ def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:
     )  # fmt: skip
 
 
-def misfit_words(factor: float) -> str:
-    """A misfit factor for people."""
-    return f"misfit factor: what is not explained moves a parameter {factor:.2f} times as far as noise of its size"
-
-
 def words(found: Calibrated) -> str:
     """What was fitted and how good it is, for people."""
     lines = [
@@ -251,6 +156,5 @@ def words(found: Calibrated) -> str:
         ),
         "weight per standard deviation of a feature: "
         + ", ".join(f"{n} {w:+.2f}" for n, w in zip(FEATURES, found.calibration.weights, strict=True)),
-        misfit_words(found.calibration.misfit_factor),
     ]
     return "\n".join(lines)

@@ -133,14 +133,13 @@ def calibrate(
     from rwn.errors import unrecognised
     from rwn.studies.trials.calibrate import (
         calibrated,
-        misfit_of,
-        misfit_words,
         names_of,
         origin,
         with_misfit,
         words,
         write,
     )
+    from rwn.studies.trials.misfit_factor import errors_of
 
     check, known = check or [], [f.name for f in folders]
     for name in check:
@@ -148,15 +147,16 @@ def calibrate(
             raise unrecognised("set", name, known, where="--check")
     names = names_of(folders, results=results)
     what = origin(names, folders, results=results, check=check)
-    misfit_factor = misfit_of(folders, results=results, check=check)
+    errors = errors_of(folders, results=results, check=check)
+    misfit_factor = errors.likeliest()
     if misfit_alone:
-        found, said = with_misfit(misfit_factor, what), misfit_words(misfit_factor)
+        found, said = with_misfit(misfit_factor, what), list[str]()
     else:
         anew = calibrated(names, what=what, misfit_factor=misfit_factor)
-        found, said = anew.calibration, words(anew)
+        found, said = anew.calibration, [words(anew)]
     if out is not None:
         write(found, out)
-    typer.echo(said)
+    typer.echo("\n".join([*said, errors.words(misfit_factor)]))
 
 
 def _progress(done: int, count: int, name: str) -> None:
