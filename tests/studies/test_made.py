@@ -3,12 +3,10 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
-import pytest
-
 from rwn.studies import made
 
 
-def test_a_result_of_a_changed_tree_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_result_of_a_changed_tree_says_so(tmp_path: Path) -> None:
     """In a repository of the same layout: the commit, and + once a source is changed."""
     here, kernel, page = (tmp_path / name for name in ("python/rwn/studies/made.py", "cpp/kernel.cpp", "docs/page.md"))
     for path in (here, kernel, page):
@@ -22,10 +20,9 @@ def test_a_result_of_a_changed_tree_says_so(tmp_path: Path, monkeypatch: pytest.
     git("init", "-q")
     git("add", ".")
     git("commit", "-q", "-m", "first")
-    monkeypatch.setattr(made, "__file__", str(here))
     head = git("rev-parse", "--short", "HEAD").strip()
-    assert made._commit() == head
+    assert made._commit(here) == head
     page.write_text("second\n")
-    assert made._commit() == head, "a page is no source"
+    assert made._commit(here) == head, "a page is no source"
     kernel.write_text("second\n")
-    assert made._commit() == f"{head}+"
+    assert made._commit(here) == f"{head}+"

@@ -26,20 +26,20 @@ class Made:
 
 
 @cache
-def made() -> Made:
-    """Here and now."""
-    return Made(date=datetime.now(UTC).strftime("%Y-%m-%d"), commit=_commit(), machine=_machine())
+def made(source: Path = Path(__file__)) -> Made:
+    """Here and now. `source`: a file of the tree whose commit it is, where the package is an installed copy of that."""
+    return Made(date=datetime.now(UTC).strftime("%Y-%m-%d"), commit=_commit(source), machine=_machine())
 
 
-def _commit() -> str:
-    here = Path(__file__).parent
+def _commit(source: Path) -> str:
+    here = source.parent
 
     def git(*words: str) -> str:
         answer = subprocess.run(["git", *words], cwd=here, capture_output=True, text=True, check=False)
         return answer.stdout.strip() if answer.returncode == 0 else ""
 
     try:
-        tracked = git("ls-files", "--error-unmatch", Path(__file__).name)
+        tracked = git("ls-files", "--error-unmatch", source.name)
         head = git("rev-parse", "--short", "HEAD") if tracked else ""
         changed = git("status", "--porcelain", "--untracked-files=no", "--", ":/python", ":/cpp")
     except FileNotFoundError:  # no git here
