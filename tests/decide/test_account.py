@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import rwn
+from made_up import acting
 from ranked import ranked_from
-from rwn.decide.account import account, remainder
+from rwn.decide.account import Account, account, remainder
 from rwn.decide.evidence import CrossValidation
 from rwn.decide.other_law import curve_instead
 from rwn.fit.fit import fit
@@ -87,3 +89,15 @@ def test_an_elaboration_is_compared_with_the_plain_law_and_not_with_its_rivals(
     assert 100.0 < found.odds <= elaborate.score - plain.score  # less by what is new in each error
     (acting,) = account(ranking, [], model).stated
     assert {acting.name, *acting.rivals} == {"asymmetric-friction", "constant-load"}
+
+
+def test_what_need_not_act_has_an_even_chance_with_its_rivals_and_others_keep_theirs() -> None:
+    friction = replace(acting("coulomb-friction", 0.6, 0.5), together=0.8)
+    drag, ripple = acting("quadratic-drag", 0.9, 0.4), acting("unbalance", 0.3, 0.1)
+    found = Account(effects=(drag, friction, ripple), leading=SimpleNamespace())  # type: ignore[arg-type]
+    undone = found.undetermined("coulomb-friction").effects
+    assert undone[0] is drag
+    assert (undone[1].probability, undone[1].together) == pytest.approx((0.6 * 0.5 / 0.8, 0.5))
+    assert not undone[1].stated
+    assert undone[2] is ripple
+    assert found.undetermined("unbalance").effects[2] == ripple, "it has less than an even chance already"
