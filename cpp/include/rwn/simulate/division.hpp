@@ -56,8 +56,7 @@ class Division {
   // fast as the rate that its effect states.
   static constexpr double stable_angle = 1.39;
   static constexpr double most_exact = 16.0;
-  // A bound on what one row may cost while parameters are tried: no row shows what settles 178 times before the next.
-  static constexpr double most_stable = 128.0;
+  static constexpr double most_stable = 1024.0;  // a bound on what one row may cost while parameters are tried
   static constexpr int most_transients = 6;  // of a winding 16 times as fast as R/L
   std::array<double, most_transients> transient_{};
   double gone_ = 0.0;
