@@ -33,7 +33,7 @@ def test_a_calibration_says_what_it_was_fitted_on(tmp_path: Path) -> None:
                 (out / "diagnosis.json").touch()
                 (out / "timing.json").write_text(json.dumps({"commit": commit, "date": "", "machine": ""}))
     names = Names(features=np.zeros((3, 5)), acts=np.ones(3), trial=np.array([0, 0, 1]))
-    told = origin(names, [tmp_path / "a", tmp_path / "b"], check=["b"])
+    told = origin(names.counted, [tmp_path / "a", tmp_path / "b"], check=["b"])
     assert told.startswith("3 names of 2 trials: a, b, diagnosed by 1234567 and 89abcde; ")
     assert told.endswith("; misfit factor without b, which check it")
 

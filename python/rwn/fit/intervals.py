@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
-from rwn.fit.secant import nonsmooth_unknowns
 from rwn.fit.unknown import Unknown, prior_weight
+from rwn.model.vocabulary import Effect
 
 Array = NDArray[np.float64]
 
@@ -104,14 +104,24 @@ def _interval(u: Unknown, value: float, std: float) -> tuple[float, float]:
     return max(value - HALF_WIDTH * std, u.lower), min(value + HALF_WIDTH * std, u.upper)
 
 
+def least_deviation(effect: Effect, name: str, value: float) -> float:
+    """What the deviation of a parameter of an effect never falls below, for what noise does not show.
+
+    A part of its value, of an angle in radians.
+    """
+    p = next(p for p in effect.every if p.name == name)
+    idealises = any(other.idealised for other in effect.parameters) and p.lower > 0.0
+    return (IDEALISED if idealises else AGREEMENT) * (1.0 if p.cyclic else abs(value))
+
+
 def _systematic(this: Fit) -> Array:
-    """What no interval is narrower than, for what noise does not show: a part of each value, of angles in radians."""
+    """What the deviations (p,) of the unknowns never fall below; see `least_deviation`."""
     known = this.hypothesis.table
-    of_effects = {f"{name}.{p.name}": p for name in this.hypothesis.effects for p in known[name].every}
-    contacts = nonsmooth_unknowns(this.hypothesis)
-    parts = []
-    for k, (u, value) in enumerate(zip(this.hypothesis.unknowns, this.minimum.values, strict=True)):
-        p = of_effects.get(u.name)
-        part = IDEALISED if k in contacts else AGREEMENT
-        parts.append(part * (1.0 if p and p.cyclic else abs(value)))
-    return np.array(parts)
+    effects = [known[name] for name in this.hypothesis.effects]
+    of_effects = {f"{e.name}.{p.name}": (e, p.name) for e in effects for p in e.every}
+    return np.array(
+        [
+            least_deviation(*of_effects[u.name], value) if u.name in of_effects else AGREEMENT * abs(value)
+            for u, value in zip(this.hypothesis.unknowns, this.minimum.values, strict=True)
+        ]
+    )

@@ -32,6 +32,11 @@ class Names:
     acts: Array
     trial: NDArray[np.int64]
 
+    @property
+    def counted(self) -> str:
+        """How many they are, in words."""
+        return f"{self.acts.size} names of {np.unique(self.trial).size} trials"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Calibrated:
@@ -113,15 +118,15 @@ def write(found: Calibration, path: Path) -> None:
     path.write_bytes(msgspec.json.format(msgspec.json.encode(asdict(found)), indent=1) + b"\n")
 
 
-def origin(names: Names, folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> str:
-    """What a calibration was fitted on: names, trials, sets and the codes that diagnosed them.
+def origin(counted: str, folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> str:
+    """What was fitted on: how many of what, the sets and the codes that diagnosed them.
 
-    `check`: names of the sets that do not count in its misfit factor.
+    `check`: names of the sets that do not count in the misfit factor.
     """
     by = dict.fromkeys(code for f in folders for code in codes(f, results_of(f, folders, results)))
     checked = f"; misfit factor without {', '.join(check)}, which check it" if check else ""
-    sets, trials = ", ".join(f.name for f in folders), np.unique(names.trial).size
-    return f"{names.acts.size} names of {trials} trials: {sets}, diagnosed by {' and '.join(by)}{checked}"
+    sets = ", ".join(f.name for f in folders)
+    return f"{counted}: {sets}, diagnosed by {' and '.join(by)}{checked}"
 
 
 def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:

@@ -145,13 +145,14 @@ def calibrate(
     for name in check:
         if name not in known:
             raise unrecognised("set", name, known, where="--check")
-    names = names_of(folders, results=results)
-    what = origin(names, folders, results=results, check=check)
     errors = errors_of(folders, results=results, check=check)
     misfit_factor = errors.likeliest()
     if misfit_alone:
+        what = origin(errors.counted, [f for f in folders if f.name not in check], results=results)
         found, said = with_misfit(misfit_factor, what), list[str]()
     else:
+        names = names_of(folders, results=results)
+        what = origin(names.counted, folders, results=results, check=check)
         anew = calibrated(names, what=what, misfit_factor=misfit_factor)
         found, said = anew.calibration, [words(anew)]
     if out is not None:
