@@ -140,7 +140,7 @@ SECONDS ?= 60
 TARGET ?= every
 PAGE := --page docs/testing.md
 .PHONY: coverage coverage-cpp fuzz fuzz-corpus hostile kills soak mutants-python long-csv wheels install-trust
-install-trust:
+install-trust: install-test  # what is measured is this tree
 	@$(PIP) --group trust
 
 # Lines and branches of Python; WHICH='not slow' leaves the long tests out.
@@ -158,7 +158,7 @@ LLVM ?= -19
 WHICH_CPP ?= not slow
 COVERED := build/coverage
 PROFILES := $(CURDIR)/$(COVERED)/profiles
-coverage-cpp: install-test install-trust
+coverage-cpp: install-trust
 	@command -v clang++$(LLVM) >/dev/null || { echo "coverage-cpp: no clang++$(LLVM): apt-get install clang$(LLVM) llvm$(LLVM)" >&2; exit 2; }
 	@$(PIP) pybind11 cmeel-eigen
 	cmake -G Ninja -B $(COVERED) -DCMAKE_CXX_COMPILER=clang++$(LLVM) -DCMAKE_BUILD_TYPE=Debug -DRWN_KERNELS_FOR=any \
@@ -183,19 +183,19 @@ fuzz-corpus: SECONDS = 600
 fuzz-corpus:
 	$(TRUST).fuzz_corpus $(TARGET) --seconds $(SECONDS) --until $(UNTIL) --jobs $(JOBS) $(PAGE)
 
-hostile:
+hostile: install-test
 	$(TRUST).hostile --damaged $(COUNT) $(PAGE)
 
-kills:
+kills: install-test
 	$(TRUST).kills --count $(COUNT) $(PAGE)
 
-soak:
+soak: install-test
 	$(TRUST).soak --count $(COUNT) $(PAGE)
 
 mutants-python: install-trust
 	$(TRUST).mutants --count $(COUNT) $(PAGE)
 
-long-csv:
+long-csv: install-test
 	$(TRUST).long_csv --count $(COUNT) $(PAGE)
 
 # Two builds of the wheel, one in another folder, and what they hold and answer; and those of PYTHONS="python3.12 python3.13".

@@ -14,6 +14,8 @@ import numpy as np
 
 from rwn import _core
 
+SOURCES = (":/python", ":/cpp", ":/tests", ":/tools")  # what a result is by
+
 
 @dataclass(frozen=True, kw_only=True)
 class Made:
@@ -41,7 +43,7 @@ def _commit(source: Path) -> str:
     try:
         tracked = git("ls-files", "--error-unmatch", source.name)
         head = git("rev-parse", "--short", "HEAD") if tracked else ""
-        changed = git("status", "--porcelain", "--untracked-files=no", "--", ":/python", ":/cpp")
+        changed = git("status", "--porcelain", "--untracked-files=no", "--", *SOURCES)
     except FileNotFoundError:  # no git here
         head, changed = "", ""
     return f"{head}{'+' if changed else ''}" if head else f"rwn {_core.__version__}"
