@@ -200,6 +200,6 @@ long-csv: install-test
 
 # Two builds of the wheel, one in another folder, and what they hold and answer; and those of PYTHONS="python3.12 python3.13".
 PYTHONS ?=
-wheels: install-cmake
+wheels: install-test install-cmake
 	@$(PY) -c 'import scikit_build_core, pybind11' 2>/dev/null || $(PIP) scikit-build-core pybind11 cmeel-eigen
 	$(TRUST).wheels $(PYTHONS:%=--python %) $(PAGE)
