@@ -33,3 +33,24 @@ def test_a_bristle_faster_than_the_rows_does_not_run_away(
 
     fine = speed(FINER)
     assert np.max(np.abs(speed(1) - fine)) < 0.02 * np.max(np.abs(fine))
+
+
+@pytest.mark.parametrize("inductance", [1e-4, 1e-3, 5e-3])
+@pytest.mark.parametrize("row", [0.01, 0.02])
+def test_a_current_that_rises_within_a_row_turns_a_bristle_that_had_settled(inductance: float, row: float) -> None:
+    """At the beginning of a row the current is that of the row before: the motion seems to go on, and reverses."""
+    motor = {
+        "resistance": 1.0, "inductance": inductance, "torque_constant": 0.05, "back_emf_constant": 0.05,
+        "inertia": 1e-5, "viscous_friction": 1e-6,
+    }  # fmt: skip
+    bristle = {"bristle_stiffness": 100.0, "bristle_damping": 0.02, "coulomb_torque": 0.02}
+    model = rwn.Model(kind="dc", parameters=motor, effects={"presliding-hysteresis": bristle})
+    voltage = 4.0 * np.sin(2.0 * np.pi * 0.9 * row * np.arange(round(4.0 / row)))
+
+    def speed(times: int) -> np.ndarray:
+        time = row / times * np.arange(voltage.size * times)
+        run = rwn.Recording(name="run", time=time, signals={"voltage": np.repeat(voltage, times)})
+        return np.asarray(rwn.simulate(model, run).signals["speed"][::times])
+
+    fine = speed(FINER)
+    assert np.max(np.abs(speed(1) - fine)) < 1e-3 * np.max(np.abs(fine))

@@ -115,17 +115,17 @@ class Equations {
   /// The steps that the effects ask for over h, where `f` and `t` are those of its start (level 0). Where one of
   /// them changes with the current, the winding's transient is followed, in steps of lengths that come back.
   Division divide(const State& s, double h, const Vector& f, const Terms<S>& t) const {
-    const double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
-    const double fastest_effect = effects_.rate(s, acceleration, h);
+    double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
     if constexpr (Drive::states > 0) {
+      const State there = electrics_.settled(s, s.x[driven()], input());  // the current may get there within h
+      acceleration = std::max(acceleration, std::abs(value_of(f[w]) + value_of(linear_acceleration(there))));
       const double rate = electrics_.rate({});
       if (settles_ && h * rate > angle_of_a_slow_winding && !electrics_.is_settled(s.x, s.x[driven()], f, t)) {
-        const State there = electrics_.settled(s, s.x[driven()], input());
         const double fastest = std::max(electrics_.rate(t), electrics_.rate(terms_of(there, s.position)));
-        return {h, fastest_effect, rate, level_of(fastest / rate)};
+        return {h, effects_.rate(s, acceleration, h), rate, level_of(fastest / rate)};
       }
     }
-    return {h, fastest_effect};
+    return {h, effects_.rate(s, acceleration, h)};
   }
 
   /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`, which is fresh.
