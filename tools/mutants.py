@@ -190,9 +190,9 @@ class Verdicts:
 
 def page(found: dict[str, list[Mutant]], every: int) -> str:
     """What was killed by file, and every survivor with its reason, in Markdown."""
-    from rwn.studies.made import made
+    from rwn.studies.made import TESTS, made
 
-    here = made(Path(__file__))
+    here = made(Path(__file__), also=TESTS)
     killed, survived = len(found["killed"]), len(found["survived"])
     machine, tried = here.machine.split(", Python")[0], sum(map(len, found.values()))
     rest = "" if tried == every else " (the others not yet)"

@@ -9,7 +9,8 @@ from rwn.studies import made
 def test_a_result_of_a_changed_tree_says_so(tmp_path: Path) -> None:
     """In a repository of the same layout: the commit, and + once a source is changed."""
     here, kernel, page = (tmp_path / name for name in ("python/rwn/studies/made.py", "cpp/kernel.cpp", "docs/page.md"))
-    for path in (here, kernel, page):
+    test = tmp_path / "tests/test_kernel.py"
+    for path in (here, kernel, page, test):
         path.parent.mkdir(parents=True)
         path.write_text("first\n")
 
@@ -22,6 +23,9 @@ def test_a_result_of_a_changed_tree_says_so(tmp_path: Path) -> None:
     git("commit", "-q", "-m", "first")
     head = git("rev-parse", "--short", "HEAD").strip()
     assert made._commit(here) == head
+    test.write_text("second\n")
+    assert made._commit(here) == head, "no test changes a result of the package"
+    assert made._commit(here, (*made.PACKAGE, *made.TESTS)) == f"{head}+"
     page.write_text("second\n")
     assert made._commit(here) == head, "a page is no source"
     kernel.write_text("second\n")

@@ -166,7 +166,7 @@ def _effect_unknown(effect: Effect, p: Parameter, prior: Prior, scales: Mapping[
         index=effect.at(p.name),
         lower=p.lower * unit,
         upper=max(p.upper * unit, 3.0 * known),
-        logarithmic=p.lower > 0.0 and not p.cyclic,
+        logarithmic=p.logarithmic,
         prior=known if has_prior else None,
         prior_std=max(uncertain, 1e-3) if has_prior else np.inf,
         amplitude=_amplitude(effect, p.line) if p.cyclic else "",
@@ -183,12 +183,11 @@ def _amplitude(effect: Effect, line: int) -> str:
 def _declared_unknown(effect: Effect, p: Parameter, value: float, std: float) -> Unknown:
     """Of an effect of the nominal model; `std`: relative, of an angle in radians."""
     lower, upper = (-np.inf, np.inf) if p.cyclic else bounds_beforehand(p)
-    logarithmic = p.lower > 0.0 and not p.cyclic
-    if logarithmic and value > 0.0:
+    if p.logarithmic and value > 0.0:
         lower, upper = max(lower, 1e-3 * value), min(upper, 1e3 * value)
     return Unknown(
         name=f"{effect.name}.{p.name}", unit=p.unit, index=effect.at(p.name), lower=min(lower, value),
-        upper=max(upper, value), logarithmic=logarithmic, prior=value,
+        upper=max(upper, value), logarithmic=p.logarithmic, prior=value,
         prior_std=std / abs(value) if p.cyclic and value else std, cyclic=p.cyclic,
     )  # fmt: skip
 

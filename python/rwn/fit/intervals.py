@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rwn.fit.fit import Fit
 from rwn.fit.residuals import Statistics
 from rwn.fit.unknown import Unknown, prior_weight
-from rwn.model.vocabulary import Effect
+from rwn.model.vocabulary import Effect, Parameter
 
 Array = NDArray[np.float64]
 
@@ -104,12 +104,11 @@ def _interval(u: Unknown, value: float, std: float) -> tuple[float, float]:
     return max(value - HALF_WIDTH * std, u.lower), min(value + HALF_WIDTH * std, u.upper)
 
 
-def least_deviation(effect: Effect, name: str, value: float) -> float:
+def least_deviation(effect: Effect, p: Parameter, value: float) -> float:
     """What the deviation of a parameter of an effect never falls below, for what noise does not show.
 
     A part of its value, of an angle in radians.
     """
-    p = next(p for p in effect.every if p.name == name)
     idealises = any(other.idealised for other in effect.parameters) and p.lower > 0.0
     return (IDEALISED if idealises else AGREEMENT) * (1.0 if p.cyclic else abs(value))
 
@@ -118,7 +117,7 @@ def _systematic(this: Fit) -> Array:
     """What the deviations (p,) of the unknowns never fall below; see `least_deviation`."""
     known = this.hypothesis.table
     effects = [known[name] for name in this.hypothesis.effects]
-    of_effects = {f"{e.name}.{p.name}": (e, p.name) for e in effects for p in e.every}
+    of_effects = {f"{e.name}.{p.name}": (e, p) for e in effects for p in e.every}
     return np.array(
         [
             least_deviation(*of_effects[u.name], value) if u.name in of_effects else AGREEMENT * abs(value)

@@ -61,6 +61,11 @@ class Parameter:
     line: int = 0  # of a periodic effect: lines above 0 act where their strength is not 0
     symbol: str = ""  # in the equation of its effect; formulas of own effects are written in the names
 
+    @property
+    def logarithmic(self) -> bool:
+        """Whether it is fitted, and its interval even, by its logarithm: it is positive."""
+        return self.lower > 0.0 and not self.cyclic
+
 
 @dataclass(frozen=True, kw_only=True)
 class Effect:

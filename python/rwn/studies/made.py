@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import subprocess
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
@@ -14,7 +15,8 @@ import numpy as np
 
 from rwn import _core
 
-SOURCES = (":/python", ":/cpp", ":/tests", ":/tools")  # what a result is by
+PACKAGE = (":/python", ":/cpp")  # where an alteration may change a result of the package
+TESTS = (":/tests", ":/tools")  # where one may change a figure of its tests
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,12 +30,17 @@ class Made:
 
 
 @cache
-def made(source: Path = Path(__file__)) -> Made:
-    """Here and now. `source`: a file of the tree whose commit it is, where the package is an installed copy of that."""
-    return Made(date=datetime.now(UTC).strftime("%Y-%m-%d"), commit=_commit(source), machine=_machine())
+def made(source: Path = Path(__file__), *, also: tuple[str, ...] = ()) -> Made:
+    """Here and now.
+
+    `source`: a file of the tree whose commit it is, where the package is an installed copy of that. `also`: what counts
+    as altered beside the package.
+    """
+    day, commit = datetime.now(UTC).strftime("%Y-%m-%d"), _commit(source, (*PACKAGE, *also))
+    return Made(date=day, commit=commit, machine=_machine())
 
 
-def _commit(source: Path) -> str:
+def _commit(source: Path, sources: Sequence[str] = PACKAGE) -> str:
     here = source.parent
 
     def git(*words: str) -> str:
@@ -43,7 +50,7 @@ def _commit(source: Path) -> str:
     try:
         tracked = git("ls-files", "--error-unmatch", source.name)
         head = git("rev-parse", "--short", "HEAD") if tracked else ""
-        changed = git("status", "--porcelain", "--untracked-files=no", "--", *SOURCES)
+        changed = git("status", "--porcelain", "--untracked-files=no", "--", *sources)
     except FileNotFoundError:  # no git here
         head, changed = "", ""
     return f"{head}{'+' if changed else ''}" if head else f"rwn {_core.__version__}"

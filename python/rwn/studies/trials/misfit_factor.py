@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,8 @@ from numpy.typing import NDArray
 from rwn.decide.calibration import calibration
 from rwn.errors import InputError
 from rwn.fit.intervals import HALF_WIDTH, Estimate, Widening, least_deviation
-from rwn.model.vocabulary import table
+from rwn.model.vocabulary import Effect, Parameter, table
+from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.diagnosed import diagnosed
 from rwn.studies.trials.grade import nearest_turn
 from rwn.studies.trials.said import TIMING, timing_of
@@ -69,7 +71,7 @@ class ParameterErrors:
             return float(weights @ ((telling.off / deviations) ** 2 + 2.0 * np.log(deviations)))
 
         found = float(minimize_scalar(deviance, bounds=(0.0, FARTHEST), method="bounded").x)
-        if found > 0.99 * FARTHEST:
+        if deviance(FARTHEST) <= deviance(found):
             raise InputError(
                 f"no misfit factor below {FARTHEST:g} explains how far values miss the truth",
                 expected="values that miss it by some deviations",
@@ -111,26 +113,30 @@ def errors_of(
     rows = list[tuple[float, float, float, float]]()
     trials = list[int]()
     for count, (answer, diagnosis, place) in enumerate(diagnosed(folders, results, check)):
-        true = {e["name"]: e.get("parameters", {}) for e in answer["effects"]}
-        left = diagnosis.remainder
-        for effect in (e for e in diagnosis.effects if e.name in true):
-            for name, estimate in effect.parameters.items():
-                answered = true[effect.name].get(name, {}).get("value")
-                if answered and estimate.interval and estimate.value:
-                    law = table()[effect.name]
-                    p = next(p for p in law.every if p.name == name)
-                    least = least_deviation(law, name, estimate.value) / abs(estimate.value)
-                    off, deviation = _error(
-                        estimate, nearest_turn(name, float(answered), estimate.value), least=least,
-                        logarithmic=p.lower > 0.0 and not p.cyclic,
-                    )  # fmt: skip
-                    widened = Widening(misfit_factor=_factor_in(place)).factor(left)
-                    rows.append((off, deviation / widened, least, left.misfit))
-                    trials.append(count)
+        known, left = list(_known(answer, diagnosis)), diagnosis.remainder
+        widened = Widening(misfit_factor=_factor_in(place)).factor(left) if known else 1.0
+        for law, p, estimate, true in known:
+            least = least_deviation(law, p, estimate.value) / abs(estimate.value)
+            off, deviation = _error(estimate, true, least=least, logarithmic=p.logarithmic)
+            rows.append((off, deviation / widened, least, left.misfit))
+            trials.append(count)
     columns = np.array(rows).reshape(-1, 4).T
     return ParameterErrors(
         off=columns[0], noise=columns[1], least=columns[2], misfits=columns[3], trials=np.array(trials, dtype=np.int64)
     )
+
+
+def _known(
+    answer: Mapping[str, Any], diagnosis: Diagnosis
+) -> Iterator[tuple[Effect, Parameter, Estimate, float]]:  # fmt: skip
+    """The parameters of right names that have an interval: of which effect, what was said, and the truth."""
+    true = {e["name"]: e.get("parameters", {}) for e in answer["effects"]}
+    for effect in (e for e in diagnosis.effects if e.name in true):
+        law = table()[effect.name]
+        for p in law.every:
+            estimate, answered = effect.parameters.get(p.name), true[effect.name].get(p.name, {}).get("value")
+            if estimate and estimate.interval and estimate.value and answered:
+                yield law, p, estimate, nearest_turn(p.name, float(answered), estimate.value)
 
 
 def _factor_in(place: Path) -> float:
