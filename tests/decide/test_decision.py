@@ -81,14 +81,15 @@ def test_what_may_as_well_be_absent_is_not_stated(
         this = SimpleNamespace(added=tuple(sorted(names)), limits_met=(), hypothesis=SimpleNamespace(table=table()))
         return SimpleNamespace(fit=this, final=this)
 
-    def estimated(this: Any, _counted: Any, *, widening: Any) -> dict[str, Estimate]:
-        assert widening.birge == 1.7
+    def estimated(this: Any, _counted: Any, *, samples: float) -> dict[str, Estimate]:
+        assert samples == pytest.approx(900.0 / 1.7**2), "by noise, however little the misfit counts for"
         known = INTERVALS.get(this.added, {})
         return {name: Estimate(value=0.5, unit="1", interval=interval) for name, interval in known.items()}
 
     monkeypatch.setattr(decision, "together", fitted)
     monkeypatch.setattr(decision, "estimates", estimated)
-    monkeypatch.setattr(decision, "_free_of_drift", lambda _ranking, _found, this: (this.final, None))
+    left = SimpleNamespace(effective=900.0, independent=50.0)
+    monkeypatch.setattr(decision, "_free_of_drift", lambda _ranking, _found, this: (this.final, left))
     rows: Any = tuple(
         ActingEffect(name=name, probability=0.6, together=0.9, share=0.5, evidence=SimpleNamespace())  # type: ignore[arg-type]
         for name in named

@@ -1,4 +1,4 @@
-"""Intervals of fitted values, and what a doubt does to them."""
+"""Intervals of fitted values, and how they go by the samples that the recordings count for."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.fit.fit import Fit, fit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.intervals import AGREEMENT, Estimate, Widening, deviations, estimates
+from rwn.fit.intervals import AGREEMENT, Estimate, deviations, estimates
 from rwn.fit.preparation import prepare
 from rwn.fit.residuals import Statistics, statistics
 from rwn.model.model import Model
@@ -39,28 +39,27 @@ def _width(of: Estimate) -> float:
     return (of.interval[1] - of.interval[0]) / of.value
 
 
-def test_a_doubt_widens_what_nobody_declared_and_no_interval_beyond_the_data_sheet(
-    rubbing: tuple[Fit, Statistics],
-) -> None:
+def test_few_samples_widen_what_nobody_declared_and_leave_the_data_sheet(rubbing: tuple[Fit, Statistics]) -> None:
     this, left = rubbing
-    sure = estimates(this, left)
-    doubted = estimates(this, left, widening=Widening(birge=2000.0))
+    doubted = estimates(this, left, samples=left.effective / 2000.0**2)
     assert _width(doubted["coulomb-friction.coulomb_torque"]) > 1.0
     for name, std in KNOWN_TO.items():
-        declared = MOTOR[name] * np.exp(np.array([-1.96, 1.96]) * std)
-        (low, high), (least, most) = sure[name].interval or (0.0, 0.0), doubted[name].interval or (0.0, 0.0)
-        assert least == pytest.approx(min(declared[0], low))
-        assert most == pytest.approx(max(declared[1], high))
+        low, high = doubted[name].interval or (0.0, 0.0)
+        assert np.log(high / low) == pytest.approx(2.0 * 1.96 * std, rel=0.02)
 
 
-def test_what_is_not_explained_moves_a_value_in_proportion_to_its_noise(rubbing: tuple[Fit, Statistics]) -> None:
-    """Half of the square is no noise: 1 + 6^2 / 2 times the variance of each value, and none where all is noise."""
+def test_all_samples_that_noise_is_worth_count_where_nothing_is_said(rubbing: tuple[Fit, Statistics]) -> None:
     this, left = rubbing
-    name, wide = "coulomb-friction.coulomb_torque", Widening(misfit_factor=6.0)
-    halved = replace(left, variance=2.0, structured=("speed",))
+    assert estimates(this, left) == estimates(this, left, samples=left.effective)
+
+
+def test_a_quarter_of_the_samples_doubles_what_they_alone_tell(rubbing: tuple[Fit, Statistics]) -> None:
+    """Where nothing was declared, and beside what no noise shows."""
+    this, left = rubbing
+    alone = replace(this, minimum=replace(this.minimum, information=this.minimum.data_information))
+    name = "coulomb-friction.coulomb_torque"
     k = [u.name for u in this.hypothesis.unknowns].index(name)
-    noise = float(deviations(this, halved)[k] / this.minimum.values[k])
-    expected = 2.0 * 1.96 * np.hypot(np.sqrt(19.0) * noise, AGREEMENT)
-    assert _width(estimates(this, halved, widening=wide)[name]) == pytest.approx(expected, rel=1e-6)
-    quiet = replace(left, structured=())
-    assert estimates(this, quiet, widening=wide) == estimates(this, quiet)
+    once = float(deviations(alone, left)[k] / this.minimum.values[k])
+    expected = 2.0 * 1.96 * np.hypot(2.0 * once, AGREEMENT)
+    fewer = estimates(alone, left, samples=left.effective / 4.0)
+    assert _width(fewer[name]) == pytest.approx(expected, rel=1e-6)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -53,6 +54,15 @@ def test_what_ran_away_is_one_observation_of_something_that_is_no_noise(away: fl
     assert left.variance == np.inf
     assert not left.at_the_floor
     assert structured_of(joined) == ("speed",)
+
+
+def test_samples_count_as_evidence_by_what_they_are_samples_of() -> None:
+    """Noise for 1000 at most, misfit for 50: what is half of each for the one over the mean of their inverses."""
+    left = Statistics(count=40_000, variance=1.0, correlation_time=2.0)
+    assert left.independent == 1000.0
+    half = replace(left, variance=2.0, structured=("speed",))
+    assert half.independent == pytest.approx(2.0 / (1.0 / 1000.0 + 1.0 / 50.0))
+    assert replace(half, correlation_time=4000.0).independent == 10.0
 
 
 def test_differences_of_counts_are_noise() -> None:

@@ -60,7 +60,7 @@ def test_more_effects_are_kept_where_they_are_likelier(
     single = fit_with("unbalance")
     several = fit(problem, hypothesis(problem.prior, wanted, problem.scales), max_iterations=0)
     left = statistics(problem, several)
-    samples = min(left.effective, left.most_independent)
+    samples = left.independent
     further = several.unknowns_seen - single.unknowns_seen
     price = 0.5 * further * np.log(samples) + np.log(len(wanted))
     price *= 2.0 * max(left.variance, 1.0) * left.count / samples
@@ -149,7 +149,7 @@ def test_what_no_recording_depends_on_costs_an_explanation_nothing(problem: Prob
 
 
 def _effective(left: Statistics) -> float:
-    return max(min(left.effective, left.most_independent), 2.0)
+    return max(left.independent, 2.0)
 
 
 def test_a_current_that_is_not_recorded_is_made_of_voltage_and_speed(problem: Problem) -> None:

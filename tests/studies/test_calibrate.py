@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,15 +10,8 @@ import pytest
 from typer.testing import CliRunner
 
 from made_up import acting
-from rwn.decide.calibration import calibration
 from rwn.report.diagnosis import Diagnosis
-from rwn.studies.trials.calibrate import (
-    Names,
-    calibrated,
-    names_of,
-    origin,
-    with_misfit,
-)
+from rwn.studies.trials.calibrate import Names, calibrated, names_of, origin
 from rwn.studies.trials.cli import app
 
 
@@ -33,9 +25,8 @@ def test_a_calibration_says_what_it_was_fitted_on(tmp_path: Path) -> None:
                 (out / "diagnosis.json").touch()
                 (out / "timing.json").write_text(json.dumps({"commit": commit, "date": "", "machine": ""}))
     names = Names(features=np.zeros((3, 5)), acts=np.ones(3), trial=np.array([0, 0, 1]))
-    told = origin(names.counted, [tmp_path / "a", tmp_path / "b"], check=["b"])
-    assert told.startswith("3 names of 2 trials: a, b, diagnosed by 1234567 and 89abcde; ")
-    assert told.endswith("; misfit factor without b, which check it")
+    told = origin(names.counted, [tmp_path / "a", tmp_path / "b"])
+    assert told == "3 names of 2 trials: a, b, diagnosed by 1234567 and 89abcde"
 
 
 def _diagnosed(folder: Path, count: int) -> Path:
@@ -53,7 +44,7 @@ def _diagnosed(folder: Path, count: int) -> Path:
             account = (acting("backlash", 0.5, share), acting("unbalance", 0.1, 0.02))
             found = Diagnosis(verdict="adequate", account=account)
             (out / "diagnosis.json").write_bytes(found.to_json())
-            (out / "timing.json").write_text('{"commit": "1234567", "misfit_factor": 0.4}')
+            (out / "timing.json").write_text('{"commit": "1234567"}')
     return folder
 
 
@@ -80,11 +71,10 @@ def test_a_calibration_finds_the_law_that_its_names_follow() -> None:
     rng = np.random.default_rng(3)
     x = rng.standard_normal((4000, 5))
     acts = (rng.random(4000) < 1.0 / (1.0 + np.exp(-(0.5 + 2.0 * x[:, 1])))).astype(float)
-    found = calibrated(Names(features=x, acts=acts, trial=np.arange(4000) // 2), what="made up", misfit_factor=0.3)
+    found = calibrated(Names(features=x, acts=acts, trial=np.arange(4000) // 2), what="made up")
     weights = np.array(found.calibration.weights) / np.array(found.calibration.deviations)
     assert weights[1] == pytest.approx(2.0, rel=0.15)
     assert np.max(np.abs(np.delete(weights, 1))) < 0.2
-    assert found.calibration.misfit_factor == 0.3
     assert (found.names, found.trials, found.acting) == (4000, 2000, int(acts.sum()))
     for low, high, count, share in found.reliability:
         if count > 100:
@@ -93,23 +83,9 @@ def test_a_calibration_finds_the_law_that_its_names_follow() -> None:
 
 def test_the_command_line_fits_says_and_writes_a_calibration(tmp_path: Path) -> None:
     folder, written = _diagnosed(tmp_path / "a", 81), tmp_path / "calibration.json"
-    done = CliRunner().invoke(app, ["calibrate", str(folder), "--check", "a", "--out", str(written)])
+    done = CliRunner().invoke(app, ["calibrate", str(folder), "--out", str(written)])
     assert done.exit_code == 0, done.exception
     assert "160 names of 80 trials, 40 of which act" in done.output
     kept = json.loads(written.read_text())
-    assert kept["fitted_on"].endswith("a, diagnosed by 1234567; misfit factor without a, which check it")
-    assert kept["misfit_factor"] == 0.0, "no other set says what it should be"
+    assert kept["fitted_on"].endswith("a, diagnosed by 1234567")
     assert CliRunner().invoke(app, ["calibrate", str(folder)]).output == done.output
-    alone = CliRunner().invoke(app, ["calibrate", str(folder), "--misfit-alone", "--out", str(written)])
-    assert alone.output.startswith("misfit factor: what is not explained moves a parameter 0.00 times as far")
-    assert json.loads(written.read_text())["weights"] == list(calibration().weights)
-    wrong = CliRunner().invoke(app, ["calibrate", str(folder), "--check", "b"])
-    assert "unknown set 'b'" in str(wrong.exception)
-
-
-def test_a_misfit_factor_of_its_own_keeps_the_probabilities() -> None:
-    once = with_misfit(1.25, "trials of today")
-    again = replace(once, misfit_factor=calibration().misfit_factor, fitted_on=calibration().fitted_on)
-    assert again == calibration()
-    assert once.misfit_factor == 1.25
-    assert once.fitted_on.endswith("; misfit factor by trials of today")

@@ -149,7 +149,7 @@ def test_a_number_that_json_does_not_have_is_read_as_one(tmp_path: Path) -> None
 
 @pytest.mark.parametrize(
     ("content", "said"),
-    [('{"seconds": "x"}', "seconds: "), ('"x"', "expected 'object'"), ('{"misfit_factor": -1}', "misfit_factor: ")],
+    [('{"seconds": "x"}', "seconds: "), ('"x"', "expected 'object'"), ('{"seconds": -1}', "seconds: ")],
 )
 def test_a_timing_of_other_fields_is_refused_by_file_and_field(content: str, said: str, tmp_path: Path) -> None:
     assert timing_of(tmp_path).seconds is None

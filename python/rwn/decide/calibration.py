@@ -30,7 +30,6 @@ class Calibration:
     weights: tuple[float, ...]
     means: tuple[float, ...]
     deviations: tuple[float, ...]
-    misfit_factor: float = 0.0  # how many times as far as noise of its size what is not explained moves a parameter
     fitted_on: str = ""  # the sets with their seeds, how many names of how many trials, and the commit
 
     def probability(self, found: Evidence) -> float:

@@ -15,7 +15,7 @@ from rwn.fit.budget import one_stage
 from rwn.fit.driving_force import DrivingForceProblem
 from rwn.fit.fit import Fit, fit, refit
 from rwn.fit.hypothesis import hypothesis
-from rwn.fit.intervals import Widening, estimates
+from rwn.fit.intervals import estimates
 from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import without_drift
 from rwn.fit.residuals import Statistics, statistics
@@ -108,8 +108,8 @@ def _maybe_absent(ranking: Ranking, found: Account, chosen: RankedFit) -> list[s
     """
     final, left = _free_of_drift(ranking, found, chosen)
     # halves that followed a drift lie as far apart as that took them
-    wide = Widening(birge=found.birge if final is chosen.final else 1.0)
-    numbers, known = estimates(final, left, widening=wide), final.hypothesis.table
+    birge = found.birge if final is chosen.final else 1.0
+    numbers, known = estimates(final, left, samples=left.effective / birge**2), final.hypothesis.table
     absent = []
     for name in (e.name for e in found.stated):
         strengths = (f"{name}.{p.name}" for p in known[name].parameters if p.strength)

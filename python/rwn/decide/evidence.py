@@ -23,7 +23,7 @@ from rwn.fit.refitting import fitted_without
 from rwn.fit.residuals import statistics, variances
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
-from rwn.name.weights import RankedFit, effective_samples, weighed_beside
+from rwn.name.weights import RankedFit, weighed_beside
 from rwn.parallel import side_by_side
 from rwn.simulate.run import Run
 from rwn.simulate.simulator import RAN_AWAY
@@ -139,7 +139,7 @@ def _predicted(judge: Problem, this: Fit, without: Fit) -> float:
     after, before = (_without_drift(variances(judge, f)) for f in (this, without))
     logs = [np.log(np.clip(before[s], 1.0, RAN_AWAY) / np.clip(after[s], 1.0, RAN_AWAY)) for s in after]
     gain = float(np.mean(logs))
-    return 0.5 * effective_samples(statistics(judge, this if gain > 0.0 else without)) * gain if gain else 0.0
+    return 0.5 * statistics(judge, this if gain > 0.0 else without).independent * gain if gain else 0.0
 
 
 def _without_drift(variances: Mapping[str, float]) -> Mapping[str, float]:

@@ -21,7 +21,6 @@ from rwn.fit.residuals import statistics
 from rwn.measurement.likelihood import DECISIVE
 from rwn.model.model import Model
 from rwn.name.ranking import Ranking
-from rwn.name.weights import effective_samples
 
 
 def contradicted(ranking: Ranking) -> list[frozenset[str]]:
@@ -59,7 +58,7 @@ def confirmed(free: Ranking, bound: Ranking, model: Model, names: Collection[str
     (held,) = refitted_beside([bound.fits[0].fit], _declaring(problem, {n: model.uncertainty[n] for n in names}))
     left = statistics(problem, best)
     gained = (held.cost - best.cost) / (max(left.variance, 1.0) * left.count)
-    return 0.5 * effective_samples(left) * gained > DECISIVE
+    return 0.5 * left.independent * gained > DECISIVE
 
 
 def _group(problem: Problem, name: str) -> frozenset[str]:

@@ -62,6 +62,11 @@ class Statistics:
         """
         return 1.0 / ((1.0 - self.misfit) / MOST_SAMPLES + self.misfit / MISSPECIFIED)
 
+    @property
+    def independent(self) -> float:
+        """How many independent samples it counts for."""
+        return min(self.effective, self.most_independent)
+
 
 def misfit(variance: float, structured: Collection[str]) -> float:
     """Share of a mean squared error, in units of the noise, that is no noise; 0 without structure, or of little."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rwn.fit.intervals import NO_WIDENING, Estimate, Widening, estimates
+from rwn.fit.intervals import Estimate, estimates
 from rwn.fit.residuals import Statistics
 from rwn.model.drives.drive import Drive
 from rwn.model.vocabulary import Effect
@@ -34,14 +34,14 @@ class FoundEffect:
 
 def found_effects(
     ranking: Ranking, chosen: RankedFit, probabilities: Mapping[str, float], left: Statistics, *,
-    widening: Widening = NO_WIDENING,
+    samples: float | None = None,
 ) -> tuple[FoundEffect, ...]:  # fmt: skip
     """The effects of an explanation with parameters and intervals, in the order of `probabilities` (name: it acts).
 
-    `left`: what it leaves.
+    `left`: what it leaves. `samples`: see `covariance`.
     """
     final = chosen.final
-    numbers, known = estimates(final, left, widening=widening), final.hypothesis.table
+    numbers, known = estimates(final, left, samples=samples), final.hypothesis.table
     drive = ranking.problem.drive
     numbers = {name: replace(e, unit=_unit(name, e.unit, drive, known)) for name, e in numbers.items()}
     rows = []

@@ -28,11 +28,6 @@ class RankedFit:
         return self.fit.added
 
 
-def effective_samples(left: Statistics) -> float:
-    """How many independent samples a residual counts for, against a fit that leaves more."""
-    return min(left.effective, left.most_independent)
-
-
 def log_odds(this: Fit, other: Fit, left: Statistics) -> float:
     """Log evidence for a fit against one by the same effects; `left`: by the first."""
     ranked = weigh([this, other], left, rivals=1)
@@ -61,7 +56,7 @@ def weigh(
     `finals`: what the fits became under coloured noise, to be weighed in their place.
     """
     finals = fits if finals is None else finals
-    effective = effective_samples(left)
+    effective = left.independent
     scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
     least = min((f.cost for f in finals if np.isfinite(f.cost)), default=0.0)
     base = min(f.unknowns_seen for f in finals)

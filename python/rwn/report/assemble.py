@@ -12,7 +12,6 @@ from rwn._core import __version__
 from rwn.correct.correction import Correction
 from rwn.decide import excitation
 from rwn.decide.account import Account
-from rwn.decide.calibration import calibration
 from rwn.decide.decision import Decision
 from rwn.decide.next_experiment import separated_by
 from rwn.decide.shaft_alone import ShaftAlone
@@ -21,7 +20,7 @@ from rwn.faults.fault import Fault
 from rwn.faults.held_shaft import withstood
 from rwn.fit.fit import Fit
 from rwn.fit.fitted_model import with_uncertainty
-from rwn.fit.intervals import Widening, estimates
+from rwn.fit.intervals import estimates
 from rwn.fit.levenberg_marquardt import FitStatus
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.problem import Problem
@@ -68,9 +67,9 @@ def assemble(
     model = correction.network.model if correction.network else model
     problem, nominal = ranking.problem.in_free_run(), ranking.nominal_fit
     named = decision.verdict == "missing-physics"
-    stated, wide = decision.account.stated, _widening(decision)
+    stated, samples = decision.account.stated, _independent_samples(decision)
     sure = {e.name: e.probability for e in stated}
-    physics = found_effects(ranking, chosen, sure, decision.left, widening=wide) if named else ()
+    physics = found_effects(ranking, chosen, sure, decision.left, samples=samples) if named else ()
     effects = (*said.faults, *physics, *((said.coarse,) if said.coarse else ()))
     alternatives = _alternatives(ranking, chosen)
     equation = effects[0].equation if effects else ""
@@ -80,7 +79,7 @@ def assemble(
     torque_unknown = said.verdict != "adequate" and not model.drive.coefficients and not winding
     depends = laws(problem, nominal, inputs, linear=model.linear) if torque_unknown else ()
     known = correction.by_free_run.fit if correction.by_free_run else correction.final
-    filters = fitted_filters(chosen.final, decision.left, ranking.problem.filters)
+    filters = fitted_filters(chosen.final, decision.left, ranking.problem.filters, samples=samples)
     shown = correction.by_free_run or chosen
     drawn = figures.plots(
         ranking, shown, correction.final, heldout, inputs, depends, correction.network, linear=model.linear
@@ -94,7 +93,7 @@ def assemble(
         explanation=_explanation(decision),
         alternatives=alternatives,
         location=_location(equation, inputs, depends, model, shaft=decision.shaft, units=units),
-        nominal_fit=nominal_fit(ranking, chosen, decision.left, model, widening=wide),
+        nominal_fit=nominal_fit(ranking, chosen, decision.left, model, samples=samples),
         heldout=rows,
         curves=drawn,
         sensor_filters=filters,
@@ -111,7 +110,7 @@ def assemble(
         elapsed=elapsed,
         stand_in=correction.stands_in,
         added=tuple(name for name in correction.final.added if name in correction.model.effects),
-        corrected=with_uncertainty(correction.model, estimates(known, decision.left, widening=wide)),
+        corrected=with_uncertainty(correction.model, estimates(known, decision.left, samples=samples)),
     )
 
 
@@ -129,9 +128,9 @@ def _location(
     return Location(equation=equation, regions=where, description=place, briefly=briefly)
 
 
-def _widening(decision: Decision) -> Widening:
-    """Of the parameters of what is stated: what is left of the mismatch has moved them."""
-    return Widening(birge=decision.account.birge, misfit_factor=calibration().misfit_factor)
+def _independent_samples(decision: Decision) -> float:
+    """For how many the recordings count in the values of what is stated: as evidence, and as parts of them agree."""
+    return decision.left.independent / decision.account.birge**2
 
 
 def _unknown_inputs(this: Fit, problem: Problem) -> list[UnknownInputs]:

@@ -21,14 +21,16 @@ class FittedFilter:
     time_constant: Estimate  # [s]
 
 
-def fitted_filters(this: Fit, left: Statistics, digital: Mapping[str, float]) -> tuple[FittedFilter, ...]:
+def fitted_filters(
+    this: Fit, left: Statistics, digital: Mapping[str, float], *, samples: float | None = None
+) -> tuple[FittedFilter, ...]:
     """The filters that a fit holds as part of the measurement; none that a model has itself.
 
-    With 95 % intervals, but for `digital` ones [s] by signal, which are undone in the recordings.
+    With 95 % intervals (`samples`: see `covariance`), but for `digital` ones [s] by signal, undone in the recordings.
     """
     unknowns = this.hypothesis.unknowns
     fitted = {u.name: k for k, u in enumerate(unknowns) if u.nuisance}
-    spread = deviations(this, left)
+    spread = deviations(this, left, samples=samples)
     rows = [FittedFilter(signal=s, time_constant=Estimate(value=tau, unit="s")) for s, tau in digital.items()]
     for signal, lag in analog_filters(this.hypothesis.table).items():
         k = fitted.get(f"{lag.name}.{lag.parameters[0].name}")

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from rwn.fit.intervals import HALF_WIDTH, NO_WIDENING, Estimate, Widening, estimates
+from rwn.fit.intervals import HALF_WIDTH, Estimate, estimates
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.fit.residuals import Statistics
 from rwn.model.model import Model
@@ -75,11 +75,11 @@ class NominalFit:
 
 
 def nominal_fit(
-    ranking: Ranking, chosen: RankedFit, left: Statistics, model: Model, *, widening: Widening = NO_WIDENING
+    ranking: Ranking, chosen: RankedFit, left: Statistics, model: Model, *, samples: float | None = None
 ) -> NominalFit:
     """Nominal parameters: as given, refitted alone, and together with the found effects, which leave `left`."""
     alone = estimates(ranking.nominal_fit, ranking.before)
-    together = estimates(chosen.final, left, widening=widening) if chosen.added else {}
+    together = estimates(chosen.final, left, samples=samples) if chosen.added else {}
     rows = {}
     given = dict(model.parameters) or dict(ranking.problem.prior.free)
     of_effects = model.effect_values

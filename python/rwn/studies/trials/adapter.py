@@ -72,10 +72,9 @@ def diagnose_trial(folder: Path, out: Path) -> None:
     """Diagnoses the training recordings, then simulates the corrected model on the held-out voltages.
 
     Writes diagnosis.json, corrected.toml, heldout_*_simulated.csv (time, speed) and timing.json (how long it took; the
-    date, the commit, the machine, the misfit factor that intervals count with) to `out`, and heldout_*_refitted.csv of
-    the nominal structure refitted where a corrected model is offered.
+    date, the commit, the machine) to `out`, and heldout_*_refitted.csv of the nominal structure refitted where a
+    corrected model is offered.
     """
-    from rwn.decide.calibration import calibration
     from rwn.diagnose import diagnose  # heavy, and the score needs only the file names above
     from rwn.faults.late_enable import late_enables, powered
     from rwn.measurement.unrecorded_input import recording_with_inferred_input
@@ -101,6 +100,6 @@ def diagnose_trial(folder: Path, out: Path) -> None:
         if found.corrected is not None and fitted:
             refitted = simulate(replace(model, parameters={**model.parameters, **fitted}, uncertainty={}), recording)
             write_speed(refitted_file(out, path), recording.time, refitted.signals["speed"])
-    timing = {"seconds": round(elapsed, 3), **asdict(made()), "misfit_factor": calibration().misfit_factor}
+    timing = {"seconds": round(elapsed, 3), **asdict(made())}
     (out / "timing.json").write_text(json.dumps(timing))
     (out / "diagnosis.json").write_bytes(found.to_json())  # last: its presence says that all is done

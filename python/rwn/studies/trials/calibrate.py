@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,11 +12,14 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.decide.calibration import FEATURES, Calibration, calibration, features
+from rwn.decide.calibration import FEATURES, Calibration, features
+from rwn.report.diagnosis import Diagnosis
 from rwn.studies.trials.bench_trials.also_true import also_true
-from rwn.studies.trials.diagnosed import diagnosed
+from rwn.studies.trials.damaged import reading
 from rwn.studies.trials.effects import known_as
+from rwn.studies.trials.grade import load_answers
 from rwn.studies.trials.origins import codes, results_of
+from rwn.studies.trials.run import out_of, trial_folders
 
 Array = NDArray[np.float64]
 
@@ -53,13 +56,27 @@ class Calibrated:
 def names_of(folders: Sequence[Path], *, results: Path | None = None) -> Names:
     """Every effect of the leading explanations of all trials that have a diagnosis."""
     rows, acts, trials = [], [], []
-    for count, (answer, diagnosis, _) in enumerate(diagnosed(folders, results)):
+    for count, (answer, diagnosis) in enumerate(diagnosed(folders, results)):
         true = _true(answer)
         for e in diagnosis.account:
             rows.append(features(e.evidence))
             acts.append(float(bool(true & {e.name, *e.rivals})))
             trials.append(count)
     return Names(features=np.array(rows), acts=np.array(acts), trial=np.array(trials, dtype=np.int64))
+
+
+def diagnosed(
+    folders: Sequence[Path], results: Path | None
+) -> Iterator[tuple[Mapping[str, Any], Diagnosis]]:  # fmt: skip
+    """The answer and the diagnosis of every trial that has both."""
+    for folder in folders:
+        _, answers = load_answers(folder)
+        own = results_of(folder, folders, results)
+        for trial in trial_folders(folder):
+            found = out_of(trial, own) / "diagnosis.json"
+            if trial.name in answers and found.exists():
+                with reading(found):
+                    yield answers[trial.name], Diagnosis.from_json(found.read_bytes())
 
 
 def _true(answer: Mapping[str, Any]) -> set[str]:
@@ -70,7 +87,7 @@ def _true(answer: Mapping[str, Any]) -> set[str]:
     return set().union(*map(known_as, kinds), answer.get("equivalent", ()), beside)
 
 
-def calibrated(names: Names, *, what: str, misfit_factor: float = 0.0) -> Calibrated:
+def calibrated(names: Names, *, what: str) -> Calibrated:
     """The calibration by all names; its reliability, and the prior of its weights, by those of trials left out.
 
     Raises ValueError where there are too few names to learn from.
@@ -85,7 +102,7 @@ def calibrated(names: Names, *, what: str, misfit_factor: float = 0.0) -> Calibr
     edges = np.array([0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 + 1e-9])
     bins = [(a, b, (unseen >= a) & (unseen < b)) for a, b in pairwise(edges)]
     return Calibrated(
-        calibration=replace(_fitted(names.features, names.acts, what, ridge), misfit_factor=misfit_factor),
+        calibration=_fitted(names.features, names.acts, what, ridge),
         names=names.acts.size,
         trials=int(np.unique(names.trial).size),
         acting=int(names.acts.sum()),
@@ -106,27 +123,16 @@ def _left_out(names: Names, fold: NDArray[np.int64], ridge: float) -> Array:
     return unseen
 
 
-def with_misfit(misfit_factor: float, what: str) -> Calibration:
-    """The calibration that comes with rwn, with another misfit factor. `what`: it was fitted on."""
-    now = calibration()
-    before = now.fitted_on.split("; misfit factor")[0]
-    return replace(now, misfit_factor=misfit_factor, fitted_on=f"{before}; misfit factor by {what}")
-
-
 def write(found: Calibration, path: Path) -> None:
     """calibration.json."""
     path.write_bytes(msgspec.json.format(msgspec.json.encode(asdict(found)), indent=1) + b"\n")
 
 
-def origin(counted: str, folders: Sequence[Path], *, results: Path | None = None, check: Collection[str] = ()) -> str:
-    """What was fitted on: how many of what, the sets and the codes that diagnosed them.
-
-    `check`: names of the sets that do not count in the misfit factor.
-    """
+def origin(counted: str, folders: Sequence[Path], *, results: Path | None = None) -> str:
+    """What was fitted on: how many of what, the sets and the codes that diagnosed them."""
     by = dict.fromkeys(code for f in folders for code in codes(f, results_of(f, folders, results)))
-    checked = f"; misfit factor without {', '.join(check)}, which check it" if check else ""
     sets = ", ".join(f.name for f in folders)
-    return f"{counted}: {sets}, diagnosed by {' and '.join(by)}{checked}"
+    return f"{counted}: {sets}, diagnosed by {' and '.join(by)}"
 
 
 def _fitted(x: Array, y: Array, what: str, ridge: float) -> Calibration:

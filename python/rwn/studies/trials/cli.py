@@ -122,42 +122,15 @@ def calibrate(
     folders: Annotated[list[Path], typer.Argument(help="Development sets whose trials were run.", exists=True)],
     results: Annotated[Path | None, typer.Option(help="As for score.")] = None,
     out: Annotated[Path | None, typer.Option(help="Write calibration.json here (default: print alone).")] = None,
-    check: Annotated[
-        list[str] | None, typer.Option(help="Name of a set whose intervals check the misfit factor and do not count.")
-    ] = None,
-    misfit_alone: Annotated[
-        bool, typer.Option("--misfit-alone", help="Fit the misfit factor anew and keep the probabilities that are.")
-    ] = False,
 ) -> None:
     """Fit the probability that an effect acts to the evidence and answers of development trials."""
-    from rwn.errors import unrecognised
-    from rwn.studies.trials.calibrate import (
-        calibrated,
-        names_of,
-        origin,
-        with_misfit,
-        words,
-        write,
-    )
-    from rwn.studies.trials.misfit_factor import errors_of
+    from rwn.studies.trials.calibrate import calibrated, names_of, origin, words, write
 
-    check, known = check or [], [f.name for f in folders]
-    for name in check:
-        if name not in known:
-            raise unrecognised("set", name, known, where="--check")
-    errors = errors_of(folders, results=results, check=check)
-    misfit_factor = errors.likeliest()
-    if misfit_alone:
-        what = origin(errors.counted, [f for f in folders if f.name not in check], results=results)
-        found, said = with_misfit(misfit_factor, what), list[str]()
-    else:
-        names = names_of(folders, results=results)
-        what = origin(names.counted, folders, results=results, check=check)
-        anew = calibrated(names, what=what, misfit_factor=misfit_factor)
-        found, said = anew.calibration, [words(anew)]
+    names = names_of(folders, results=results)
+    found = calibrated(names, what=origin(names.counted, folders, results=results))
     if out is not None:
-        write(found, out)
-    typer.echo("\n".join([*said, errors.words(misfit_factor)]))
+        write(found.calibration, out)
+    typer.echo(words(found))
 
 
 def _progress(done: int, count: int, name: str) -> None:

@@ -55,7 +55,6 @@ class Timing(Struct, omit_defaults=True):
     date: str = ""
     commit: str = ""
     machine: str = ""
-    misfit_factor: Annotated[float, Meta(ge=0.0)] | None = None
 
 
 def said_in(path: Path) -> dict[str, Any]:
