@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -111,11 +111,11 @@ def test_intervals_go_by_what_the_stated_effects_leave(monkeypatch: pytest.Monke
     fakes: dict[str, Any] = {
         "account": lambda *_: None, "_stated": lambda ranking, found: (ranking, found, chosen), "moves": lambda _: True,
         "proved": lambda *_, **__: (), "remainder": lambda *_: SimpleNamespace(signals=()),
-        "verdict_of": lambda *_: "missing-physics", "statistics": lambda problem, this: (problem, this),
+        "verdict_of": lambda *_: "missing-physics", "statistics": lambda problem, this: SimpleNamespace(of=(problem, this), misfit=0.0),
     }  # fmt: skip
     for name, fake in fakes.items():
         monkeypatch.setattr(decision, name, fake)
     found = decision.decide(ranking, (), None, seed=0)  # type: ignore[arg-type]
-    assert found.left == ("recordings", "with the stated effects alone")
+    assert cast(Any, found.left).of == ("recordings", "with the stated effects alone")
     stand_in: Any = SimpleNamespace(final="with what stands in for them")
-    assert replace(found, chosen=stand_in).left == ("recordings", "with what stands in for them")
+    assert cast(Any, replace(found, chosen=stand_in).left).of == ("recordings", "with what stands in for them")

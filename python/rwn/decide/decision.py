@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import isfinite
 
 from rwn.decide.account import Account, Remainder, account, remainder
 from rwn.decide.excitation import moves
@@ -40,11 +41,20 @@ class Decision:
     rows: tuple[HeldoutRow, ...]
     other: Place | None = None  # where a law without a name is seen in what is left
     shaft: ShaftAlone | None = None  # what is left with and without the winding, where nothing explains it
+    heldout: tuple[Run, ...] = ()  # recordings that were kept back
 
     @cached_property
     def left(self) -> Statistics:
-        """What the chosen effects leave, which their intervals go by."""
-        return statistics(self.ranking.weighted, self.chosen.final)
+        """What the chosen effects leave, with the error of recordings kept back where misfit shows more in these.
+
+        Intervals go by it: values bend so that the recordings they are fitted to show little of what is missing.
+        """
+        problem, final = self.ranking.weighted, self.chosen.final
+        fitted = statistics(problem, final)
+        unseen = statistics(problem.on(self.heldout), final, drift=False) if self.heldout else fitted
+        if unseen.misfit <= fitted.misfit or not isfinite(unseen.variance):  # one that ran away has no size
+            return fitted
+        return replace(fitted, variance=max(unseen.variance, fitted.variance), structured=unseen.structured)
 
 
 def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int) -> Decision:
@@ -60,6 +70,7 @@ def decide(ranking: Ranking, heldout: Sequence[Run], model: Model, *, seed: int)
     return Decision(
         ranking=ranking, account=found, chosen=chosen, remainder=left, verdict=verdict, rows=rows, other=other,
         shaft=shaft_alone(chosen.final, ranking.problem, model) if verdict == "unexplained" else None,
+        heldout=tuple(heldout),
     )  # fmt: skip
 
 
