@@ -111,7 +111,8 @@ def test_intervals_go_by_what_the_stated_effects_leave(monkeypatch: pytest.Monke
     fakes: dict[str, Any] = {
         "account": lambda *_: None, "_stated": lambda ranking, found: (ranking, found, chosen), "moves": lambda _: True,
         "proved": lambda *_, **__: (), "remainder": lambda *_: SimpleNamespace(signals=()),
-        "verdict_of": lambda *_: "missing-physics", "statistics": lambda problem, this: SimpleNamespace(of=(problem, this), misfit=0.0),
+        "verdict_of": lambda *_: "missing-physics",
+        "statistics": lambda problem, this: SimpleNamespace(of=(problem, this), misfit=0.0),
     }  # fmt: skip
     for name, fake in fakes.items():
         monkeypatch.setattr(decision, name, fake)
