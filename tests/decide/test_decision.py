@@ -88,7 +88,7 @@ def test_what_may_as_well_be_absent_is_not_stated(
 
     monkeypatch.setattr(decision, "together", fitted)
     monkeypatch.setattr(decision, "estimates", estimated)
-    left = SimpleNamespace(effective=900.0, independent=50.0)
+    left = SimpleNamespace(effective=900.0, effective_with_misfit=50.0)
     monkeypatch.setattr(decision, "_free_of_drift", lambda _ranking, _found, this: (this.final, left))
     rows: Any = tuple(
         ActingEffect(name=name, probability=0.6, together=0.9, share=0.5, evidence=SimpleNamespace())  # type: ignore[arg-type]

@@ -58,7 +58,7 @@ def test_misfit_of_a_recording_that_was_kept_back_is_counted(ranking: Ranking) -
     assert "speed" in left.structured
     assert left.variance > 2.0
     assert (left.count, left.correlation_time) == (fitted.count, fitted.correlation_time)
-    assert left.independent < 2.0 * MISSPECIFIED < fitted.independent
+    assert left.effective_with_misfit < 2.0 * MISSPECIFIED < fitted.effective_with_misfit
 
 
 def test_a_recording_that_runs_away_gives_no_size(ranking: Ranking, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -65,6 +65,16 @@ def test_samples_count_as_evidence_by_what_they_are_samples_of() -> None:
     assert replace(half, correlation_time=4000.0).independent == 10.0
 
 
+def test_samples_tell_values_by_all_that_noise_is_worth_and_by_little_of_misfit() -> None:
+    left = Statistics(count=40_000, variance=1.0, correlation_time=2.0)
+    assert left.effective_with_misfit == left.effective == 20_000.0
+    half = replace(left, variance=2.0, structured=("speed",))
+    assert half.effective_with_misfit == pytest.approx(2.0 / (1.0 / 20_000.0 + 1.0 / 50.0))
+    few = replace(half, correlation_time=4000.0)
+    assert few.effective_with_misfit == few.effective == 10.0
+    assert Statistics(count=0, variance=2.0, correlation_time=1.0).effective_with_misfit == 0.0
+
+
 def test_differences_of_counts_are_noise() -> None:
     for over in (1, 2, 5):
         error = _rounding()[over:] - _rounding()[:-over]

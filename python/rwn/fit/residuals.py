@@ -67,6 +67,12 @@ class Statistics:
         """How many independent samples it counts for."""
         return min(self.effective, self.most_independent)
 
+    @property
+    def effective_with_misfit(self) -> float:
+        """Effective number of samples by which it tells values: noise all that it is worth, misfit few."""
+        of_misfit = min(self.effective, MISSPECIFIED)
+        return 1.0 / ((1.0 - self.misfit) / self.effective + self.misfit / of_misfit) if of_misfit else 0.0
+
 
 def misfit(variance: float, structured: Collection[str]) -> float:
     """Share of a mean squared error, in units of the noise, that is no noise; 0 without structure, or of little."""

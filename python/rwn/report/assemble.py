@@ -129,8 +129,8 @@ def _location(
 
 
 def _independent_samples(decision: Decision) -> float:
-    """For how many the recordings count in the values of what is stated: as evidence, and as parts of them agree."""
-    return decision.left.independent / decision.account.birge**2
+    """For how many the recordings count in the values of what is stated: by misfit, and as parts of them agree."""
+    return decision.left.effective_with_misfit / decision.account.birge**2
 
 
 def _unknown_inputs(this: Fit, problem: Problem) -> list[UnknownInputs]:
