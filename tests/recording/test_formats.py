@@ -110,6 +110,19 @@ def test_a_format_gives_the_recording_that_was_written(kind: str, tmp_path: Path
     as_meant(read_recording(tmp_path / f"run{ending}", layout=layout))
 
 
+def test_a_parquet_file_whose_groups_say_other_rows_is_refused_before_memory_is_taken_for_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of 12 rows, in a group that says it has 1e11: found by fuzzing."""
+    found = Path(__file__).parents[1] / "corpus" / "parquet" / "08c39b0de7a7c8650f539f277f9ff88ab4e12756"
+    (tmp_path / "a.parquet").write_bytes(found.read_bytes())
+    reads = list[object]()
+    monkeypatch.setattr(imported("pyarrow.parquet").ParquetFile, "read", lambda *_, **__: reads.append(0))
+    with pytest.raises(InputError, match="the file is not Parquet, or it is damaged"):
+        read_recording(tmp_path / "a.parquet")
+    assert not reads
+
+
 @pytest.mark.parametrize(("kind", "module"), [("npz", "table"), ("parquet", "parquet"), ("mat 7", "mat")])
 def test_more_samples_than_memory_is_meant_for_are_refused(
     kind: str, module: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

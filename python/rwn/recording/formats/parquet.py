@@ -25,7 +25,7 @@ def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
     parquet = library("pyarrow.parquet", "parquet", path)
     try:
         file = parquet.ParquetFile(path)
-        schema, rows = file.schema_arrow, file.metadata.num_rows
+        schema, rows = file.schema_arrow, _rows(file.metadata)
         if rows > MAX_SAMPLES:
             raise too_long(str(path), rows)
         told = {field.name: name_and_unit_of(_named(field)) for field in schema}
@@ -47,6 +47,17 @@ def read_parquet(path: Path, wanted: Collection[str] = ()) -> Table:
     arrays |= {told[column][0]: content.column(column).to_numpy() for column in content.column_names}
     table = table_of(str(path), arrays, units, wanted)
     return replace(table, row=lambda k: f"row {k + 1}")
+
+
+def _rows(metadata: Any) -> int:
+    """How many rows a file has, as its groups say too: pyarrow sets aside as much memory as a group says it takes.
+
+    Raises ValueError where they say otherwise.
+    """
+    groups = sum(metadata.row_group(k).num_rows for k in range(metadata.num_row_groups))
+    if groups != metadata.num_rows:
+        raise ValueError(f"{metadata.num_rows} rows in groups of {groups}")
+    return int(groups)
 
 
 def _named(field: Any) -> str:
