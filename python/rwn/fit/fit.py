@@ -246,10 +246,13 @@ def best_few(fits: Sequence[Fit]) -> list[Fit]:
     return sorted(fits, key=lambda f: f.cost)[:KEPT]
 
 
-def cost_of_a_step(problem: Problem, this: Hypothesis) -> float:
-    """What it costs to simulate all runs once, with derivatives; measured on the beginning of each."""
+def cost_of_a_step(problem: Problem, this: Hypothesis, at: Array | None = None) -> float:
+    """What it costs to simulate all runs once, with derivatives; measured on the beginning of each.
+
+    `at`: the parameter vector (all,); None: where the hypothesis starts.
+    """
     runs = tuple(r.until(max(int(COST_SAMPLE * r.time.size), 1)) for r in problem.runs)
     own = replace(problem, runs=runs).metered()
-    own.normal(this.vector, this.active, this.by)
+    own.normal(this.vector if at is None else at, this.active, this.by)
     problem.work.add(own.work.done)
     return own.work.done / COST_SAMPLE

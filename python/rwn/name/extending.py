@@ -12,6 +12,7 @@ from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.residuals import statistics
+from rwn.name.affordable import affordable
 from rwn.name.backward import distinct, replaced
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.ranking import Extensions, Fits
@@ -53,7 +54,9 @@ def beside(
             skipped = True
             continue
         here = [n for n in names if n in parts] if rivals else names
-        new = [name for name in here if (base.added, name) not in tried]
+        untried = [name for name in here if (base.added, name) not in tried]
+        new = affordable(problem, base, untried, fits)
+        skipped = skipped or len(new) < len(untried)
         found += screen(problem, base, new, keep=1, best=min((f.cost for f in found), default=np.inf))
         tried |= {(base.added, name) for name in new}
         met = {name for f in (*fits, *found) for name in f.added}

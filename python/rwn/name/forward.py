@@ -47,7 +47,7 @@ class _ForwardSelection(NamedTuple):
     extensions: Extensions
     paired: bool  # some have several effects
     complete: bool  # more effects at once would not help
-    cut_short: int  # so many effects at once were tried beside the best alone, for what that costs; 0: none
+    cut_short: int  # of so many effects at once only the most promising were tried, for what that costs; 0: all
     measured: Measurement | None = None  # how recordings were made, where it proved to be otherwise before the end
 
 

@@ -16,6 +16,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.residuals import join, statistics
 from rwn.fit.screening_part import screening_part
+from rwn.name.affordable import affordable
 from rwn.name.screening import screen
 
 FAR_OFF = 100.0  # mean squared error, in units of the noise, up to which a free run follows the motion
@@ -51,7 +52,8 @@ def fitted_in_windows(
         if base is None:
             break
         windows = with_noise_of(windows, refit(base, windows))
-        found += screen(windows, refit(base, windows), wanted, patience=PATIENCE)
+        base = refit(base, windows)
+        found += screen(windows, base, affordable(windows, base, wanted, [*known, *found]), patience=PATIENCE)
     return found
 
 

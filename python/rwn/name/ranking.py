@@ -49,7 +49,7 @@ class Ranking:
     extensions: Extensions  # under the noise of `alone`
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     at_a_limit: tuple[Fit, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
-    cut_short: int = 0  # so many effects at once were tried beside the best alone, for what that costs; 0: none
+    cut_short: int = 0  # of so many effects at once only the most promising were tried, for what that costs; 0: all
     complete: bool = True  # no other effects and no more at once would have been tried, had they been allowed
 
     @property

@@ -12,6 +12,7 @@ from rwn.fit.budget import affords_more, one_stage, renew
 from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.refitting import fitted_without
+from rwn.name.affordable import affordable
 from rwn.name.backward import distinct, price
 from rwn.name.screening import screen
 
@@ -30,7 +31,7 @@ def with_plainer_instead(problem: Problem, fits: list[Fit], wanted: Sequence[str
         fewer = [n for n in wanted if n not in best.added and _size(best, n) < _size(best, name)]
         if fewer and affords_more(problem.work):
             rest = fitted_without(problem, best, name, fits, share=one_stage(problem.work))
-            found += screen(problem, rest, fewer, keep=1, best=best.cost)
+            found += screen(problem, rest, affordable(problem, rest, fewer, fits), keep=1, best=best.cost)
     return distinct(found)
 
 

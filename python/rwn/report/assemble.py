@@ -221,8 +221,8 @@ def _warnings(
         )
     if ranking.cut_short:
         texts.append(
-            f"the search ended early: of {ranking.cut_short} effects at once only those with the likeliest one were "
-            "tried; --effort 3, or recordings of fewer samples, leave room for the others"
+            f"the search ended early: of {ranking.cut_short} effects at once only the most promising were tried; "
+            "--effort 3, or recordings of fewer samples, leave room for the others"
         )
     for f in ranking.at_a_limit[:1]:
         met = [parameter_in_words(name) for name in f.limits_met]
