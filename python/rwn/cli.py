@@ -67,12 +67,8 @@ def diagnose(
         with _progress() as progress:
             options = {"seed": seed, "jobs": jobs, "effort": effort, "progress": progress}
             found = _rwn().diagnose(fitted, nominal, heldout=judged, **options)
-        used = [
-            source(model, "model"),
-            *(source(r, "fit") for r in fitted),
-            *(source(r, "heldout") for r in judged),
-        ]
-        found = replace(found, sources=tuple(used), command=shlex.join(["rwn", *sys.argv[1:]]))
+        used = (source(model, "model"), *found.sources)
+        found = replace(found, sources=used, command=shlex.join(["rwn", *sys.argv[1:]]))
         found.write(aside)
     print_verdict(found, out)
 

@@ -19,7 +19,7 @@ from rwn.faults.late_enable import LateEnable, late_beside, late_enables, powere
 from rwn.faults.odd_files import without_unseen_mistakes
 from rwn.faults.sensor_errors import without_sensor_errors
 from rwn.faults.uneven_files import at_own_levels, uneven_unseen
-from rwn.fit.nominal import check_it_runs
+from rwn.fit.nominal import check_it_begins, check_it_runs
 from rwn.fit.preparation import prepare
 from rwn.measurement.unrecorded_input import inferred_input_findings, with_inferred_input
 from rwn.model.files import model_of
@@ -33,6 +33,7 @@ from rwn.recording.recording import Recording, remarks
 from rwn.report.assemble import assemble
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.file_units import in_file_units
+from rwn.report.provenance import sources
 from rwn.search.search import SearchResult, search
 from rwn.simulate.declared import check_declared
 from rwn.simulate.recorded_run import judging_run, measured_alike
@@ -74,14 +75,17 @@ def diagnose(
     began = time.perf_counter()
     say = progress or _silent
     _check_options(seed, jobs, effort, say)
-    model = model_of(model)
+    model_given, model = model, model_of(model)
     fitted, judged = recordings_to_fit(recordings, model), read_recordings(heldout, model)
     refuse_doubles([*fitted, *judged])
+    used = sources(model_given, fitted, judged)
     common, said = tuple(overlaps(fitted, judged)), remarks((*fitted, *judged))
     (fitted, seen_in_fitted), (judged, seen_in_judged) = inspected(fitted), inspected(judged)
     (judged, held_back), (fitted, held) = without_held(judged, model, fitted), without_held(fitted, model)
-    if model.effects:
-        check_declared(model, [prepare(fitted, model).scales])
+    if model.effects or model.drive.coefficients:  # what has neither does not run away
+        prepared = prepare(fitted, model)
+        check_declared(model, [prepared.scales])
+        check_it_begins(prepared)
     with thread_pool(jobs or os.cpu_count() or 1):
         late = late_enables(fitted, model)
         found = search(fitted, model, late=late, say=say, effort=effort)
@@ -99,7 +103,7 @@ def diagnose(
     findings = (*seen_in_fitted, *held, *held_back, *found.findings, *seen_in_judged, *common, *unseen.findings(found))
     layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
     corrected = replace(made.corrected, recording=layout)
-    made = replace(made, corrected=corrected, findings=findings, warnings=(*made.warnings, *said))
+    made = replace(made, corrected=corrected, findings=findings, warnings=(*made.warnings, *said), sources=used)
     return in_file_units(made, (*fitted, *judged))
 
 

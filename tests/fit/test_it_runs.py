@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +10,12 @@ import pytest
 
 from command_line import MODEL
 from rwn.errors import NoResultError
-from rwn.fit.nominal import check_it_runs, nominal_of
+from rwn.fit.levenberg_marquardt import FitStatus
+from rwn.fit.nominal import check_it_begins, check_it_runs, nominal_of
+from rwn.fit.preparation import prepare
 from rwn.model.files import read_model
 from rwn.model.model import Model
+from rwn.model.toml_reader import parse_model
 from rwn.recording.recording import Recording
 
 OWN = """[own_effects.brake]
@@ -24,6 +28,15 @@ parameters.w = { unit = "rad/s", lower = 1.0, upper = 99.0, start = 10.0, meanin
 [effects.brake]
 c = 0.01
 w = 10.0
+"""
+DRIVEN_ON = """[own_effects.driven]
+term = "torque"
+equation = "c * speed"
+meaning = "what drives motion on"
+source = "none"
+parameters.c = { unit = "N m s/rad", lower = 0.0, upper = 9.0, start = 0.01, strength = true, meaning = "how much" }
+[effects.driven]
+c = {}
 """
 
 
@@ -71,3 +84,23 @@ def test_a_diagnosis_of_it_ends_in_one_line_and_writes_nothing(
     assert next(line for line in said.splitlines() if line.startswith("rwn: ")).endswith(" Nothing was written.")
     assert "Traceback" not in said
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("rate", "status"), [(20.0, ""), (400.0, "diverged"), (4000.0, "formula-failed")])
+def test_a_model_that_runs_away_from_what_was_recorded_is_said_before_a_search(rate: float, status: str) -> None:
+    """Within 0.2 s by e^4, by e^80 where doubles round to e^-36, and beyond all numbers."""
+    inertia = parse_model(MODEL, where="motor.toml").parameters["inertia"]
+    model = parse_model(MODEL + DRIVEN_ON.replace("{}", str(rate * inertia)), where="motor.toml")
+    problem = prepare([_run("a", 5.0)], model)
+    if not status:
+        check_it_begins(problem)
+        return
+    with pytest.raises(NoResultError, match=f"a, the model as given: {status}: "):
+        check_it_begins(problem)
+
+
+def test_a_nominal_fit_that_has_no_beginning_is_no_result(tmp_path: Path) -> None:
+    problem, nominal = nominal_of([_run("a", 5.0)], _model(tmp_path, "abs(speed) / w"))
+    lost = replace(nominal, minimum=replace(nominal.minimum, status=FitStatus.DIVERGED))
+    with pytest.raises(NoResultError, match="the refitted model: diverged: "):
+        check_it_runs(problem, lost)

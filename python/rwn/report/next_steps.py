@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from rwn.decide.account import ActingEffect
 from rwn.report.diagnosis_data import DiagnosisData
-from rwn.report.sentences import SLIGHT, held_part
+from rwn.report.held import held_part, holds_no_effect
+from rwn.report.sentences import SLIGHT
 from rwn.report.text import likelihood, listing, plain_name
 
 _WRITE_IT = (
@@ -35,7 +36,8 @@ def _missing(found: DiagnosisData) -> Iterator[str]:
     if found.remainder.signals and found.remainder.share >= SLIGHT:
         yield f"For what is left: where you know what does it, {_WRITE_IT}"
         yield from _again(found)
-    yield from _use_it(held_part(found) or "the effects that were found")
+    with_effects = held_part(found) or "the effects that were found"
+    yield from _use_it("the refitted parameters" if holds_no_effect(found) else with_effects)
     if not any(source.use == "heldout" for source in found.sources) and found.sources:
         yield "Keep one recording back with `--heldout`: a proof on a run of its own is stronger than cross-validation."
 

@@ -15,6 +15,7 @@ from rwn.name.measurement import NEXT_TO_NOTHING
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report.diagnosis_data import DiagnosisData
+from rwn.report.held import held_part, holds_no_effect
 from rwn.report.text import (
     capital,
     estimate,
@@ -69,7 +70,8 @@ def _missing(found: DiagnosisData) -> tuple[str, ...]:
     them = held_part(found) or ("it" if len(found.effects) == 1 else "them")
     said = f"{_contradiction(found)}The model lacks {listing(parts)}."
     beside = [e for e in found.effects if e not in effects]
-    return (said, *_proof(found, f"Adding {them}"), *_slight(beside), *_left(found))
+    proof = _not_held(found) if holds_no_effect(found) else _proof(found, f"Adding {them}")
+    return (said, *proof, *_slight(beside), *_left(found))
 
 
 def _slight(effects: Sequence[FoundEffect]) -> Iterator[str]:
@@ -86,13 +88,9 @@ def acting(found: DiagnosisData, effect: FoundEffect) -> tuple[float, tuple[str,
     return (known.together, known.rivals) if known and known.rivals else (effect.probability, ())
 
 
-def held_part(found: DiagnosisData) -> str:
-    """What corrected.toml holds where that is not the explanation that is stated; empty where it is."""
-    stated = set(found.explanation.effects) if found.explanation else set()
-    if not found.added or stated == set(found.added):
-        return ""
-    names = listing([plain_name(name) for name in found.added])
-    return f"{names} alone" if stated > set(found.added) else names
+def _not_held(found: DiagnosisData) -> Iterator[str]:
+    it = "it" if len(found.effects) == 1 else "them"
+    yield f"Recordings that were not fitted are simulated better without {it}: corrected.toml leaves {it} out."
 
 
 def _contradiction(found: DiagnosisData) -> str:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rwn.errors import InputError, unrecognised
+from rwn.errors import InputError, plain, unrecognised
 from rwn.model.drives.drive import USUAL_VOLTAGE, Drive, NominalParameter
 
 MOST_ORDER = 20
@@ -76,11 +77,9 @@ def _coefficients(given: Mapping[str, Any], order: int, where: str) -> dict[str,
         return {}
     lists = {key: given.get(key, []) for key in ("numerator", "denominator")}
     for key, values in lists.items():
-        if not isinstance(values, list) or not all(
-            type(x) in (int, float) and math.isfinite(x) for x in values
-        ):
+        if not isinstance(values, list) or not all(map(_is_finite, values)):
             raise InputError(
-                f"{key} is {values!r}",
+                f"{key} is {plain(repr(values), longest=60)}",
                 where=where,
                 expected="a list of numbers, highest power first",
                 fix=f"write for instance {key} = [1.0, 20.0]",
@@ -95,4 +94,17 @@ def _coefficients(given: Mapping[str, Any], order: int, where: str) -> dict[str,
         )
     lead = float(denominator[0])
     b = {f"b{k}": float(x) / lead for k, x in enumerate(reversed(numerator))}
-    return {**b, **{f"a{k}": float(x) / lead for k, x in enumerate(reversed(denominator[1:]))}}
+    found = {**b, **{f"a{k}": float(x) / lead for k, x in enumerate(reversed(denominator[1:]))}}
+    if not all(map(math.isfinite, found.values())):
+        raise InputError(
+            f"the denominator begins with {lead:g}, against which the others are too large",
+            where=where,
+            expected="coefficients whose ratios are numbers",
+            fix="correct the coefficients",
+        )
+    return found
+
+
+def _is_finite(x: Any) -> bool:
+    """Whether it is a number that a float holds; TOML writes integers of any length."""
+    return type(x) in (int, float) and bool(abs(x) <= sys.float_info.max)  # NaN is not

@@ -1,0 +1,22 @@
+"""What is said of a corrected.toml that leaves out all that is stated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import made_up
+from rwn.report.held import holds_no_effect
+from rwn.report.next_steps import next_steps
+from rwn.report.sentences import verdict_sentence
+
+
+def test_neither_the_verdict_nor_what_to_do_says_that_it_holds_what_was_found() -> None:
+    whole = made_up.found()
+    assert not holds_no_effect(whole)
+    assert "with the effects that were found" in " ".join(next_steps(whole))
+    without = replace(whole, added=(), heldout=tuple(replace(r, corrected=None, gain=None) for r in whole.heldout))
+    assert holds_no_effect(without)
+    assert "corrected.toml holds the model with the refitted parameters" in " ".join(next_steps(without))
+    said = verdict_sentence(without)
+    assert said.endswith(" that were not fitted are simulated better without it: corrected.toml leaves it out.")
+    assert said.startswith(verdict_sentence(whole).split(". Adding")[0])
