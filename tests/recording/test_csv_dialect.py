@@ -108,7 +108,7 @@ def test_quotes_hide_separators() -> None:
         (["time,voltage,speed", "s,V,rpm"], ("s", "V", "rpm"), 2),
         (["s,V,rpm", "time,voltage,speed"], (None, None, None), 2),
         (["time,voltage,speed", "[s],(V),[rpm]"], ("s", "V", "rpm"), 2),
-        (["time [s],voltage,speed", "ms,V,"], ("s", "V", None), 2),
+        (["time [s],voltage,speed", "s,V,"], ("s", "V", None), 2),
         (["time,voltage,speed", "s,V,rpm", "double,double,double"], ("s", "V", "rpm"), 3),
         (["bench 3, night", "", "# time,voltage,speed", "# s,V,rpm"], ("s", "V", "rpm"), 4),
         (["time,voltage,speed", "# begun at noon"], (None, None, None), 2),

@@ -12,6 +12,7 @@ from itertools import chain
 
 from rwn.errors import InputError
 from rwn.recording import units
+from rwn.recording.formats.csv_doubts import refuse_thousands, with_row_of_units
 from rwn.recording.formats.scope import scope_block
 
 HOW = "write a first row such as: time [s],voltage [V],speed [rad/s]"
@@ -96,6 +97,7 @@ def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str, called
     tail = [line for _, line in told[len(told) // 2 :] if not line.startswith("#")][-_JUDGED:]
     delimiter = max(",;\t|", key=lambda d: (_numbers_in(tail, d), _outside_brackets(told[-1][1]).count(d)))
     width, numeric = _columns(tail, delimiter, where)
+    refuse_thousands([split(line, delimiter, where) for line in tail], where)
     if not numeric:
         return _without_numbers(told, delimiter, where, called)
     at = next(
@@ -109,7 +111,7 @@ def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str, called
     (line, cells), below = above[best], [cells for _, cells in above[best + 1 :]]
     names, given = _header(cells, f"{where}, {called} {line}")
     if below:
-        given = [u or _BRACKETS.sub(r"\1", b) or None for u, b in zip(given, below[0], strict=True)]
+        given = with_row_of_units(names, given, [_BRACKETS.sub(r"\1", cell) for cell in below[0]], where)
     return Dialect(delimiter=delimiter, names=names, units=tuple(given), first=told[at][0], called=called)
 
 
