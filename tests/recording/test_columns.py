@@ -125,6 +125,9 @@ def test_of_several_runs_in_a_file_one_is_asked_for() -> None:
     said = _refused(table, Layout())
     assert said.what == "the file holds several runs: slow.run, fast"
     assert said.fix == "write it after the file: run.csv#slow.run"
+    one = Table(where="run.csv", columns={}, units={"x": None, "/drive.speed": "rpm", "/drive.time": "s"})
+    said = _refused(one, Layout())
+    assert (said.what, said.fix[-14:]) == ("the file holds its signals under one name: /drive", "run.csv#/drive")
 
 
 def test_a_profile_names_the_columns_that_the_map_does_not() -> None:

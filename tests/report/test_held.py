@@ -20,3 +20,11 @@ def test_neither_the_verdict_nor_what_to_do_says_that_it_holds_what_was_found() 
     said = verdict_sentence(without)
     assert said.endswith(" that were not fitted are simulated better without it: corrected.toml leaves it out.")
     assert said.startswith(verdict_sentence(whole).split(". Adding")[0])
+
+
+def test_control_characters_of_names_are_escaped_in_words() -> None:
+    """As the command line does."""
+    whole = made_up.found()
+    odd = replace(whole, heldout=tuple(replace(r, recording="a\x1b[31m.csv") for r in whole.heldout))
+    assert "\x1b" not in str(odd)
+    assert "a\\x1b[31m.csv" in str(odd)

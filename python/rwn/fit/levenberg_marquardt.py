@@ -27,7 +27,7 @@ class FitStatus(Enum):
     """How a fit ended; the value says what to do."""
 
     CONVERGED = "The fit converged."
-    ITERATION_LIMIT = "The iteration limit was reached: allow more iterations, or start closer."
+    ITERATION_LIMIT = "The iteration limit was reached: start closer, with values that are nearer or known better."
     STALLED = "No step improves the fit further: a parameter may be at a bound, or the problem is not smooth."
     DIVERGED = "The simulation diverged at the starting values: check signs and units of the model."
 

@@ -99,12 +99,14 @@ def column_map(table: Table, layout: Layout, *, needed: Collection[str] = COLUMN
         raise _no_known_signals(table, slips)
     if not set(mapping) - {TIME.name}:
         parts = [name.rpartition(".")[0] for name in table.units if name.rpartition(".")[2] in COLUMNS]
-        if any(parts):
+        runs = list(dict.fromkeys(filter(None, parts)))
+        if runs:
+            what = "several runs" if len(runs) > 1 else "its signals under one name"
             raise InputError(
-                f"the file holds several runs: {', '.join(dict.fromkeys(filter(None, parts)))}",
+                f"the file holds {what}: {', '.join(runs)}",
                 where=table.where,
                 expected="the one that is meant",
-                fix=f"write it after the file: {table.where}#{next(filter(None, parts))}",
+                fix=f"write it after the file: {table.where}#{runs[0]}",
             )
         exported_by = exporters(table.units)
         raise InputError(

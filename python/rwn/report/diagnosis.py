@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rwn.errors import InputError, unrecognised
+from rwn.errors import InputError, plain, unrecognised
 from rwn.input_file import input_file, path_of
 from rwn.model.files import read_model, write_model
 from rwn.report.diagnosis_data import DiagnosisData
@@ -67,7 +67,8 @@ class Diagnosis(DiagnosisData):
         return f"<Diagnosis {self.verdict}{f': {names}' if names else ''}>"
 
     def __str__(self) -> str:
-        return verdict_sentence(self)
+        said = verdict_sentence(self)
+        return plain(said, longest=len(said))  # a name of a file may hold control characters
 
     def _repr_html_(self) -> str:
         first, *others = sentences(self)

@@ -30,7 +30,7 @@ def name_of(path: Path) -> str:
     return plain(f"{file.name}{_MARK}{part}" if part else file.name)
 
 
-class _Within(frozenset[str]):
+class Within(frozenset[str]):
     """The wanted names with the part's before them."""
 
     wanted: Collection[str]
@@ -50,7 +50,7 @@ def part_of(
     read: Callable[[Path, Collection[str]], Table], path: Path, part: str, wanted: Collection[str]
 ) -> Table:
     """The table of a part, its names without the part's. Raises InputError where no name begins so."""
-    table = read(path, _Within(part, wanted))
+    table = read(path, Within(part, wanted))
     begins = f"{part}."
     units = {name.removeprefix(begins): unit for name, unit in table.units.items() if name.startswith(begins)}
     if not units:

@@ -12,6 +12,7 @@ from rwn.errors import InputError
 from rwn.recording.formats.channels import Array, Channel, table_of_channels
 from rwn.recording.formats.extra import library, quiet
 from rwn.recording.formats.frame import name_and_unit_of
+from rwn.recording.formats.part import Within
 from rwn.recording.formats.table import MAX_SAMPLES, Table, refuse_doubles, table_of, too_long
 
 _UNIT, _STEP, _BEGAN = "unit_string", "wf_increment", "wf_start_time"
@@ -42,12 +43,13 @@ def read_tdms(path: Path, wanted: Collection[str] = ()) -> Table:
 
 def _table(where: str, file: Any, wanted: Collection[str]) -> Table:
     groups = file.groups()
+    alone = len(groups) == 1 and not isinstance(wanted, Within)  # a group that is asked for has its name
     found: list[tuple[str, Any, str | None]] = []
     for group in groups:
         for channel in group.channels():
             name, unit = name_and_unit_of(channel.name)
             unit = channel.properties.get(_UNIT) or unit
-            found.append((name if len(groups) == 1 else f"{group.name}.{name}", channel, unit))
+            found.append((name if alone else f"{group.name}.{name}", channel, unit))
     refuse_doubles(where, [name for name, _, _ in found], wanted)
     told = {name: (channel, unit) for name, channel, unit in found}
     used = {name: channel for name, (channel, _) in told.items() if name in wanted}
