@@ -82,10 +82,7 @@ def diagnose(
     common, said = tuple(overlaps(fitted, judged)), remarks((*fitted, *judged))
     (fitted, seen_in_fitted), (judged, seen_in_judged) = inspected(fitted), inspected(judged)
     (judged, held_back), (fitted, held) = without_held(judged, model, fitted), without_held(fitted, model)
-    if model.effects or model.drive.coefficients:  # what has neither does not run away
-        prepared = prepare(fitted, model)
-        check_declared(model, [prepared.scales])
-        check_it_begins(prepared)
+    _check_given(fitted, model)
     with thread_pool(jobs or os.cpu_count() or 1):
         late = late_enables(fitted, model)
         found = search(fitted, model, late=late, say=say, effort=effort)
@@ -105,6 +102,14 @@ def diagnose(
     corrected = replace(made.corrected, recording=layout)
     made = replace(made, corrected=corrected, findings=findings, warnings=(*made.warnings, *said), sources=used)
     return in_file_units(made, (*fitted, *judged))
+
+
+def _check_given(recordings: Sequence[Recording], model: Model) -> None:
+    """Raises InputError or NoResultError where the model as given is none for these recordings."""
+    if model.effects or model.drive.coefficients:  # what has neither does not run away
+        prepared = prepare(recordings, model)
+        check_declared(model, [prepared.scales])
+        check_it_begins(prepared)
 
 
 @dataclass(frozen=True, kw_only=True)
