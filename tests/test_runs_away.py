@@ -26,13 +26,13 @@ def test_a_torque_that_grows_with_the_cube_of_the_speed_has_no_result(tmp_path: 
     run, kept = (recorded(seed, lambda speed, _: -0.004 * np.sign(speed), samples=600) for seed in (1, 2))
     lines = ["[motor]", 'kind = "dc"', *(f"{name} = {value!r}" for name, value in MOTOR.items()), CUBE]
     (tmp_path / "motor.toml").write_text("\n".join(lines))
-    with pytest.raises(rwn.NoResultError, match="the refitted model: formula-failed"):
+    with pytest.raises(rwn.NoResultError, match="the model as given: formula-failed"):
         rwn.diagnose([run], tmp_path / "motor.toml", heldout=[kept], effort=0.1)
 
 
 @pytest.mark.parametrize("doubt", [0.5, 3.0])
 @pytest.mark.parametrize("samples", [600, 3000])  # of which the shorter ends at 1e80 or so, the longer has no end
-def test_an_unstable_transfer_function_is_no_account_of_a_stable_motor(samples: int, doubt: float) -> None:
+def test_an_unstable_transfer_function_is_no_model_of_a_stable_motor(samples: int, doubt: float) -> None:
     step, rng = 1e-3, np.random.default_rng(0)
     voltage = np.repeat(rng.uniform(-5.0, 5.0, samples // 20), 20)
     speed = np.zeros(samples)
@@ -43,10 +43,5 @@ def test_an_unstable_transfer_function_is_no_account_of_a_stable_motor(samples: 
     model = rwn.Model(
         kind="lti", order=1, parameters={"b0": 300.0, "a0": -400.0}, uncertainty={"b0": doubt, "a0": doubt}
     )
-    if samples == 3000:
-        with pytest.raises(rwn.NoResultError, match="diverge"):
-            rwn.diagnose([run], model, effort=0.1)
-        return
-    found = rwn.diagnose([run], model, effort=0.1)
-    assert found.verdict == "unexplained"
-    assert rwn.Diagnosis.from_json(found.to_json()).verdict == found.verdict
+    with pytest.raises(rwn.NoResultError, match="run, the model as given: diverged: "):
+        rwn.diagnose([run], model, effort=0.1)

@@ -56,7 +56,7 @@ def diagnose(
     """Name the missing physics, model it, prove it and draw where it lies; exit code 3: the model does not run."""
     from rwn.model.recordings import read_recordings
     from rwn.report.output_files import output_folder
-    from rwn.report.provenance import source
+    from rwn.report.provenance import sources
     from rwn.report.terminal import print_verdict
 
     _refuse_strays(sys.argv)
@@ -67,7 +67,7 @@ def diagnose(
         with _progress() as progress:
             options = {"seed": seed, "jobs": jobs, "effort": effort, "progress": progress}
             found = _rwn().diagnose(fitted, nominal, heldout=judged, **options)
-        used = (source(model, "model"), *found.sources)
+        used = sources(model, fitted, judged)
         found = replace(found, sources=used, command=shlex.join(["rwn", *sys.argv[1:]]))
         found.write(aside)
     print_verdict(found, out)
