@@ -121,6 +121,7 @@ SAID = {"verdict": "missing-physics", "effects": [{"name": "backlash", "equation
     [
         ({"verdict": "foo"}, "verdict"),
         ({"account": 5}, "account"),
+        ({"format": 99}, "format"),
         ({"effects": [{"name": "backlash"}]}, r"effects\[0\]"),
         ({"effects": [{"name": "backlash", "equation": "mechanical", "probability": 3}]}, r"effects\[0\].probability"),
         ({"set": "backlash"}, "set"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Literal, TypeVar
 
 import msgspec
 from msgspec import Meta, Struct
@@ -46,6 +46,7 @@ class Said(Struct, omit_defaults=True):
     beneath: SaidBeneath | None = None
     adequate_probability: Probability | None = None
     account: list[dict[str, Any]] = []
+    format: Literal[1] = 1  # as the diagnoses of this version are written
 
 
 class Timing(Struct, omit_defaults=True):
