@@ -153,7 +153,7 @@ def _grown(
             alone, best, bases, wanted, fits, known, size=size, windowed=windowed
         )  # fmt: skip
         more, extensions = with_further_lines(problem, found.fits), found if size == 2 else extensions
-        cut_short = size if found.cut_short else 0
+        cut_short = size if found.cut_short else cut_short
         complete = not _is_worth_it(problem, more, best, rivals=len(wanted))
         if complete:
             break

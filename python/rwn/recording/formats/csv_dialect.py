@@ -96,8 +96,9 @@ def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str, called
         raise InputError("the file is empty", where=where, expected="a header row and rows of numbers", fix=HOW)
     tail = [line for _, line in told[len(told) // 2 :] if not line.startswith("#")][-_JUDGED:]
     delimiter = max(",;\t|", key=lambda d: (_numbers_in(tail, d), _outside_brackets(told[-1][1]).count(d)))
-    width, numeric = _columns(tail, delimiter, where)
-    refuse_thousands([split(line, delimiter, where) for line in tail], where)
+    rows = [split(line, delimiter, where) for line in tail]
+    width, numeric = _columns(rows)
+    refuse_thousands(rows, where)
     if not numeric:
         return _without_numbers(told, delimiter, where, called)
     at = next(
@@ -184,9 +185,8 @@ def _numbers_in(lines: Sequence[str], delimiter: str) -> float:
     return round(share, 6)
 
 
-def _columns(lines: Sequence[str], delimiter: str, where: str) -> tuple[int, list[int]]:
-    """How many cells most lines have, and which of them hold numbers."""
-    rows = [split(line, delimiter, where) for line in lines]
+def _columns(rows: Sequence[Sequence[str]]) -> tuple[int, list[int]]:
+    """How many cells most rows have, and which of them hold numbers."""
     width = Counter(map(len, rows)).most_common(1)[0][0] if rows else 0
     rows = [row for row in rows if len(row) == width]
     return width, [j for j in range(width) if 2 * sum(is_number(row[j]) for row in rows) > len(rows)]
