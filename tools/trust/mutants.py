@@ -33,6 +33,7 @@ FORMATS, RECORDING = "python/rwn/recording/formats/", "python/rwn/recording/"
 FILES = {
     f"{FORMATS}csv.py": ("tests/recording/test_csv_rows.py", "tests/recording/test_csv.py",
                          "tests/recording/test_csv_instants.py"),
+    f"{FORMATS}csv_cells.py": ("tests/recording/test_csv_dialect.py", "tests/recording/test_csv.py"),
     f"{FORMATS}csv_dialect.py": ("tests/recording/test_csv_dialect.py", "tests/recording/test_csv.py"),
     f"{FORMATS}scope.py": ("tests/recording/test_scope.py", "tests/recording/test_profiles.py"),
     f"{FORMATS}wpilog.py": ("tests/recording/test_wpilog.py",),

@@ -12,16 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError
-from rwn.recording.formats.csv_dialect import (
-    HOW,
-    Dialect,
-    dialect_of,
-    encoding_of,
-    is_number,
-    separated_by_blanks,
-    split,
-    without_blanks,
-)
+from rwn.recording.formats.csv_cells import HOW, is_number, split
+from rwn.recording.formats.csv_dialect import Dialect, dialect_of, encoding_of, separated_by_blanks, without_blanks
 from rwn.recording.formats.stamps import Stamps, instant
 from rwn.recording.formats.table import MAX_SAMPLES, Table, refuse_doubles, too_long
 

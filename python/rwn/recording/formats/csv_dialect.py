@@ -3,32 +3,23 @@
 from __future__ import annotations
 
 import codecs
-import csv
 import re
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, takewhile
 
 from rwn.errors import InputError
 from rwn.recording import units
+from rwn.recording.formats.csv_cells import HOW, bare_unit, is_number, name_and_unit, name_of, split
 from rwn.recording.formats.csv_doubts import refuse_thousands, with_row_of_units
 from rwn.recording.formats.scope import scope_block
 
-HOW = "write a first row such as: time [s],voltage [V],speed [rad/s]"
-_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*|\s*[-+]?(nan|inf|infinity)\s*", re.IGNORECASE)
-_UNIT_AFTER = (
-    re.compile(r"\s*(?P<name>[^\[\]]*?)\s*\[\s*(?P<unit>[^\[\]]*?)\s*\]\s*"),  # speed [rpm]
-    re.compile(r"\s*(?P<name>.*?\S)\s*\(\s*(?P<unit>[^()]*?)\s*\)\s*"),  # speed (rpm)
-    re.compile(r"\s*(?P<name>.*?\S)\s+(?:/|in)\s+(?P<unit>\S+)\s*"),  # speed / rpm, speed in rpm
-    re.compile(r"\s*(?P<name>[^\[\]]*?)(?P<unit>)\s*"),
-)
-_INDEXED = re.compile(r".*\S\[\d+\]")  # r0061[0]: of several, not a unit
-_BRACKETS = re.compile(r"\s*[\[(]?\s*(.*?)\s*[\])]?\s*")
 _BLANKS = re.compile(r"[ ]+(?![ \[(])")
-_ABOVE = 4  # rows of names, units and the like that may stand above the numbers
-_LONGEST = 300  # characters of a cell with a name and a unit: nobody writes such, and matching takes their square
+_ABOVE = 4  # rows of names, units and the like that may stand above the numbers, and rows of numbers above the names
 _JUDGED = 100  # lines from the end of the sample that tell how rows look
+
+Row = tuple[int, list[str]]  # number of its line from 1, its cells
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,19 +92,42 @@ def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str, called
     refuse_thousands(rows, where)
     if not numeric:
         return _without_numbers(told, delimiter, where, called)
-    at = next(
-        j for j, (_, line) in enumerate(told)
-        if not line.startswith("#") and _is_data(split(line, delimiter, where), width, numeric)
-    )  # fmt: skip
-    above = _named_rows(told[:at], delimiter, width, where)
+    above, at = _heading(told, delimiter, width, numeric, wanted, where)
     if not above:
         return _without_header(told, at, delimiter, width, wanted, where, called)
     best = 0 if len(above) == 1 else max(range(len(above)), key=lambda j: _likely_names(above[j][1], j, wanted))
     (line, cells), below = above[best], [cells for _, cells in above[best + 1 :]]
     names, given = _header(cells, f"{where}, {called} {line}")
     if below:
-        given = with_row_of_units(names, given, [_BRACKETS.sub(r"\1", cell) for cell in below[0]], where)
+        given = with_row_of_units(names, given, [bare_unit(cell) for cell in below[0]], where)
     return Dialect(delimiter=delimiter, names=names, units=tuple(given), first=told[at][0], called=called)
+
+
+def _heading(
+    told: Sequence[tuple[int, str]], delimiter: str, width: int, numeric: Sequence[int], wanted: Collection[str],
+    where: str,
+) -> tuple[list[Row], int]:  # fmt: skip
+    """The rows of names, units and the like, and which of the `told` lines is the first row of numbers below them.
+
+    The row with most of the wanted names heads the columns, whatever an instrument writes above it. Where none has any,
+    the rows directly above the first that is all numbers do. Without such rows: none, and the first row of numbers.
+    """
+    rows = {j: split(line, delimiter, where) for j, (_, line) in enumerate(told) if not line.startswith("#")}
+    data = [j for j, cells in rows.items() if _numbers_of(cells, width, numeric) > 0.5]
+    known = {
+        j: sum(name_of(cell) in wanted for cell in cells)
+        for j, cells in rows.items()
+        if len(cells) == width and _numbers_of(cells, width, numeric) == 0.0
+    }
+    best = max(known, key=lambda j: (known[j], -j), default=0)
+    whole = [j for j in data if all(is_number(rows[j][k]) or not rows[j][k] for k in numeric)]
+    beneath = known.get(best) and sum(j < best for j in whole) <= _ABOVE
+    for at in [*[j for j in data if beneath and j > best][:1], *whole[:1]]:
+        above = _rows_above(told[:at], delimiter, width, where)
+        names = [*takewhile(lambda row: _numbers_of(row[1], width, numeric) == 0.0, reversed(above))]
+        if names:
+            return names[::-1], at
+    return _rows_above(told[: data[0]], delimiter, width, where), data[0]
 
 
 def _without_numbers(told: Sequence[tuple[int, str]], delimiter: str, where: str, called: str) -> Dialect:
@@ -156,21 +170,6 @@ def _without_header(
     )
 
 
-def split(line: str, delimiter: str, where: str) -> list[str]:
-    """The cells of a line; quotes around a cell are taken off. Raises InputError."""
-    try:
-        return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
-    except csv.Error as error:
-        raise InputError(
-            f"a line cannot be split into cells ({error})", where=where, expected="rows of numbers", fix=HOW
-        ) from error
-
-
-def is_number(cell: str) -> bool:
-    """Whether a cell holds a number, with a decimal point or a decimal comma."""
-    return _NUMBER.fullmatch(cell.replace(",", ".")) is not None
-
-
 def _outside_brackets(line: str) -> str:
     return re.sub(r"\[[^\]]*\]", "", line)
 
@@ -192,17 +191,16 @@ def _columns(rows: Sequence[Sequence[str]]) -> tuple[int, list[int]]:
     return width, [j for j in range(width) if 2 * sum(is_number(row[j]) for row in rows) > len(rows)]
 
 
-def _is_data(cells: Sequence[str], width: int, numeric: Sequence[int]) -> bool:
-    if len(cells) != width:
-        return False
-    return 2 * sum(is_number(cells[j]) for j in numeric) > len(numeric)
+def _numbers_of(cells: Sequence[str], width: int, numeric: Sequence[int]) -> float:
+    """The share of the columns of numbers in which a row has one; 0 where it has another number of cells."""
+    return sum(is_number(cells[j]) for j in numeric) / len(numeric) if len(cells) == width else 0.0
 
 
-def _named_rows(
+def _rows_above(
     told: Sequence[tuple[int, str]], delimiter: str, width: int, where: str
-) -> list[tuple[int, list[str]]]:
+) -> list[Row]:
     """Rows directly above the numbers with a cell for each column, with their lines, the topmost first."""
-    rows: list[tuple[int, list[str]]] = []
+    rows: list[Row] = []
     for k, line in reversed(told[-_ABOVE:]):
         cells = split(line.lstrip("# "), delimiter, where)
         cells = cells[:width] if len(cells) == width + 1 and not cells[-1] else cells
@@ -213,32 +211,10 @@ def _named_rows(
     return rows
 
 
-def _likely_names(cells: Sequence[str], j: int, wanted: Collection[str]) -> tuple[int, bool, int]:
-    """The more, the likelier a row holds the names: wanted ones, or anything that is no unit."""
-    only_units = all(len(cell) < 30 and units.is_unit(_BRACKETS.sub(r"\1", cell)) for cell in cells if cell)
-    return sum(name_of(cell) in wanted for cell in cells), not only_units, -j
-
-
-def name_of(cell: str) -> str:
-    """The name in a header's cell, whatever is wrong with its unit."""
-    try:
-        return name_and_unit(cell)[0]
-    except ValueError:
-        return cell
-
-
-def name_and_unit(cell: str) -> tuple[str, str | None]:
-    """`speed [rpm]`, `speed (rpm)`, `speed / rpm` or `speed in rpm` as name and unit (None: not said).
-
-    Raises ValueError where brackets are left open.
-    """
-    if len(cell) > _LONGEST or _INDEXED.fullmatch(cell):
-        return cell, None
-    for form in _UNIT_AFTER:
-        match = form.fullmatch(cell)
-        if match is not None:
-            return match["name"], match["unit"] or None
-    raise ValueError(cell)
+def _likely_names(cells: Sequence[str], j: int, wanted: Collection[str]) -> tuple[int, bool, bool, int]:
+    """The more, the likelier a row holds the names: wanted ones, or a cell for most columns that is no unit."""
+    only_units = all(len(cell) < 30 and units.is_unit(bare_unit(cell)) for cell in cells if cell)
+    return sum(name_of(cell) in wanted for cell in cells), 2 * sum(map(bool, cells)) > len(cells), not only_units, -j
 
 
 def _header(cells: Sequence[str], where: str) -> tuple[tuple[str, ...], list[str | None]]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from rwn.errors import InputError
 from rwn.recording.formats.arrow import unit_of_field
-from rwn.recording.formats.csv_dialect import name_and_unit
+from rwn.recording.formats.csv_cells import name_and_unit
 from rwn.recording.formats.table import Table, refuse_doubles, table_of
 
 
