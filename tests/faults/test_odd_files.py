@@ -18,7 +18,7 @@ from rwn.faults.odd_files import without_unseen_mistakes, wrong_in_some
 from rwn.faults.plain_faults import plain_faults
 from rwn.faults.scale import wrong_scale
 from rwn.model.model import Model
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 from rwn.report.next_steps import _mistake
 from rwn.search.search import SearchResult
 

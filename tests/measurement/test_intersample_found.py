@@ -23,7 +23,7 @@ from rwn.measurement.likeliest_law import likeliest, likeliest_with_filters, sta
 from rwn.measurement.likelihood import DECISIVE, log_likelihood
 from rwn.measurement.unrecorded_input import with_unrecorded_input
 from rwn.model.model import Model
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 
 MODEL = Model(kind="dc", parameters=MOTOR, uncertainty={"inertia": 0.1, "viscous_friction": 0.1})
 

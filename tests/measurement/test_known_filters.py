@@ -14,8 +14,8 @@ from rwn.fit.problem import Problem
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, log_density, noise_before_filters
 from rwn.model.model import Model
-from rwn.recording.columns import Layout
 from rwn.recording.filters import as_filtered, before_filter
+from rwn.recording.layout import Layout
 
 STEP, TAU = 1e-3, 2e-3  # [s]
 FILTER = SensorFilter(signal="speed", share=float(np.exp(-STEP / TAU)), time_constant=TAU, digital=True)

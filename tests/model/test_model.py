@@ -14,7 +14,7 @@ from rwn.errors import InputError
 from rwn.model.drives import KINDS, axis
 from rwn.model.files import read_model, write_model
 from rwn.model.model import Model
-from rwn.recording.columns import Column, Layout
+from rwn.recording.layout import Column, Layout
 
 DC = {
     "resistance": 0.8102,

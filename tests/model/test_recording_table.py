@@ -10,7 +10,7 @@ import pytest
 
 from rwn.errors import InputError
 from rwn.model.toml_reader import parse_model
-from rwn.recording.columns import Column, Layout
+from rwn.recording.layout import Column, Layout
 
 MOTOR = '[motor]\nkind = "dc"\nresistance = 0.8\ninductance = 1.5e-3\ntorque_constant = 0.1\nback_emf_constant = 0.1\n'
 MODEL = f"{MOTOR}inertia = 3e-4\nviscous_friction = 7e-5\n"

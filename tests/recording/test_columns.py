@@ -11,9 +11,10 @@ import pytest
 from scipy.io import savemat
 
 from rwn.errors import InputError
-from rwn.recording.columns import Column, Layout, column_map, in_si, is_linear, si_unit, units_of, unused
+from rwn.recording.columns import column_map, in_si, is_linear, units_of, unused
 from rwn.recording.formats import Table, read_table
-from rwn.recording.signals import COLUMNS
+from rwn.recording.layout import Column, Layout
+from rwn.recording.signals import COLUMNS, si_unit
 
 ROWS = np.array([1.0, 2.0, -3.0])
 

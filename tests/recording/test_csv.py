@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rwn.errors import InputError
-from rwn.recording.columns import Column, Layout
+from rwn.recording.layout import Column, Layout
 from rwn.recording.recording import Recording, read_recording
 
 TIME = np.arange(120) * 1e-3

@@ -9,7 +9,7 @@ import pytest
 
 import rwn
 from rwn.errors import InputError
-from rwn.recording.columns import Column, Layout
+from rwn.recording.layout import Column, Layout
 from rwn.recording.recording import read_recording
 
 N = 80

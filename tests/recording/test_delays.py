@@ -14,8 +14,8 @@ from rwn.faults.fault import SHIFT, UNIT, Fault
 from rwn.model.files import write_model
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
-from rwn.recording.columns import Column, Layout
 from rwn.recording.delays import delayed, in_time
+from rwn.recording.layout import Column, Layout
 from rwn.recording.recording import write_csv
 
 TIME = 1e-3 * np.arange(500)

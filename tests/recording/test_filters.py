@@ -13,8 +13,8 @@ import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.model.files import write_model
 from rwn.model.model import Model
-from rwn.recording.columns import Layout
 from rwn.recording.filters import as_filtered, before_filter, unfiltered
+from rwn.recording.layout import Layout
 
 RNG = np.random.default_rng(3)
 TIME = np.cumsum(1e-3 * RNG.uniform(0.75, 1.25, 400))  # off its clock

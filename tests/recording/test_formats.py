@@ -13,9 +13,9 @@ import scipy.io
 
 from one_recording import NAMED, RPM, TIME, UNITS, VOLTAGE, as_meant, imported, pandas_timetable
 from rwn.errors import InputError
-from rwn.recording.columns import Column, Layout
 from rwn.recording.formats import FORMATS, read_table
 from rwn.recording.formats.nested import nested_table
+from rwn.recording.layout import Column, Layout
 from rwn.recording.recording import read_recording
 
 

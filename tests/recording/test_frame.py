@@ -11,7 +11,7 @@ import pytest
 
 from one_recording import NAMED, RPM, TIME, UNITS, VOLTAGE, as_meant, imported, pandas_timetable
 from rwn.errors import InputError
-from rwn.recording.columns import Column, Layout
+from rwn.recording.layout import Column, Layout
 from rwn.recording.recording import read_recording
 
 

@@ -10,9 +10,9 @@ from rwn.fit.nominal import nominal_of
 from rwn.measurement.likeliest_law import likeliest
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit
-from rwn.recording.columns import Layout
 from rwn.recording.interpolated import between_ticks
 from rwn.recording.intersample import HELD
+from rwn.recording.layout import Layout
 
 PERIOD = 2e-3
 MOTOR = {"resistance": 1.0, "inductance": 2e-3, "torque_constant": 0.05, "back_emf_constant": 0.05, "inertia": 2e-5,

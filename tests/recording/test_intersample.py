@@ -9,8 +9,8 @@ import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.errors import InputError
 from rwn.model.model import Model
-from rwn.recording.columns import Layout
 from rwn.recording.intersample import INTERSAMPLE
+from rwn.recording.layout import Layout
 
 TIME = 1e-3 * np.arange(401)
 

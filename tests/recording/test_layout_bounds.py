@@ -10,7 +10,7 @@ from rwn.errors import InputError
 from rwn.identify import identify
 from rwn.model.model import Model
 from rwn.model.recordings import check_recording
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 from rwn.recording.recording import Recording
 
 

@@ -14,8 +14,8 @@ import pytest
 
 from one_recording import RADIANS, RPM, TIME, VOLTAGE, imported
 from rwn.errors import InputError
-from rwn.recording.columns import Column, Layout
 from rwn.recording.formats import FORMATS
+from rwn.recording.layout import Column, Layout
 from rwn.recording.recording import Recording, read_recording
 
 JOINT_STATE = """std_msgs/Header header

@@ -15,7 +15,7 @@ from rwn.errors import InputError
 from rwn.model.files import read_model, write_model
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
-from rwn.recording.columns import Column, Layout
+from rwn.recording.layout import Column, Layout
 from rwn.recording.profiles import PROFILES, Profile, ProfileColumn, Wanted, exporters, profile, sources
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import COLUMNS

@@ -10,7 +10,7 @@ import scipy.io
 from rwn.errors import InputError
 from rwn.model.files import read_model
 from rwn.model.recordings import read_recordings
-from rwn.recording.columns import Column, Layout
+from rwn.recording.layout import Column, Layout
 from rwn.recording.recording import Recording, read_recording, write_csv
 from rwn.recording.signals import SIGNALS
 

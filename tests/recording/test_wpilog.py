@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from rwn.errors import InputError
-from rwn.recording.columns import Layout
 from rwn.recording.formats.wpilog import read_wpilog
+from rwn.recording.layout import Layout
 from rwn.recording.recording import read_recording
 
 HEADER = struct.pack("<6sHI", b"WPILOG", 0x0100, 0)

@@ -9,7 +9,7 @@ import pytest
 
 import rwn
 from made_up_motor import SMALL as MOTOR
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 from rwn.recording.speed_measurement import BACKWARD, CENTRAL, INSTANTANEOUS, SpeedMeasurement
 from rwn.simulate.recorded_run import run_of
 

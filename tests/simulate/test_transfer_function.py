@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import rwn
 from rwn.model.vocabulary import table
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 from rwn.simulate.transfer_function import state_space, states
 
 Array = NDArray[np.float64]

@@ -35,7 +35,7 @@ def _written(name: str, data: bytes) -> Path:
 def _reads(ending: str) -> Target:
     def read(data: bytes) -> None:
         from rwn.errors import InputError
-        from rwn.recording.columns import Layout
+        from rwn.recording.layout import Layout
         from rwn.recording.recording import read_recording
 
         path = _written(f"x{ending}", data)

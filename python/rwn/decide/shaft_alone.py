@@ -19,7 +19,7 @@ from rwn.fit.preparation import prepare
 from rwn.fit.problem import Problem
 from rwn.model.model import Model
 from rwn.name.multiple_shooting import FAR_OFF
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED
 from rwn.simulate.run import Run

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rwn.fit.intervals import Estimate
 from rwn.name.found_effect import FoundEffect
-from rwn.recording.columns import Column, Layout
+from rwn.recording.layout import Column, Layout
 from rwn.recording.noise import Noise
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError, unrecognised
+from rwn.fields import check_fields
 from rwn.model import drives, vocabulary
 from rwn.model.checks import (
     LARGEST,
@@ -26,7 +27,7 @@ from rwn.model.checks import (
 from rwn.model.drives.drive import Drive, NominalParameter, refused_linear
 from rwn.model.own_effects import OwnEffect, check_constants, check_own_effects, with_own
 from rwn.model.vocabulary import Effect, Parameter
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 from rwn.values import Shown, table_of_rows
 
 if TYPE_CHECKING:
@@ -87,6 +88,7 @@ class Model(Shown):
     source: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
+        check_fields(self, where=str(self.source or "model"), numbers=False)
         if self.kind not in drives.KINDS:
             raise unrecognised("kind", self.kind, drives.KINDS, where=self.source or "model")
         most = drives.MOST_ORDER if drives.KINDS[self.kind].coefficients else 0

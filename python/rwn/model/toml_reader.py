@@ -17,8 +17,8 @@ from rwn.model.own_effects import OwnEffect, check_own_effects
 from rwn.model.toml_own_effects import from_entry
 from rwn.model.toml_schema import ColumnEntry, File, LoadTable, Number, RecordingTable, decode
 from rwn.recording import units
-from rwn.recording.columns import Column, Layout
 from rwn.recording.intersample import known_law
+from rwn.recording.layout import Column, Layout
 from rwn.recording.profiles import known_profile
 from rwn.recording.signals import COLUMNS, MEASURED, TIME
 

@@ -10,8 +10,8 @@ import msgspec
 
 from rwn.errors import InputError, closest, unrecognised
 from rwn.model.toml_own_effects import OwnEffectEntry, ParameterEntry
-from rwn.recording.columns import Initial
 from rwn.recording.intersample import AUTO
+from rwn.recording.layout import Initial
 
 Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 

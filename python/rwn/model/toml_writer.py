@@ -8,7 +8,7 @@ import msgspec
 
 from rwn.model.model import Model
 from rwn.model.toml_own_effects import to_lines
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 
 
 def format_model(model: Model) -> str:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.errors import InputError
+from rwn.errors import InputError, unrecognised
 from rwn.recording.clock import clock_beside
+from rwn.recording.signals import COLUMNS, SIGNALS, si_unit
+from rwn.recording.units import factor
 
 MIN_SAMPLES = 50
 SMALLEST, LARGEST = 1e-12, 1e12  # of the largest value of a signal in SI that moves: no drive comes near either
@@ -49,6 +53,33 @@ def check_lengths(time: Array, signals: Mapping[str, Array], *, where: str) -> N
                 expected="one value per instant",
                 fix="cut them to the same instants",
             )
+
+
+def check_beside(
+    units: Mapping[str, str], missing: Iterable[str], input_noise: float, *, linear: bool, where: str
+) -> None:  # fmt: skip
+    """What a recording says beside its signals is of signals that there are, in units of theirs. Raises InputError."""
+    for table, names, known in (("units", units, COLUMNS), ("missing", missing, SIGNALS)):
+        for name in names:
+            if name not in known:
+                raise unrecognised("signal", name, known, where=f"{where}, {table}")
+    for name, unit in units.items():
+        wanted = si_unit(COLUMNS[name], linear)
+        if not _is_of(unit, wanted):
+            factor(unit, wanted, where=f"{where}, units of {name}", strict_angle=False)  # says what is wrong
+    if not 0.0 <= input_noise < math.inf:
+        raise InputError(
+            f"input_noise is {input_noise!r}", where=where, expected="a deviation: 0 or more", fix="leave it out"
+        )
+
+
+@lru_cache(maxsize=256)  # each takes pint a third of a millisecond
+def _is_of(unit: str, wanted: str) -> bool:
+    try:
+        factor(unit, wanted, where="", strict_angle=False)
+    except InputError:
+        return False
+    return True
 
 
 def _check_finite(name: str, values: Array, row: Row) -> None:

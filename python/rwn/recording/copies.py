@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording
-from rwn.recording.signals import COLUMNS, MEASURED
+from rwn.recording.signals import COLUMNS, MEASURED, si_unit
 from rwn.recording.units import factor
 
 Array = NDArray[np.float64]

@@ -12,16 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.errors import InputError, plain
-from rwn.recording.check import check_lengths, check_samples
+from rwn.fields import check_fields
+from rwn.recording.check import check_beside, check_lengths, check_samples
 from rwn.recording.columns import (
-    Layout,
     assumed,
     column_map,
     in_si,
     is_linear,
     no_unit,
     refuse_without_units,
-    si_unit,
     units_of,
     unused,
 )
@@ -30,8 +29,9 @@ from rwn.recording.formats.frame import table_of_object
 from rwn.recording.formats.part import name_of
 from rwn.recording.formats.table import refuse_mask
 from rwn.recording.intersample import PiecewiseInput
+from rwn.recording.layout import Layout
 from rwn.recording.selection import selected
-from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant
+from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant, si_unit
 from rwn.recording.units import factor
 from rwn.values import Shown, Values, table_of_columns
 
@@ -70,16 +70,9 @@ class Recording(Shown, Values):
     units: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str):
-            raise InputError(
-                f"name is {self.name!r}", where="Recording", expected="what messages and pictures call it",
-                fix='pass for instance name="run 1"',
-            )  # fmt: skip
-        if not isinstance(self.signals, Mapping):
-            raise InputError(
-                f"signals is a {type(self.signals).__name__}", where=self.name, expected="a dictionary of arrays",
-                fix='pass for instance {"voltage": u, "speed": w}',
-            )  # fmt: skip
+        where = plain(str(self.name)) or "Recording"
+        check_fields(self, where=where)
+        check_beside(self.units, self.missing, self.input_noise, linear=self.linear, where=where)
         time = _vector(self.name, "time", self.time)
         signals = {name: _vector(self.name, name, values) for name, values in self.signals.items()}
         for name, values in signals.items():

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rwn.errors import InputError
 from rwn.recording.check import MIN_SAMPLES
-from rwn.recording.columns import Layout
+from rwn.recording.layout import Layout
 from rwn.recording.signals import MEASURED
 
 Array = NDArray[np.float64]

@@ -87,3 +87,8 @@ def meant(name: str) -> str | None:
         if key == signal.name or key in signal.also:
             return signal.name
     return closest(name, COLUMNS)
+
+
+def si_unit(signal: Signal, linear: bool) -> str:
+    """SI unit of a signal on a rotary drive or a linear axis."""
+    return (signal.linear_unit if linear else signal.unit) or signal.unit or signal.linear_unit

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 from rwn.mismatch_map.regions import Region
 from rwn.prove.heldout import HeldoutRow
-from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording
-from rwn.recording.signals import SIGNALS
+from rwn.recording.signals import SIGNALS, si_unit
 from rwn.recording.units import factor
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.plot import Plot

@@ -14,9 +14,8 @@ from rwn.identify import Identification
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
-from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording, read_recording
-from rwn.recording.signals import MEASURED, SIGNALS
+from rwn.recording.signals import MEASURED, SIGNALS, si_unit
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.plot import Plot, Role, Trace
 from rwn.report.plots import drawn

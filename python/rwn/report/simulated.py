@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording
-from rwn.recording.signals import COLUMNS
+from rwn.recording.signals import COLUMNS, si_unit
 from rwn.recording.units import factor
 from rwn.report.text import number, symbol
 from rwn.simulate.recorded_error import recorded_errors

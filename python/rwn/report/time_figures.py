@@ -12,8 +12,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.hypothesis import Hypothesis
 from rwn.fit.problem import Problem
 from rwn.name.ranking import Ranking
-from rwn.recording.columns import si_unit
-from rwn.recording.signals import SIGNALS
+from rwn.recording.signals import SIGNALS, si_unit
 from rwn.report.plot import Plot, Role, Slot, Trace, Use
 from rwn.report.thinning import thin_line
 from rwn.simulate.run import Run

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rwn.model.model import Model
-from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording
-from rwn.recording.signals import COLUMNS
+from rwn.recording.signals import COLUMNS, si_unit
 from rwn.recording.units import factor
 from rwn.simulate.simulation import simulate
 

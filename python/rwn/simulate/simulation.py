@@ -16,9 +16,9 @@ from rwn.model.checks import LARGEST
 from rwn.model.files import model_of
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings
-from rwn.recording.columns import Layout
 from rwn.recording.delays import delayed
 from rwn.recording.filters import as_filtered
+from rwn.recording.layout import Layout
 from rwn.recording.recording import table_of_signals
 from rwn.recording.signals import MEASURED
 from rwn.simulate.coefficient_state import nearest_state

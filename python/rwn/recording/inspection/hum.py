@@ -13,10 +13,9 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from rwn.recording.columns import si_unit
 from rwn.recording.inspection.finding import Finding
 from rwn.recording.recording import ENOUGH, Recording
-from rwn.recording.signals import MEASURED, SIGNALS
+from rwn.recording.signals import MEASURED, SIGNALS, si_unit
 from rwn.recording.spectral_lines import FINER, TAPERS, Line, amplitude, line_chances, sum_of
 
 Array = NDArray[np.float64]

@@ -13,9 +13,8 @@ from rwn.diagnose import diagnose
 from rwn.errors import InputError
 from rwn.model.files import read_model
 from rwn.model.model import Model
-from rwn.recording.columns import si_unit
 from rwn.recording.recording import Recording
-from rwn.recording.signals import SIGNALS
+from rwn.recording.signals import SIGNALS, si_unit
 from rwn.recording.units import factor, has_dimension
 from rwn.report.diagnosis import Diagnosis
 
