@@ -19,9 +19,10 @@ from rwn.errors import InputError, NoResultError
 
 @pytest.fixture(autouse=True)
 def _handler_of_pytest() -> Iterator[None]:
-    before = signal.getsignal(signal.SIGINT)
+    before, passed_over = signal.getsignal(signal.SIGINT), sys.unraisablehook
     yield
     signal.signal(signal.SIGINT, before)
+    sys.unraisablehook = passed_over
 
 
 def _raises(error: BaseException) -> Callable[[], Any]:
@@ -90,6 +91,37 @@ run(deaf)
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=30, check=False)
     assert (done.returncode, done.stderr) == (STOPPED, "rwn: stopped\n")
+
+
+def test_ctrl_c_is_not_lost_where_python_passes_over_exceptions() -> None:
+    """An object that goes, as the locks of imports do: Python says that it ignored the exception, and goes on."""
+    script = """
+import os, signal, time
+from rwn.endings import run
+class Going:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+def command():
+    going = Going()
+    del going
+    time.sleep(600)
+run(command)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (STOPPED, "rwn: stopped\n")
+
+
+def test_what_else_python_passes_over_is_said_as_before() -> None:
+    script = """
+from rwn.endings import run
+class Going:
+    def __del__(self):
+        raise ValueError("no")
+run(Going)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0
+    assert "ValueError: no" in done.stderr
 
 
 @pytest.mark.parametrize("rest", ["", "sys.stderr.close(); os.close(2)"])

@@ -19,6 +19,7 @@ from rwn.errors import NoResultError, plain
 REFUSED = 2  # exit code of bad input
 NO_RESULT = 3  # exit code of a computation that ran and has no result to stand by
 STOPPED = 130  # exit code after Ctrl-C
+_SOON = 0.02  # s; shorter than anybody notices, longer than what is called when an object goes
 
 
 class _CtrlC:
@@ -37,6 +38,28 @@ class _CtrlC:
         self.pressed = True
         raise KeyboardInterrupt
 
+    def listen(self) -> None:
+        """From here on it answers Ctrl-C, and so it does where Python passes over the exception.
+
+        That happens in what is called when an object goes (weak references of the imports, __del__): the exception is
+        raised again when they are done.
+        """
+        signal.signal(signal.SIGINT, self)
+        signal.signal(signal.SIGALRM, self._raise_again)
+        before = sys.unraisablehook
+
+        def passed_over(about: sys.UnraisableHookArgs) -> None:
+            if issubclass(about.exc_type, KeyboardInterrupt):
+                signal.setitimer(signal.ITIMER_REAL, _SOON)
+            else:
+                before(about)
+
+        sys.unraisablehook = passed_over
+
+    @staticmethod
+    def _raise_again(_number: int, _frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
 
 def run(command: Callable[[], Any]) -> NoReturn:
     """Runs a typer command and ends the process with its exit code."""
@@ -45,7 +68,7 @@ def run(command: Callable[[], Any]) -> NoReturn:
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
     ctrl_c = _CtrlC()
     if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, ctrl_c)
+        ctrl_c.listen()
     try:
         with warnings.catch_warnings():
             # of an overflow, say, in a simulation that runs away: what comes of it is said in our words
@@ -72,6 +95,7 @@ def _stopped() -> None:
     """Says so, once: past the streams of Python, which may be in the middle of a line when a signal comes."""
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
     with contextlib.suppress(OSError, ValueError):  # closed, by who started it or since
         os.write(sys.stderr.fileno(), b"rwn: stopped\n")
 
