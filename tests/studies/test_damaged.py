@@ -121,6 +121,10 @@ SAID = {"verdict": "missing-physics", "effects": [{"name": "backlash", "equation
     [
         ({"verdict": "foo"}, "verdict"),
         ({"account": 5}, "account"),
+        ({"account": [{"effects": "a"}]}, r"account\[0\]"),
+        ({"account": [{"name": "backlash", "probability": "often"}]}, r"account\[0\].probability"),
+        ({"heldout": None}, "heldout"),
+        ({"heldout": [{"recording": "a.csv"}]}, r"heldout\[0\]"),
         ({"format": 99}, "format"),
         ({"effects": [{"name": "backlash"}]}, r"effects\[0\]"),
         ({"effects": [{"name": "backlash", "equation": "mechanical", "probability": 3}]}, r"effects\[0\].probability"),
@@ -138,6 +142,22 @@ def test_a_diagnosis_of_other_fields_is_refused_by_file_and_field(
     path.write_text(json.dumps(SAID | changes))
     with pytest.raises(InputError, match=rf"diagnosis\.json: {field}: "):
         said_in(path)
+
+
+@pytest.mark.parametrize("left", ["a loop", "a link to nothing", "a file"])
+def test_a_diagnosis_that_cannot_be_reached_is_damage(left: str, tmp_path: Path) -> None:
+    trial, out = tmp_path / "trial_1", tmp_path / "trial_1" / "out"
+    trial.mkdir()
+    (trial / "model.toml").write_text("")
+    (trial / "answer.json").write_text(json.dumps({"verdict": "adequate", "effects": []}))
+    if left == "a file":
+        out.write_text("x")
+    else:
+        out.mkdir()
+        (out / "diagnosis.json").symlink_to("diagnosis.json" if left == "a loop" else "nothing")
+    said = r"out: this is no folder" if left == "a file" else r"diagnosis\.json"
+    with pytest.raises((InputError, OSError), match=said):
+        grade_folder(tmp_path)
 
 
 def test_a_number_that_json_does_not_have_is_read_as_one(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -21,6 +22,7 @@ from rwn.studies.trials.said import said_in, timing_of
 from rwn.studies.trials.seal import ANSWERS, unseal
 from rwn.studies.trials.trial_files import read_columns, read_speed
 
+DIAGNOSIS = "diagnosis.json"
 NO_RESULT = "no-result"  # the diagnosis failed or was never run
 PHASE = "phase"  # of an effect of the angle, known but for whole turns
 CONFIDENT = 0.5  # a single name with at least this probability
@@ -156,8 +158,10 @@ def grade_folders(folders: Sequence[Path], *, results: Path | None = None) -> Gr
 
 def grade(answer: Mapping[str, Any], trial: Path, out: Path) -> Grade:
     said: dict[str, Any] = {"verdict": NO_RESULT}
-    if (out / "diagnosis.json").exists():
-        said = said_in(out / "diagnosis.json")
+    if os.path.lexists(out / DIAGNOSIS):  # a link that leads nowhere is damage, not a trial without a diagnosis
+        said = said_in(out / DIAGNOSIS)
+    elif out.exists() and not out.is_dir():
+        raise refused(out, "this is no folder")
     mistaken, said = without_mistake(said) if "mistake" in answer else ((), said)
     effects = said.get("effects", []) if said["verdict"] == "missing-physics" else []
     names = tuple(str(effect["name"]) for effect in effects)

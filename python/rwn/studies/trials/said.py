@@ -36,6 +36,19 @@ class SaidBeneath(Struct):
     set: list[str]
 
 
+class SaidActing(Struct):
+    name: str
+    probability: Probability
+
+
+class SaidHeldout(Struct):
+    recording: str
+    signal: str
+    nominal: float
+    refitted: float
+    corrected: float | None
+
+
 class Said(Struct, omit_defaults=True):
     """Of diagnosis.json, which holds more."""
 
@@ -45,7 +58,8 @@ class Said(Struct, omit_defaults=True):
     set: list[str] = []
     beneath: SaidBeneath | None = None
     adequate_probability: Probability | None = None
-    account: list[dict[str, Any]] = []
+    account: list[SaidActing] = []
+    heldout: list[SaidHeldout] = []
     format: Literal[1] = 1  # as the diagnoses of this version are written
 
 
