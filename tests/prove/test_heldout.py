@@ -10,7 +10,17 @@ import pytest
 import rwn
 from made_up_motor import MOTOR, recorded
 from rwn.fit.preparation import prepare
-from rwn.prove.heldout import HeldoutRow, _gain, gain_interval, heldout_error, heldout_rows, helps, hurts, log_change
+from rwn.prove.heldout import (
+    HeldoutRow,
+    _gain,
+    disagreeing,
+    gain_interval,
+    heldout_error,
+    heldout_rows,
+    helps,
+    hurts,
+    log_change,
+)
 from rwn.recording.signals import DRIVING_FORCE
 from rwn.simulate.recorded_run import judging_run
 
@@ -172,3 +182,12 @@ def test_a_driving_force_is_no_judge_where_the_speed_was_recorded() -> None:
     assert not hurts([BETTER, force])
     assert log_change([BETTER, force]) == log_change([BETTER])
     assert hurts([PERHAPS, force]), "a position alone drifts"
+
+
+def test_recordings_disagree_where_one_is_certainly_better_and_another_certainly_worse() -> None:
+    better, worse = replace(BETTER, recording="a"), replace(WORSE, recording="b")
+    assert disagreeing([better, worse]) == (("a",), ("b",))
+    assert disagreeing([better, worse, replace(PERHAPS, recording="b")]) == (("a",), ("b",))
+    assert disagreeing([better, replace(worse, recording="a"), worse]) == ((), ()), "the first says both"
+    assert disagreeing([better, replace(PERHAPS, recording="b")]) == ((), ())
+    assert disagreeing([worse]) == disagreeing([better]) == disagreeing([]) == ((), ())

@@ -12,7 +12,7 @@ import made_up
 from rwn.report import write_report
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.page import page
-from rwn.report.sentences import before_after, headline
+from rwn.report.proof_sentences import before_after, headline
 from rwn.report.tables import alternative_table, heldout_table
 
 

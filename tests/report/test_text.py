@@ -16,7 +16,8 @@ from rwn.report.assemble import from_near
 from rwn.report.diagnosis_data import Alternative, Location
 from rwn.report.next_steps import next_steps
 from rwn.report.page import page
-from rwn.report.sentences import before_after, headline, verdict_sentence
+from rwn.report.proof_sentences import before_after, headline
+from rwn.report.sentences import verdict_sentence
 from rwn.report.terminal import lines
 
 

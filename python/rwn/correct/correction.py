@@ -17,7 +17,7 @@ from rwn.fit.fitted_model import fitted_model
 from rwn.model.model import Model
 from rwn.name.measurement import NEXT_TO_NOTHING
 from rwn.name.weights import RankedFit
-from rwn.prove.heldout import heldout_error, helps, hurts, log_change
+from rwn.prove.heldout import disagreeing, heldout_error, helps, hurts, log_change
 from rwn.prove.proof import Proof, compared, proved
 from rwn.simulate.run import Run
 
@@ -28,6 +28,10 @@ NO_NETWORK = (
 NOT_HELPING = (
     "on recordings that were not fitted the simulation is better without {names}, as fitted here: corrected.toml "
     "leaves it out"
+)
+DISAGREE = (
+    "the recordings that were not fitted contradict each other: with what is stated {better} is simulated better and "
+    "{worse} worse; where they are not of the same machine in the same state, give those that are"
 )
 RIVAL_HELPS = (
     "on recordings that were not fitted the simulation is better with {instead} in the place of {names}, which is not "
@@ -79,6 +83,9 @@ def correct(decision: Decision, heldout: Sequence[Run], model: Model, *, seed: i
         instead = " + ".join(name for name in kept.added if name not in decision.chosen.added)
         said = RIVAL_HELPS if instead else NOT_HELPING
         warnings = (*warnings, said.format(names=" + ".join(left_out), instead=instead))
+        better, worse = disagreeing(decision.rows)
+        if better:
+            warnings = (*warnings, DISAGREE.format(better=", ".join(better), worse=", ".join(worse)))
         decision = replace(decision, rows=rows)
     moved = by_free_run(decision, kept, seed=seed)
     if moved is None:

@@ -236,6 +236,19 @@ def hurts(rows: Sequence[HeldoutRow]) -> bool:
     return runs_away or (any(r.gain_and_an_error < 0.0 for r in whole) and log_change(rows) > 0.0)
 
 
+def disagreeing(rows: Sequence[HeldoutRow]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The recordings of which some signal is certainly better and none worse, and those of which the contrary is so.
+
+    Empty where only one of the two is found: then they do not disagree.
+    """
+    of: dict[str, list[HeldoutRow]] = {}
+    for row in _free_run(rows):
+        of.setdefault(row.recording, []).append(row)
+    better = tuple(n for n, own in of.items() if _any_certainly_better(own) and not _any_certainly_worse(own))
+    worse = tuple(n for n, own in of.items() if _any_certainly_worse(own) and not _any_certainly_better(own))
+    return (better, worse) if better and worse else ((), ())
+
+
 def _free_run(rows: Sequence[HeldoutRow]) -> list[HeldoutRow]:
     """Without the driving force where an axis shows more than its position, which drifts for small reasons.
 

@@ -65,7 +65,7 @@ def check_beside(
                 raise unrecognised("signal", name, known, where=f"{where}, {table}")
     for name, unit in units.items():
         wanted = si_unit(COLUMNS[name], linear)
-        if not _is_of(unit, wanted):
+        if unit and not _is_of(unit, wanted):
             factor(unit, wanted, where=f"{where}, units of {name}", strict_angle=False)  # says what is wrong
     if not 0.0 <= input_noise < math.inf:
         raise InputError(

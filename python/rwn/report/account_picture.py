@@ -8,7 +8,8 @@ from html import escape
 from rwn.decide.account import ActingEffect
 from rwn.report import text as words
 from rwn.report.diagnosis_data import DiagnosisData
-from rwn.report.sentences import SLIGHT, about_shares, shown
+from rwn.report.proof_sentences import SLIGHT
+from rwn.report.sentences import about_shares, shown
 
 
 def account_picture(found: DiagnosisData) -> str:

@@ -14,7 +14,8 @@ from rwn.report.account_picture import account_picture
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.nominal_fit import FittedParameter
 from rwn.report.page import document, figures, section
-from rwn.report.sentences import before_after, headline, sentences
+from rwn.report.proof_sentences import before_after, headline
+from rwn.report.sentences import sentences
 from rwn.report.tables import table
 
 NO_LAW = "<p>No law is drawn.</p>"

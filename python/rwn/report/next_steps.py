@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from rwn.decide.account import ActingEffect
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.held import held_part, holds_no_effect
-from rwn.report.sentences import SLIGHT
+from rwn.report.proof_sentences import SLIGHT
 from rwn.report.text import likelihood, listing, plain_name
 
 _WRITE_IT = (

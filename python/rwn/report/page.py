@@ -20,7 +20,8 @@ from rwn.report.next_steps import next_steps
 from rwn.report.plot import Plot
 from rwn.report.plot_text import in_words
 from rwn.report.plots import DARK, figure
-from rwn.report.sentences import acting, before_after, headline, sentences
+from rwn.report.proof_sentences import before_after, headline
+from rwn.report.sentences import acting, sentences
 
 _VERDICTS = {
     "missing-physics": ("Missing physics", "#0b5563"),

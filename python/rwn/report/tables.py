@@ -10,7 +10,8 @@ from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding
 from rwn.report import text as words
 from rwn.report.diagnosis_data import Alternative, DiagnosisData, Source
-from rwn.report.sentences import acting, error_in_words, row_prefix, worse
+from rwn.report.proof_sentences import error_in_words, row_prefix, worse
+from rwn.report.sentences import acting
 
 UNLIKELY = 0.01  # probability below which another explanation is none
 

@@ -10,7 +10,8 @@ import typer
 
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.next_steps import next_steps
-from rwn.report.sentences import SLIGHT, about_shares, sentences, shown
+from rwn.report.proof_sentences import SLIGHT
+from rwn.report.sentences import about_shares, sentences, shown
 from rwn.report.text import (
     capital,
     estimate,
