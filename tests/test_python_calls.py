@@ -210,7 +210,7 @@ def test_paths_tables_and_recordings_give_the_same(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("call", "held"),
     [
-        (lambda: rwn.Recording(name="r", time=TIME, signals=None), "signals is a NoneType"),  # type: ignore[arg-type]
+        (lambda: rwn.Recording(name="r", time=TIME, signals=None), "signals is None; expected a dictionary"),  # type: ignore[arg-type]
         (lambda: rwn.read_model(None), "the path is None"),  # type: ignore[arg-type]
         (lambda: rwn.Diagnosis.load(None), "the path is None"),  # type: ignore[arg-type]
         (lambda: rwn.Diagnosis.load(Path(__file__).parent), "there is no diagnosis.json in this folder"),

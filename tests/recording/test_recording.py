@@ -170,5 +170,5 @@ def test_a_name_is_shown_as_a_terminal_may_show_it(tmp_path: Path) -> None:
 
 
 def test_a_name_is_a_text() -> None:
-    with pytest.raises(InputError, match=r'name is None.*name="run 1"'):
+    with pytest.raises(InputError, match="name is None; expected text; fix: correct name"):
         Recording(name=None, time=np.arange(3.0), signals={})  # type: ignore[arg-type]
