@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import os
 import subprocess
 import sys
@@ -176,6 +177,22 @@ def test_a_sign_error_is_no_identified_motor(run: Run, tmp_path: Path) -> None:
     assert "check signs" in err
     assert "was not written" in err
     assert not (tmp_path / "fitted.toml").exists()
+
+
+def test_a_sign_error_of_what_nobody_knows_is_no_identified_motor(run: Run, tmp_path: Path) -> None:
+    """The voltage of the demonstration turned, the current alone, and no data sheet: the fit explains most of it."""
+    demo = Path(rwn.__file__).parent / "demo"
+    recording = read_recording(demo / "train.csv")
+    turned = {"voltage": -recording.signals["voltage"][:1500], "current": recording.signals["current"][:1500]}
+    write_csv(tmp_path / "turned.csv", recording.time[:1500], turned)
+    given = rwn.read_model(demo / "model.toml")
+    names = [name for name in given.parameters if name != "inductance"]
+    rwn.save(replace(given, uncertainty=dict.fromkeys(names, math.inf)), tmp_path / "unknown.toml")
+    code, out, err = run("identify", "turned.csv", "--model", "unknown.toml", "--out", "fitted.toml")
+    assert code == 3
+    assert "of the variance of the current is explained" in out
+    assert "current of the wrong sign: undone, 9" in err
+    assert "was not written" in err
 
 
 def test_identify_says_what_ran_into_a_bound_and_what_is_not_seen() -> None:

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rwn.faults.plain_faults import plain_faults
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.fitted_model import fitted_model
 from rwn.fit.intervals import Estimate, deviations, estimates
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import BELIEVABLE
+from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import noise_of, without_drift
 from rwn.fit.residuals import Statistics, statistics, structured
 from rwn.measurement.likeliest_law import with_intersample
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
 COLUMNS = ("parameter", "value", "low", "high", "unit")  # of Identification.table
 CUT = 1e-6  # relative; intervals are wider than that on either side of a value, unless they are cut at a bound
 CHECK = "check signs, units and columns, or let rwn diagnose find such a mistake or what is missing"
+MOST = 0.5  # what a mistake in the recordings leaves of the squared error, when it is undone, at the most
 DESCRIBES = 0.5  # share of a signal's variance that a model must explain, to be said to describe it
 NOTHING_LEARNED = 0.9  # standard deviation after the fit over the declared one, above which recordings say nothing
 
@@ -108,18 +111,15 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     if model.effects:
         check_declared(model, [prepare(runs, model).scales])
     model = with_intersample(runs, model)
-    problem = prepare(runs, model)
-    this = fit_nominal(problem)
-    problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))
-    this = fit_nominal(problem)
-    drifting = without_drift(problem, this)
-    if drifting is not None:
-        problem, this = drifting, fit_nominal(drifting)
+    problem, this = _fitted(prepare(runs, model))
     left, status, fitted = statistics(problem, this), this.minimum.status, fitted_model(this, model)
     parameters, explained = estimates(this, left), explained_signals(fitted, runs)
     name = status.name.lower().replace("_", "-")
     reasons = [f"the fit did not converge ({name}): {status.value.rstrip('.')}"] if name != "converged" else []
-    reasons += [*_describes_nothing(explained, structured(problem, this)), *_ended_at_limits(parameters)]
+    coloured = structured(problem, this)
+    reasons += [*_describes_nothing(explained, coloured), *_ended_at_limits(parameters)]
+    if coloured and not reasons:
+        reasons += _mistaken(given, model, problem, left)
     return Identification(
         model=fitted,
         parameters=parameters,
@@ -133,6 +133,27 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
         warnings=tuple(warning for recording in given for warning in recording.warnings),
         recordings=tuple(given),
     )
+
+
+def _fitted(problem: Problem) -> tuple[Problem, Fit]:
+    """The fit in units of the noise that it leaves itself."""
+    this = fit_nominal(problem)
+    problem = replace(problem, noise=noise_of(problem.runs, problem.residuals(this.vector, this.active)))
+    this = fit_nominal(problem)
+    drifting = without_drift(problem, this)
+    return (problem, this) if drifting is None else (drifting, fit_nominal(drifting))
+
+
+def _mistaken(given: Sequence[Recording], model: Model, problem: Problem, left: Statistics) -> Iterator[str]:
+    """A unit, sign or gear that is plainly wrong, without which most of what is left goes."""
+    faults, right = plain_faults(given, model) if not model.drive.coefficients else ([], given)
+    if faults:
+        undone = replace(prepare(inspected(right)[0], model), noise=problem.noise)
+        without = statistics(undone, fit_nominal(undone)).variance / left.variance
+        if without < MOST:
+            said = " and ".join(fault.meaning for fault in faults)
+            goes = f"{100.0 * (1.0 - without):.2g} % of the squared error goes"
+            yield f"{said}: undone, {goes}; correct it, or let rwn diagnose what is beneath"
 
 
 def _describes_nothing(explained: Sequence[ExplainedSignal], coloured: Collection[str]) -> Iterator[str]:
