@@ -64,3 +64,4 @@ def test_the_curve_lies_on_the_points_that_it_is_drawn_over(coordinate: str) -> 
     on_curve = np.interp(law.state, law.x, law.torque)
     assert np.corrcoef(on_curve, law.left)[0, 1] > 0.5
     assert np.polyfit(on_curve, law.left, 1)[0] > 0.5
+    assert law.amplitude == pytest.approx(np.sqrt(2.0) * np.std(law.torque)), "what is said of it is what is drawn"

@@ -37,7 +37,7 @@ class Law:
     coordinate: str
     unit: str
     share: float  # of the error's energy on samples that were not fitted
-    amplitude: float  # sqrt(2) rms of the function over the samples [N m or N]
+    amplitude: float  # sqrt(2) rms of `torque`, each of whose points stands for as many samples, or of the sine
     periods: int  # per revolution; 0 where the state is not the angle
     x: Array  # (n,) values of the state along the curve, in `unit`
     torque: Array  # (n,) [N m or N]; without what the nominal parameters may explain, as `left`
@@ -121,7 +121,7 @@ def _over(name: str, error: _Error, linear: bool) -> Law:
     state, left = _means_over(error.states[name], error.beyond_nominal(error.states["torque"]), CLOUD)
     unit = COORDINATES[name].replace("rad", "m") if linear else COORDINATES[name]
     return Law(
-        coordinate=name, unit=unit, share=share, periods=0, amplitude=float(np.sqrt(2.0) * np.std(made)),
+        coordinate=name, unit=unit, share=share, periods=0, amplitude=float(np.sqrt(2.0) * np.std(curve)),
         x=along, torque=curve, state=state, left=left,
     )  # fmt: skip
 
