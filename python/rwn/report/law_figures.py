@@ -134,7 +134,7 @@ def over_its_state(law: Law, torque_unit: str) -> Plot:
             Trace(name="of the recordings, means", role="before", x=law.state, y=law.left, points=True),
             Trace(name="wavelet network", role="reference", x=law.x, y=law.torque),
         ),
-        note=f"The network explains {law.share:.0%} of the refitted nominal model's error on parts of the fitted recordings "
-        "that its own fit left out; what helps on other recordings, the proof tells. "
+        note=f"The network explains {law.share:.0%} of the refitted nominal model's error on parts of the fitted "
+        "recordings that its own fit left out; what helps on other recordings, the proof tells. "
         "Points and line are without what other values of the nominal parameters would explain.",
     )  # fmt: skip
