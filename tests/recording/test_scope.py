@@ -32,6 +32,11 @@ def test_names_units_and_the_first_row_of_numbers() -> None:
     assert scope_block([STARTED, "Name\ta"]) == Block("\t", ("time", "a"), ("ms", None), 2), "no numbers yet"
 
 
+def test_a_block_without_units_ends_where_numbers_begin() -> None:
+    found = _block("Name | a | b", "SampleTime[ms] | 2 | 2", "SymbolName | x.a | x.b", "BitMask | 0xFFFF | 0xFFFF")
+    assert found == Block("\t", ("time", "a", "b"), ("ms", None, None), 6)
+
+
 def test_cells_that_no_name_stands_above_are_left_out() -> None:
     for rows in (
         ("Name | a", "SampleTime[ms] | 2 | 2", "Unit | V | A"),

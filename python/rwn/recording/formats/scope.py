@@ -7,6 +7,7 @@ Scope View, Export to csv; the readers pytcs (CagtayFabry) and of the DLR's shep
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -39,7 +40,7 @@ def scope_block(lines: Sequence[str]) -> Block | None:
     steps, given = (rows[key][1] if key in rows else [""] * len(heads) for key in (_STEP, _UNIT))
     width = min(len(heads), len(steps), len(given))
     last = max(k for key, (k, _) in rows.items() if key == _NAMES or key.startswith(_UNIT))
-    first = next((k for k in range(last + 1, len(lines)) if lines[k].strip()), len(lines))
+    first = next((k for k in range(last + 1, len(lines)) if _begins_with_number(lines[k], delimiter)), len(lines))
     values = lines[first].split(delimiter) if first < len(lines) else []
     times = [name == _NAMES for name in heads[:width]]
     main = Counter(step for step, is_time in zip(steps, times, strict=False) if not is_time).most_common(1)
@@ -70,15 +71,19 @@ def _block_rows(lines: Sequence[str]) -> tuple[str, dict[str, tuple[int, list[st
             for k, line in enumerate(lines[:_LINES])
             if delimiter in line
         }
-        if {_NAMES, _STEP, _UNIT} <= set(rows):
+        if {_NAMES, _STEP} <= set(rows):  # units may be left out of an export
             return delimiter, rows
         if plainest is None and {_NAMES, _STARTED} <= set(rows):  # above the block there is a tab in any case
             plainest = delimiter, rows
     return plainest
 
 
-def _number(cell: str) -> float:
+def _begins_with_number(line: str, delimiter: str) -> bool:
+    return math.isfinite(_number(line.split(delimiter, 1)[0], otherwise=math.nan))
+
+
+def _number(cell: str, *, otherwise: float = 0.0) -> float:
     try:
         return float(cell.replace(",", "."))
     except ValueError:
-        return 0.0
+        return otherwise
