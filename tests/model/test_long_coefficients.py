@@ -20,3 +20,9 @@ def test_an_integer_of_401_digits_is_refused_in_one_line(key: str) -> None:
 def test_coefficients_whose_ratio_is_no_number_are_refused() -> None:
     with pytest.raises(InputError, match="the denominator begins with 1e-300"):
         parse_model('[motor]\nkind = "lti"\nnumerator = [1e300]\ndenominator = [1e-300, 1.0]\n', where="motor.toml")
+
+
+def test_a_number_that_no_integer_holds_is_refused_by_its_key() -> None:
+    text = '[motor]\nkind = "dc"\n[uncertainty]\nresistance = ' + "9" * 401
+    with pytest.raises(InputError, match=r"motor\.toml, \[uncertainty\] resistance: the number is too large"):
+        parse_model(text, where="motor.toml")

@@ -55,6 +55,15 @@ def test_names_that_nobody_asked_for_below_an_instruments_numbers() -> None:
     assert (found.names, found.first) == (("TIME", "CH1", "CH2"), len(SCOPE) + 1)
 
 
+def test_channels_that_are_called_by_numbers() -> None:
+    """As Keysight writes them, units below."""
+    found = told("x-axis,1,2", "second,Volt,Ampere", *rows())
+    assert (found.names, found.units, found.first) == (("x-axis", "1", "2"), ("second", "Volt", "Ampere"), 2)
+    assert told("x-axis,1,2", "second,Volt,Ampere", *rows(), wanted={"x-axis", "1", "2"}) == found
+    assert told("x-axis,1,2", *rows(), wanted={"x-axis", "1", "2"}).first == 1
+    assert told("s,V,rpm", *rows()).names == ("s", "V", "rpm"), "units alone"
+
+
 def test_a_bad_first_row_is_not_taken_for_a_part_of_the_heading() -> None:
     assert told("time,voltage,speed", "0,x,1", *rows()).first == 1
     assert told("time,voltage,speed", "s,V,rpm", "0,,1", *rows()).first == 2

@@ -30,6 +30,13 @@ def _npy(path: Path) -> None:
     np.save(path, table)
 
 
+def _npy_with_units(path: Path) -> None:
+    table = np.zeros(80, dtype=[(name, float) for name in NAMED])
+    for name, values in NAMED.items():
+        table[name] = values
+    np.save(path, table)
+
+
 def _parquet(path: Path) -> None:
     pa, parquet = imported("pyarrow"), imported("pyarrow.parquet")
     fields = [
@@ -96,6 +103,7 @@ BY_MAP = Layout(columns={name: Column(source=name, unit=unit) for name, unit in 
 WRITERS: dict[str, tuple[str, Callable[[Path], None], Layout]] = {
     "npz": (".npz", _npz, Layout()),
     "npy": (".npy", _npy, BY_MAP),
+    "npy with units": (".npy", _npy_with_units, Layout()),
     "parquet": (".parquet", _parquet, Layout()),
     "excel": (".xlsx", _excel, Layout()),
     "mat 7": (".mat", _mat, BY_MAP),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterator
 from typing import Any
 
 import msgspec
@@ -13,6 +14,7 @@ from rwn.model.toml_own_effects import OwnEffectEntry, ParameterEntry
 from rwn.recording.intersample import AUTO
 from rwn.recording.layout import Initial
 
+MOST_WHOLE = 2**63 - 1  # what TOML promises to hold
 Number = float | str  # a number in SI, or a string with a unit: "0.4 mH"
 
 
@@ -90,6 +92,13 @@ def decode(text: str, where: str) -> File:
     try:
         return msgspec.convert(plain, File)
     except msgspec.ValidationError as error:
+        for keys in _whole_numbers_beyond(plain, MOST_WHOLE) if "out of range" in str(error) else ():
+            raise InputError(
+                "the number is too large",
+                where=f"{where}, [{'.'.join(keys[:-1])}] {keys[-1]}",
+                expected=f"a whole number of at most {MOST_WHOLE}, or one with a decimal point",
+                fix="correct the value",
+            ) from error
         raise _worded(str(error), where) from error
     except (RecursionError, OverflowError) as error:
         raise InputError(
@@ -98,6 +107,15 @@ def decode(text: str, where: str) -> File:
             expected="lines such as inertia = 1.8e-4",
             fix="write the model as docs/models.md shows",
         ) from error
+
+
+def _whole_numbers_beyond(value: object, most: int, keys: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """The keys of whole numbers that are larger."""
+    if isinstance(value, int) and abs(value) > most:
+        yield keys
+    held = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, inner in held:
+        yield from _whole_numbers_beyond(inner, most, (*keys, str(key)))
 
 
 _QUANTITY = "a number, or text with a unit"

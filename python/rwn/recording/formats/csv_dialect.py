@@ -117,14 +117,16 @@ def _heading(
     known = {
         j: sum(name_of(cell) in wanted for cell in cells)
         for j, cells in rows.items()
-        if len(cells) == width and _numbers_of(cells, width, numeric) == 0.0
+        if len(cells) == width and _may_name(cells, width, numeric, wanted)
     }
     best = max(known, key=lambda j: (known[j], -j), default=0)
     whole = [j for j in data if all(is_number(rows[j][k]) or not rows[j][k] for k in numeric)]
     beneath = known.get(best) and sum(j < best for j in whole) <= _ABOVE
     for at in [*[j for j in data if beneath and j > best][:1], *whole[:1]]:
         above = _rows_above(told[:at], delimiter, width, where)
-        names = [*takewhile(lambda row: _numbers_of(row[1], width, numeric) == 0.0, reversed(above))]
+        names = [*takewhile(lambda row: _may_name(row[1], width, numeric, wanted), reversed(above))]
+        if all(_only_units(cells) for _, cells in names):  # then names stand above them, be they numbers
+            names = above[::-1][: len(names) + 1] if names else []
         if names:
             return names[::-1], at
     return _rows_above(told[: data[0]], delimiter, width, where), data[0]
@@ -196,6 +198,16 @@ def _numbers_of(cells: Sequence[str], width: int, numeric: Sequence[int]) -> flo
     return sum(is_number(cells[j]) for j in numeric) / len(numeric) if len(cells) == width else 0.0
 
 
+def _may_name(cells: Sequence[str], width: int, numeric: Sequence[int], wanted: Collection[str]) -> bool:
+    """Whether a row has a number in none of the columns of numbers, or names a wanted one that is not called by one."""
+    named = any(name_of(cell) in wanted and not is_number(cell) for cell in cells)
+    return named or _numbers_of(cells, width, numeric) == 0.0
+
+
+def _only_units(cells: Sequence[str]) -> bool:
+    return all(len(cell) < 30 and units.is_unit(bare_unit(cell)) for cell in cells if cell)
+
+
 def _rows_above(
     told: Sequence[tuple[int, str]], delimiter: str, width: int, where: str
 ) -> list[Row]:
@@ -213,8 +225,8 @@ def _rows_above(
 
 def _likely_names(cells: Sequence[str], j: int, wanted: Collection[str]) -> tuple[int, bool, bool, int]:
     """The more, the likelier a row holds the names: wanted ones, or a cell for most columns that is no unit."""
-    only_units = all(len(cell) < 30 and units.is_unit(bare_unit(cell)) for cell in cells if cell)
-    return sum(name_of(cell) in wanted for cell in cells), 2 * sum(map(bool, cells)) > len(cells), not only_units, -j
+    known, most = sum(name_of(cell) in wanted for cell in cells), 2 * sum(map(bool, cells)) > len(cells)
+    return known, most, not _only_units(cells), -j
 
 
 def _header(cells: Sequence[str], where: str) -> tuple[tuple[str, ...], list[str | None]]:

@@ -22,9 +22,10 @@ def read_npz(path: Path, wanted: Collection[str] = ()) -> Table:
     try:
         with path.open("rb") as file:
             loaded = np.load(file, allow_pickle=False)
-            if isinstance(loaded, np.ndarray):
+            fields = loaded.dtype.names if isinstance(loaded, np.ndarray) else loaded.files
+            if fields is None:
                 return nested_table(str(path), {path.stem: loaded}, (path.stem,), wanted)
-            names = {key: name_and_unit_of(key) for key in loaded.files}
+            names = {key: name_and_unit_of(key) for key in fields}
             refuse_doubles(str(path), [name for name, _ in names.values()], wanted)
             read = roots((name for name, _ in names.values()), wanted)
             content = {name: loaded[key] for key, (name, _) in names.items() if name in read}
