@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rwn
-from rwn.recording.copies import _allowed, _decimal_places, _steps, is_piece
+from rwn.recording.copies import _allowed, _decimal_places, _steps, is_piece, rows_in_common
 from rwn.recording.recording import read_recording, write_csv
 
 TIME = np.arange(2000) * 1e-3
@@ -69,6 +69,20 @@ def test_so_is_a_rounded_piece_without_a_column() -> None:
     run = _run(1)
     piece = {name: np.round(run[name][300:900], 2) for name in ("voltage", "speed")}
     assert is_piece(_recording(piece), _recording(run))
+
+
+@pytest.mark.parametrize(("first", "every"), [(0, 2), (1, 2), (4, 5)])
+def test_so_is_every_second_row(first: int, every: int) -> None:
+    run, rows = _run(1), slice(first, None, every)
+    thinned = rwn.Recording(name="thin", time=TIME[rows], signals={n: np.round(x[rows], 4) for n, x in run.items()})
+    assert is_piece(thinned, _recording(run))
+    assert not is_piece(thinned, _recording(_run(2)))
+    assert rows_in_common(thinned, _recording(run)) == len(thinned)
+    other, end = _run(3), 600 // every
+    again = {name: np.concatenate([x[rows][:end], other[name][rows][end:]]) for name, x in run.items()}
+    half = rwn.Recording(name="half", time=TIME[rows], signals=again)
+    assert not is_piece(half, _recording(run))
+    assert rows_in_common(half, _recording(run)) == end
 
 
 def test_so_is_a_copy_in_another_unit_with_fewer_digits(tmp_path: Path) -> None:
