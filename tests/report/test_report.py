@@ -25,6 +25,14 @@ def _body(text: str) -> str:
     return text.split("</main>")[0]
 
 
+def test_a_signal_of_one_recording_has_one_unit_in_the_table() -> None:
+    whole = next(row for row in made_up.found().heldout if row.region == "all")
+    large = replace(whole, unit="A", signal="current", nominal=2.0, refitted=1.5, corrected=1.2, noise_floor=0.1)
+    small = replace(large, region="low speed", refitted=0.0671, corrected=0.0123)
+    assert "67.1&nbsp;mA" in heldout_table([small])
+    assert "mA" not in heldout_table([large, small])
+
+
 @pytest.mark.parametrize("state", made_up.ALL)
 def test_every_state_opens_offline(state: str, tmp_path: Path) -> None:
     text = _text(made_up.ALL[state](), tmp_path)

@@ -137,12 +137,13 @@ def heldout_table(rows: Sequence[HeldoutRow]) -> str:
         "Noise floor",
         "Gain (95 %)",
     )
-    return table(head, [_heldout_row(row) for row in rows], numbers_from=3, marked=[worse(row) for row in rows])
+    whole = {(row.recording, row.signal): row for row in reversed(rows)}  # the first: of all regions
+    shown = [_heldout_row(row, *row_prefix(whole[row.recording, row.signal])) for row in rows]
+    return table(head, shown, numbers_from=3, marked=[worse(row) for row in rows])
 
 
-def _heldout_row(row: HeldoutRow) -> list[str]:
+def _heldout_row(row: HeldoutRow, scale: float, unit: str) -> list[str]:
     errors = (row.nominal, row.refitted, row.corrected, row.noise_floor)
-    scale, unit = row_prefix(row)
     shown = ["–" if e is None else escape(error_in_words(e, scale, unit)).replace(" ", "&nbsp;") for e in errors]
     said = (0, 1) if row.corrected is None else (1, 2)
     shown = [f"<b>{text}</b>" if k in said else text for k, text in enumerate(shown)]
