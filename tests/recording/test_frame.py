@@ -95,6 +95,7 @@ OBJECTS: dict[str, Callable[[], Any]] = {
     "pandas with instants in a zone": _pandas_with_a_zone,
     "pandas of decimals": _pandas_of_decimals,
     "polars": _polars,
+    "polars, lazy": lambda: _polars().lazy(),
     "pyarrow": _pyarrow,
     "pyarrow with units of its fields": _pyarrow_with_units_of_its_fields,
     "pandas with a named index of durations": _pandas_with_an_index_of_durations,

@@ -17,7 +17,7 @@ def is_frame(source: Any) -> bool:
     """Whether it is a frame that narwhals knows."""
     from narwhals.stable.v1 import dependencies
 
-    return bool(dependencies.is_into_dataframe(source))
+    return bool(dependencies.is_into_dataframe(source) or dependencies.is_polars_lazyframe(source))
 
 
 def table_of_object(source: Any, wanted: Collection[str]) -> Table:
@@ -50,6 +50,8 @@ def columns_of_frame(frame: Any) -> Iterator[tuple[str, Any, str | None]]:
     """
     from narwhals import stable
 
+    if stable.v1.dependencies.is_polars_lazyframe(frame):
+        frame = frame.collect()
     attrs = getattr(frame, "attrs", {})
     listed = attrs.get("VariableUnits") or attrs.get("varUnits") or ()
     units = attrs.get("units")
