@@ -61,6 +61,7 @@ def recording_in_words(name: str) -> str:
 
 
 def proof_of(found: DiagnosisData, how: str) -> Iterator[str]:
+    """What `how`, as "Adding it", does to the errors that say most, and to those that it raises."""
     row = headline(found)
     if row is None or row.corrected is None:
         return
