@@ -136,7 +136,8 @@ def identify(
 ) -> None:
     """Fit the parameters of a model, effects included, within their declared uncertainty.
 
-    Ends with exit code 3, and writes nothing, where the fit does not converge, ends at a limit or describes no signal.
+    Ends with exit code 3, and writes nothing, where the fit does not converge, ends at a limit or describes no signal,
+    or where a wrong sign, unit or gear explains most of what it leaves.
     """
     from contextlib import nullcontext
 

@@ -101,7 +101,8 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
 
     `recordings`: one or several of paths, tables in Python and recordings; `model`: a model or its file.
 
-    Intervals are 95 %, widened for what the residual's variance and colour say; declared uncertainties are priors.
+    Intervals are 95 %, widened for what the residual's variance and colour say, misfit counting for few samples;
+    declared uncertainties are priors.
     Where that comes to no model of them, as with a sign error, `failure` says why. Raises InputError where a recording
     does not fit the model.
     """
@@ -113,7 +114,8 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     model = with_intersample(runs, model)
     problem, this = _fitted(prepare(runs, model))
     left, status, fitted = statistics(problem, this), this.minimum.status, fitted_model(this, model)
-    parameters, explained = estimates(this, left), explained_signals(fitted, runs)
+    parameters = estimates(this, left, samples=left.effective_with_misfit)
+    explained = explained_signals(fitted, runs)
     name = status.name.lower().replace("_", "-")
     reasons = [f"the fit did not converge ({name}): {status.value.rstrip('.')}"] if name != "converged" else []
     coloured = structured(problem, this)

@@ -78,7 +78,7 @@ def nominal_fit(
     ranking: Ranking, chosen: RankedFit, left: Statistics, model: Model, *, samples: float | None = None
 ) -> NominalFit:
     """Nominal parameters: as given, refitted alone, and together with the found effects, which leave `left`."""
-    alone = estimates(ranking.nominal_fit, ranking.before)
+    alone = estimates(ranking.nominal_fit, ranking.before, samples=ranking.before.effective_with_misfit)
     together = estimates(chosen.final, left, samples=samples) if chosen.added else {}
     rows = {}
     given = dict(model.parameters) or dict(ranking.problem.prior.free)
