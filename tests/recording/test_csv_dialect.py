@@ -229,11 +229,19 @@ def test_units_are_short() -> None:
     assert told("s,V,rpm", f"a{edge},{edge},b", *rows()).names[0] == f"a{short}"
 
 
-def test_half_of_a_rows_numbers_do_not_make_it_data() -> None:
-    """A row above that is half filled with numbers belongs to the header."""
-    found = told("time,voltage", "1,x", *[f"{k},{k}" for k in range(20)])
-    assert found.first == 2
-    assert told("time,voltage,speed", "1,2,x", *rows()).first == 1
+BAD = ["1,2,x", "0,OL,OL", "0,,", ",,3", "0.1 s,1 V,2 rpm", "1,2", "1,2,3,4", "2024-01-01,x,y"]
+
+
+@pytest.mark.parametrize("row", BAD)
+def test_a_row_below_the_names_that_begins_as_numbers_do_is_data(row: str) -> None:
+    """What is wrong with it is said when it is read; none is passed over."""
+    assert told("time,voltage,speed", row, *rows()).first == 1
+    assert told("time,voltage,speed", "s,V,rpm", row, *rows()).first == 2
+
+
+@pytest.mark.parametrize("row", ["s,V,1/min", "s,V,1", "double,double,double", "clock,motor,motor"])
+def test_a_row_of_units_or_words_is_none(row: str) -> None:
+    assert told("time,voltage,speed", row, *rows()).first == 2
 
 
 def test_rows_are_judged_by_the_end_of_the_sample() -> None:

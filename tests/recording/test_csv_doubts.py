@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -42,5 +43,38 @@ def test_points_that_may_mark_thousands_beside_decimal_commas_are_refused(
     if not refused:
         assert read_recording(path).signals["voltage"][0] == pytest.approx(-1.21e-3, rel=1e-2)
         return
-    with pytest.raises(InputError, match=r"'-1\.2\d\d' may be in thousands or have a decimal point"):
+    with pytest.raises(InputError, match=r"'-1\.2\d\d' in column 'voltage' may be in thousands or have a decimal p"):
         read_recording(path)
+
+
+HEAD = "time [s];voltage [mV];speed [rad/s]\n"
+
+
+@pytest.mark.parametrize(
+    ("rows", "cell"),
+    [
+        ('0.0{k};"-1,2{k}";-0.9{k}\n', "-1,2"),  # points are decimal elsewhere
+        ("0,0{k};-1,5{k}1;-0,9{k}\n" * 20 + "0,9;-1.010;0,1\n" + "1,0{k};-1,5{k}1;-0,9{k}\n" * 200, "-1.010"),
+        ("0,9;-1.010;0,1\n" + "0,0{k};-1,5{k}1;-0,9{k}\n", "-1.010"),  # before its decimal commas
+        ("1{k};1,2{k};1\n" + "2{k};738;1\n", "1,2"),  # a comma in some of whole numbers
+    ],
+)
+def test_one_cell_of_another_mark_anywhere_is_refused(rows: str, cell: str, tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text(HEAD + "".join(rows.format(k=k) for k in range(10, 60)))
+    with pytest.raises(InputError, match=rf"'{re.escape(cell)}\d*' in column 'voltage' may be in thousands"):
+        read_recording(path)
+
+
+def test_units_above_the_names_or_in_two_rows_may_not_contradict(tmp_path: Path) -> None:
+    for head in ("s,V,rpm\ntime [s],voltage [V],speed [rad/s]\n", "time,voltage,speed\ns,V,rpm\ns,V,rad/s\n",
+                 "time [s],voltage [V],speed [rad/s]\nclock,motor,motor\ns,V,rpm\n"):  # fmt: skip
+        with pytest.raises(InputError, match=r"column 'speed' is in (rad/s|rpm) by its name and in (rpm|rad/s) by"):
+            read_recording(_written(tmp_path, head, "0.0{k},1.{k},0.{k}\n"))
+
+
+def test_rows_of_numbers_above_the_names_are_said(tmp_path: Path) -> None:
+    path = _written(tmp_path, "1,2,3\n4,5,6\ntime [s],voltage [V],speed [rad/s]\n", "0.0{k},1.{k},0.{k}\n")
+    run = read_recording(path)
+    assert len(run) == 50
+    assert any("2 lines of numbers above the names are left out" in warning for warning in run.warnings)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from rwn.errors import InputError
 from rwn.recording.formats.csv_cells import HOW, is_number, split
 from rwn.recording.formats.csv_dialect import Dialect, dialect_of, encoding_of, separated_by_blanks, without_blanks
+from rwn.recording.formats.csv_doubts import Marks
 from rwn.recording.formats.stamps import Stamps, instant
 from rwn.recording.formats.table import MAX_SAMPLES, Table, refuse_doubles, too_long
 
@@ -57,6 +58,7 @@ def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, 
     numbers: list[Sequence[int]] = []
     rows = 0
     stamps: dict[int, Stamps] | None = None
+    marks: Marks | None = None
     for at, lines in chain([first], blocks):
         skipped = max(dialect.first - at, 0)
         numbered, kept = _rows(lines, at + skipped, skipped)
@@ -64,6 +66,8 @@ def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, 
             continue
         stamps = _stamps(kept, dialect, used, where) if stamps is None else stamps
         values = _numbers(numbered, kept, dialect, used, where, stamps)
+        marks = marks or Marks(names, [j for j in used if j not in stamps])
+        marks.see(kept, dialect.delimiter, f"{where}, {line} {numbered[0]} and below")
         starts.append(rows)
         numbers.append(numbered)
         rows += len(kept)
@@ -71,12 +75,18 @@ def read_lines(where: str, blocks: Iterator[Block], wanted: Collection[str], *, 
             raise too_long(where, rows)
         for part, column in zip(parts, values.T, strict=True):
             part.append(np.ascontiguousarray(column))
+    if marks is not None:
+        marks.refuse_thousands(where)
     columns = {}
     for j in used:
         part = parts.pop(0)  # one column after the other, so that two copies of one alone exist at a time
         columns[names[j]] = np.concatenate(part) if part else np.empty(0)
     units = dict(zip(names, dialect.units, strict=True)) | {names[j]: "s" for j in stamps or ()}
-    return Table(where=where, columns=columns, units=units, row=lambda k: f"{line} {_line(starts, numbers, k)}")
+    over = dialect.passed_over
+    return Table(
+        where=where, columns=columns, units=units, row=lambda k: f"{line} {_line(starts, numbers, k)}",
+        notes=(f"{where}: {over} {line}s of numbers above the names are left out",) if over else (),
+    )  # fmt: skip
 
 
 def _stamps(lines: Sequence[str], dialect: Dialect, used: Sequence[int], where: str) -> dict[int, Stamps]:

@@ -12,10 +12,11 @@ from itertools import chain, takewhile
 from rwn.errors import InputError
 from rwn.recording import units
 from rwn.recording.formats.csv_cells import HOW, bare_unit, is_number, name_and_unit, name_of, split
-from rwn.recording.formats.csv_doubts import refuse_thousands, with_row_of_units
+from rwn.recording.formats.csv_doubts import with_row_of_units
 from rwn.recording.formats.scope import scope_block
 
 _BLANKS = re.compile(r"[ ]+(?![ \[(])")
+_DIGITS = re.compile(r"[-+]?[.,]?\d")
 _ABOVE = 4  # rows of names, units and the like that may stand above the numbers, and rows of numbers above the names
 _JUDGED = 100  # lines from the end of the sample that tell how rows look
 
@@ -26,7 +27,7 @@ Row = tuple[int, list[str]]  # number of its line from 1, its cells
 class Dialect:
     """`names` and `units` (None: not said) of the columns; `first`: lines above the first row of numbers.
 
-    `called`: what messages call a line; a spreadsheet has rows.
+    `called`: what messages call a line; a spreadsheet has rows. `passed_over`: whole rows of numbers above the names.
     """
 
     delimiter: str
@@ -34,6 +35,7 @@ class Dialect:
     units: tuple[str | None, ...]
     first: int
     called: str = "line"
+    passed_over: int = 0
 
 
 def encoding_of(start: bytes, where: object) -> str:
@@ -89,31 +91,37 @@ def dialect_of(lines: Sequence[str], wanted: Collection[str], where: str, called
     delimiter = max(",;\t|", key=lambda d: (_numbers_in(tail, d), _outside_brackets(told[-1][1]).count(d)))
     rows = [split(line, delimiter, where) for line in tail]
     width, numeric = _columns(rows)
-    refuse_thousands(rows, where)
     if not numeric:
         return _without_numbers(told, delimiter, where, called)
-    above, at = _heading(told, delimiter, width, numeric, wanted, where)
+    above, at, passed_over = _heading(told, delimiter, width, numeric, wanted, where)
     if not above:
         return _without_header(told, at, delimiter, width, wanted, where, called)
     best = 0 if len(above) == 1 else max(range(len(above)), key=lambda j: _likely_names(above[j][1], j, wanted))
     (line, cells), below = above[best], [cells for _, cells in above[best + 1 :]]
     names, given = _header(cells, f"{where}, {called} {line}")
     if below:
-        given = with_row_of_units(names, given, [bare_unit(cell) for cell in below[0]], where)
-    return Dialect(delimiter=delimiter, names=names, units=tuple(given), first=told[at][0], called=called)
+        given = with_row_of_units(names, given, list(map(bare_unit, below[0])), where)
+    for _, other in above:
+        if other is not cells and _only_units(other):  # of several, none may contradict
+            with_row_of_units(names, given, list(map(bare_unit, other)), where)
+    return Dialect(
+        delimiter=delimiter, names=names, units=tuple(given), first=told[at][0], called=called, passed_over=passed_over
+    )
 
 
 def _heading(
     told: Sequence[tuple[int, str]], delimiter: str, width: int, numeric: Sequence[int], wanted: Collection[str],
     where: str,
-) -> tuple[list[Row], int]:  # fmt: skip
-    """The rows of names, units and the like, and which of the `told` lines is the first row of numbers below them.
+) -> tuple[list[Row], int, int]:  # fmt: skip
+    """The rows of names, units and the like, which of the `told` lines is the first row of numbers below them, and how
+    many whole rows of numbers stand above.
 
     The row with most of the wanted names heads the columns, whatever an instrument writes above it. Where none has any,
     the rows directly above the first that is all numbers do. Without such rows: none, and the first row of numbers.
     """
     rows = {j: split(line, delimiter, where) for j, (_, line) in enumerate(told) if not line.startswith("#")}
     data = [j for j, cells in rows.items() if _numbers_of(cells, width, numeric) > 0.5]
+    begun = [j for j, cells in rows.items() if _begins_data(cells, width)]
     known = {
         j: sum(name_of(cell) in wanted for cell in cells)
         for j, cells in rows.items()
@@ -121,15 +129,17 @@ def _heading(
     }
     best = max(known, key=lambda j: (known[j], -j), default=0)
     whole = [j for j in data if all(is_number(rows[j][k]) or not rows[j][k] for k in numeric)]
-    beneath = known.get(best) and sum(j < best for j in whole) <= _ABOVE
-    for at in [*[j for j in data if beneath and j > best][:1], *whole[:1]]:
+    over = [j for j in whole if j < best]
+    beneath = known.get(best) and len(over) <= _ABOVE and any(j > best for j in data)
+    for at in [*[j for j in begun if beneath and j > best][:1], *whole[:1]]:
         above = _rows_above(told[:at], delimiter, width, where)
         names = [*takewhile(lambda row: _may_name(row[1], width, numeric, wanted), reversed(above))]
         if all(_only_units(cells) for _, cells in names):  # then names stand above them, be they numbers
             names = above[::-1][: len(names) + 1] if names else []
         if names:
-            return names[::-1], at
-    return _rows_above(told[: data[0]], delimiter, width, where), data[0]
+            return names[::-1], at, len(over) if beneath else 0
+    first = next(j for j in begun if len(rows[j]) == width)
+    return _rows_above(told[:first], delimiter, width, where), first, 0
 
 
 def _without_numbers(told: Sequence[tuple[int, str]], delimiter: str, where: str, called: str) -> Dialect:
@@ -202,6 +212,12 @@ def _may_name(cells: Sequence[str], width: int, numeric: Sequence[int], wanted: 
     """Whether a row has a number in none of the columns of numbers, or names a wanted one that is not called by one."""
     named = any(name_of(cell) in wanted and not is_number(cell) for cell in cells)
     return named or _numbers_of(cells, width, numeric) == 0.0
+
+
+def _begins_data(cells: Sequence[str], width: int) -> bool:
+    """Whether a cell begins as a number does, most where others are missing; not in a row of units, such as 1/min."""
+    begun, filled = sum(_DIGITS.match(cell) is not None for cell in cells), sum(map(bool, cells))
+    return begun > (0 if len(cells) == width else filled / 2) and not (begun < filled and _only_units(cells))
 
 
 def _only_units(cells: Sequence[str]) -> bool:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Sequence
 
 from rwn.errors import InputError
 from rwn.recording import units
 
-_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}\.\d{3}\s*")
-_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d+\s*")
+_THOUSANDS = {mark: re.compile(rf"\s*[+-]?[1-9]\d{{0,2}}{re.escape(mark)}\d{{3}}\s*") for mark in ".,"}
 
 
 def with_row_of_units(
@@ -30,16 +30,58 @@ def with_row_of_units(
     return [unit or other or None for unit, other in zip(given, below, strict=True)]
 
 
-def refuse_thousands(rows: Sequence[Sequence[str]], where: str) -> None:
-    """Raises InputError where points may mark thousands: all of a column's do, and other cells have decimal commas."""
-    if not any(_DECIMAL_COMMA.fullmatch(cell) for row in rows for cell in row):
-        return
-    for k in range(max(map(len, rows))):
-        pointed = [row[k] for row in rows if k < len(row) and "." in row[k]]
-        if pointed and all(map(_THOUSANDS.fullmatch, pointed)):
-            raise InputError(
-                f"'{pointed[0].strip()}' may be in thousands or have a decimal point: other cells have decimal commas",
-                where=where,
-                expected="one way of writing numbers",
-                fix="export without marks of thousands, or with decimal points alone",
-            )
+class Marks:
+    """What the points and commas in the cells of a file mark: decimals, as one that is no group of thousands shows."""
+
+    def __init__(self, names: Sequence[str], columns: Sequence[int]) -> None:
+        self.names, self.columns = names, columns
+        self.decimal: dict[int, str] = {}  # column -> its decimal mark, where a cell shows it
+        self.unsure: dict[tuple[int, str], str] = {}  # column and mark -> a cell in which it may mark thousands
+        self.plain: set[int] = set()  # columns with cells without a mark
+
+    def see(self, lines: Sequence[str], delimiter: str, where: str) -> None:
+        """Some lines, of numbers in each column. Raises InputError where a column has decimals of both marks."""
+        text = "\n".join(lines)
+        if delimiter == "," and '"' not in text:
+            return  # no comma is a mark
+        there = {mark for mark in ".," if mark in text}
+        doubtful = [k for k in self.columns if there - {self.decimal.get(k, "")}]
+        rows = list(csv.reader(lines, delimiter=delimiter)) if doubtful else []
+        for column in doubtful:
+            for row in rows:
+                cell = row[column]
+                mark = "," if "," in cell else "." if "." in cell else ""
+                if mark:
+                    self._see(column, mark, cell, where)
+                    if not there - {self.decimal.get(column, "")}:
+                        break
+                else:
+                    self.plain.add(column)
+
+    def _see(self, column: int, mark: str, cell: str, where: str) -> None:
+        known = self.decimal.get(column)
+        if known is None and _THOUSANDS[mark].fullmatch(cell):
+            self.unsure.setdefault((column, mark), cell)
+        elif known is None:
+            self.decimal[column] = known = mark
+        other = next((c for (k, m), c in self.unsure.items() if k == column and m != known), None) if known else None
+        if known is not None and (mark != known or other is not None):
+            raise self._unclear(column, cell if mark != known else other or cell, where)
+
+    def refuse_thousands(self, where: str) -> None:
+        """Raises InputError where marks may be of thousands: no cell shows them as decimal, and others have another."""
+        shown = set(self.decimal.values())
+        for (column, mark), cell in self.unsure.items():
+            if column in self.decimal or mark in shown:
+                continue
+            if shown or (mark == "," and column in self.plain):
+                raise self._unclear(column, cell, where)
+
+    def _unclear(self, column: int, cell: str, where: str) -> InputError:
+        mark = "point" if "." in cell else "comma"
+        return InputError(
+            f"'{cell.strip()}' in column '{self.names[column]}' may be in thousands or have a decimal {mark}",
+            where=where,
+            expected="one way of writing numbers",
+            fix="export without marks of thousands, with one decimal mark in all columns",
+        )
