@@ -114,7 +114,8 @@ def test_a_model_of_other_kinds(given: dict[str, Any]) -> None:
         {"name": None}, {"signals": None}, {"signals": [1.0]}, {"signals": {1: TIME}}, {"source": 5}, {"linear": 1},
         {"warnings": "hello"}, {"applied_input": 5}, {"input_noise": "x"}, {"input_noise": -1.0},
         {"input_noise": np.nan}, {"units": {"speed": "foo"}}, {"units": {"speed": "V"}}, {"units": {"foo": "V"}},
-        {"missing": {"foo": TIME > 1.0}},
+        {"missing": {"foo": TIME > 1.0}}, {"missing": {"speed": TIME < 1.0}},
+        {"signals": {"speed": [TIME.tolist(), [1.0]]}},
     ],
 )  # fmt: skip
 def test_a_recording_of_other_kinds(given: dict[str, Any]) -> None:

@@ -32,6 +32,14 @@ def test_names_units_and_the_first_row_of_numbers() -> None:
     assert scope_block([STARTED, "Name\ta"]) == Block("\t", ("time", "a"), ("ms", None), 2), "no numbers yet"
 
 
+@pytest.mark.parametrize(
+    ("cell", "unit"),
+    [("V (Voltage)", "V"), ("(None)", None), ("(deg/s)", "deg/s"), ("N m", "N m"), ("N m (Torque)", "N m"), ("", None)],
+)
+def test_a_unit_stands_before_what_it_is_of(cell: str, unit: str | None) -> None:
+    assert _block("Name | a", "SampleTime[ms] | 2", f"Unit | {cell}").units == ("ms", unit)
+
+
 def test_a_block_without_units_ends_where_numbers_begin() -> None:
     found = _block("Name | a | b", "SampleTime[ms] | 2 | 2", "SymbolName | x.a | x.b", "BitMask | 0xFFFF | 0xFFFF")
     assert found == Block("\t", ("time", "a", "b"), ("ms", None, None), 6)

@@ -113,6 +113,11 @@ def test_a_file_that_the_system_refuses_says_so_itself(tmp_path: Path) -> None:
         raise OSError("a damaged archive")
 
 
+def _named(**of_parameter: object) -> dict[str, object]:
+    gap = {"value": 1.0, "unit": "rad", **of_parameter}
+    return {"name": "backlash", "equation": "mechanical", "parameters": {"gap": gap}}
+
+
 SAID = {"verdict": "missing-physics", "effects": [{"name": "backlash", "equation": "mechanical"}]}
 
 
@@ -129,6 +134,8 @@ SAID = {"verdict": "missing-physics", "effects": [{"name": "backlash", "equation
         ({"effects": [{"name": "backlash"}]}, r"effects\[0\]"),
         ({"effects": [{"name": "backlash", "equation": "mechanical", "probability": 3}]}, r"effects\[0\].probability"),
         ({"set": "backlash"}, "set"),
+        ({"verdict": "adequate"}, "effects"),
+        ({"effects": [_named(interval=(2.0, 1.0))]}, r"effects\[0\].parameters.gap.interval"),
         ({"adequate_probability": -0.1}, "adequate_probability"),
         ({"effects": [{"name": "time-shift", "equation": "recording"}]}, "beneath"),
     ],

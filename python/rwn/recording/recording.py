@@ -147,7 +147,10 @@ def remarks(recordings: Sequence[Recording]) -> tuple[str, ...]:
 
 def _vector(name: str, signal: str, values: Any) -> Array:
     refuse_mask(name, signal, values)
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except ValueError:  # lists of several lengths
+        array = np.empty(0, dtype=object)
     if array.ndim != 1 or array.dtype.kind not in "fiu":
         raise InputError(
             f"'{signal}' is no vector of real numbers (shape {array.shape}, {array.dtype})",
@@ -168,6 +171,10 @@ def _flags(name: str, signal: str, values: Any, samples: int) -> Flags:
             where=name,
             expected=f"shape ({samples},), bool",
             fix="pass true where the signal was not measured, such as np.isnan(values)",
+        )
+    if samples and flags.all():
+        raise InputError(
+            f"no sample of '{signal}' was measured", where=name, expected="some", fix=f"leave '{signal}' out"
         )
     return flags
 

@@ -134,8 +134,8 @@ def _heading(
     for at in [*[j for j in begun if beneath and j > best][:1], *whole[:1]]:
         above = _rows_above(told[:at], delimiter, width, where)
         names = [*takewhile(lambda row: _may_name(row[1], width, numeric, wanted), reversed(above))]
-        if all(_only_units(cells) for _, cells in names):  # then names stand above them, be they numbers
-            names = above[::-1][: len(names) + 1] if names else []
+        if 0 < len(names) < len(above) and all(_only_units(cells) for _, cells in names):
+            names = above[::-1][: len(names) + 1]  # names stand above them, be they numbers
         if names:
             return names[::-1], at, len(over) if beneath else 0
     first = next(j for j in begun if len(rows[j]) == width)
@@ -210,7 +210,7 @@ def _numbers_of(cells: Sequence[str], width: int, numeric: Sequence[int]) -> flo
 
 def _may_name(cells: Sequence[str], width: int, numeric: Sequence[int], wanted: Collection[str]) -> bool:
     """Whether a row has a number in none of the columns of numbers, or names a wanted one that is not called by one."""
-    named = any(name_of(cell) in wanted and not is_number(cell) for cell in cells)
+    named = any(not is_number(cell) and name_of(cell) in wanted for cell in cells)
     return named or _numbers_of(cells, width, numeric) == 0.0
 
 

@@ -58,7 +58,7 @@ def scope_block(lines: Sequence[str]) -> Block | None:
             names.append(f"time{suffix or (f'@{k + 1}' if again else '')}")
         else:
             names.append(heads[k] + suffix)
-        units.append("ms" if times[k] else given[k].split(" ")[0].strip("()").replace("None", "") or None)
+        units.append("ms" if times[k] else _unit(given[k]))
     return Block(delimiter, tuple(names), tuple(units), first)
 
 
@@ -76,6 +76,12 @@ def _block_rows(lines: Sequence[str]) -> tuple[str, dict[str, tuple[int, list[st
         if plainest is None and {_NAMES, _STARTED} <= set(rows):  # above the block there is a tab in any case
             plainest = delimiter, rows
     return plainest
+
+
+def _unit(cell: str) -> str | None:
+    """`V (Voltage)`, `(deg/s)`, `N m` or `(None)`."""
+    text = cell.strip("()") if cell.startswith("(") else cell.split(" (")[0]
+    return text.replace("None", "").strip() or None
 
 
 def _begins_with_number(line: str, delimiter: str) -> bool:

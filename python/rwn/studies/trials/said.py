@@ -75,6 +75,12 @@ class Timing(Struct, omit_defaults=True):
 def said_in(path: Path) -> dict[str, Any]:
     """What a diagnosis.json says, of `Said`. Raises InputError with file and field."""
     said = _read(path, Said)
+    if said.effects and said.verdict not in ("missing-physics", "recording-mistake"):
+        raise refused(path, f"effects: there are some, and the verdict is {said.verdict}")
+    for k, effect in enumerate(said.effects):
+        for name, parameter in effect.parameters.items():
+            if parameter.interval is not None and not parameter.interval[0] <= parameter.interval[1]:
+                raise refused(path, f"effects[{k}].parameters.{name}.interval: it ends before it begins")
     if said.beneath is None and any(effect.equation == RECORDING for effect in said.effects):
         raise refused(path, "beneath: missing, and an effect is a mistake in the recordings")
     plain: dict[str, Any] = msgspec.to_builtins(said)
