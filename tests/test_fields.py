@@ -115,12 +115,17 @@ def test_a_model_of_other_kinds(given: dict[str, Any]) -> None:
         {"warnings": "hello"}, {"applied_input": 5}, {"input_noise": "x"}, {"input_noise": -1.0},
         {"input_noise": np.nan}, {"units": {"speed": "foo"}}, {"units": {"speed": "V"}}, {"units": {"foo": "V"}},
         {"missing": {"foo": TIME > 1.0}}, {"missing": {"speed": TIME < 1.0}},
-        {"signals": {"speed": [TIME.tolist(), [1.0]]}},
     ],
 )  # fmt: skip
 def test_a_recording_of_other_kinds(given: dict[str, Any]) -> None:
     with pytest.raises(InputError, match=next(iter(given))):
         rwn.Recording(**{"name": "x", "time": TIME, "signals": SIGNALS, **given})
+
+
+def test_lists_of_several_lengths_are_no_signal() -> None:
+    ragged: Any = [[1.0, 2.0], [1.0]]
+    with pytest.raises(InputError, match="'speed' is no vector of real numbers"):
+        rwn.Recording(name="x", time=TIME, signals={"speed": ragged})
 
 
 @pytest.mark.parametrize(

@@ -173,8 +173,9 @@ def _flags(name: str, signal: str, values: Any, samples: int) -> Flags:
             fix="pass true where the signal was not measured, such as np.isnan(values)",
         )
     if samples and flags.all():
-        raise InputError(
-            f"no sample of '{signal}' was measured", where=name, expected="some", fix=f"leave '{signal}' out"
+        raise InputError(  # fmt: skip
+            f"missing of '{signal}' is true for every sample", where=name, expected="a signal that was measured",
+            fix=f"leave '{signal}' out",
         )
     return flags
 
