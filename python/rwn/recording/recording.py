@@ -173,7 +173,7 @@ def _flags(name: str, signal: str, values: Any, samples: int) -> Flags:
             fix="pass true where the signal was not measured, such as np.isnan(values)",
         )
     if samples and flags.all():
-        raise InputError(  # fmt: skip
+        raise InputError(
             f"missing of '{signal}' is true for every sample", where=name, expected="a signal that was measured",
             fix=f"leave '{signal}' out",
         )
