@@ -15,6 +15,7 @@ import numpy as np
 from rwn.errors import InputError
 from rwn.recording.formats.channels import Channel, table_of_channels
 from rwn.recording.formats.extra import library, quiet
+from rwn.recording.formats.mdf_blocks import is_version_4, refuse_circles
 from rwn.recording.formats.table import Table
 
 
@@ -25,9 +26,14 @@ def read_mdf(path: Path, wanted: Collection[str] = ()) -> Table:
     """
     asammdf = library("asammdf", "mdf", path)
     try:
-        with quiet("asammdf"), path.open("rb") as stream, asammdf.MDF(stream) as file:
-            channels, units, several = _channels(file, wanted)
-    except OSError:
+        with quiet("asammdf"), path.open("rb") as stream:
+            if not is_version_4(stream):
+                raise _no_version_4(path)
+            refuse_circles(stream)
+            stream.seek(0)
+            with asammdf.MDF(stream) as file:
+                channels, units, several = _channels(file, wanted)
+    except (OSError, InputError):
         raise
     except Exception as error:  # asammdf raises many kinds for what is no MDF
         _forget(error)
@@ -39,6 +45,13 @@ def read_mdf(path: Path, wanted: Collection[str] = ()) -> Table:
         ) from error
     notes = tuple(f"{path}: {count} channels are called '{name}': the first is read" for name, count in several.items())
     return replace(table_of_channels(str(path), channels, units, wanted), notes=notes)
+
+
+def _no_version_4(path: Path) -> InputError:
+    return InputError(
+        "the file is not MDF 4", where=path, expected="a complete MDF 4 file",
+        fix="convert it, as asammdf does (asammdf.MDF(path).convert('4.10')), or export the recording as CSV",
+    )  # fmt: skip
 
 
 def _forget(error: BaseException | None) -> None:
