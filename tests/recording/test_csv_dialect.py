@@ -239,6 +239,13 @@ def test_a_row_below_the_names_that_begins_as_numbers_do_is_data(row: str) -> No
     assert told("time,voltage,speed", "s,V,rpm", row, *rows()).first == 2
 
 
+@pytest.mark.parametrize("head", ["time,voltage,speed", "alpha,beta,gamma", ""])
+def test_rows_of_no_numbers_but_nan_are_data_too(head: str) -> None:
+    found = told(*filter(None, [head]), *["nan,nan,inf"] * 20, wanted=WANTED if head else {"1"})
+    assert found.first == bool(head)
+    assert found.names == (tuple(head.split(",")) if head else ("1", "2", "3"))
+
+
 @pytest.mark.parametrize("row", ["s,V,1/min", "s,V,1", "double,double,double", "clock,motor,motor"])
 def test_a_row_of_units_or_words_is_none(row: str) -> None:
     assert told("time,voltage,speed", row, *rows()).first == 2

@@ -138,7 +138,7 @@ def _heading(
             names = above[::-1][: len(names) + 1]  # names stand above them, be they numbers
         if names:
             return names[::-1], at, len(over) if beneath else 0
-    first = next(j for j in begun if len(rows[j]) == width)
+    first = next((j for j in begun if len(rows[j]) == width), data[0])
     return _rows_above(told[:first], delimiter, width, where), first, 0
 
 
@@ -216,7 +216,8 @@ def _may_name(cells: Sequence[str], width: int, numeric: Sequence[int], wanted: 
 
 def _begins_data(cells: Sequence[str], width: int) -> bool:
     """Whether a cell begins as a number does, most where others are missing; not in a row of units, such as 1/min."""
-    begun, filled = sum(_DIGITS.match(cell) is not None for cell in cells), sum(map(bool, cells))
+    begun = sum(_DIGITS.match(cell) is not None or is_number(cell) for cell in cells)  # also nan
+    filled = sum(map(bool, cells))
     return begun > (0 if len(cells) == width else filled / 2) and not (begun < filled and _only_units(cells))
 
 
