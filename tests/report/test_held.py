@@ -35,6 +35,8 @@ def test_a_recording_that_says_the_contrary_of_the_first_is_named() -> None:
     said = f"On other.csv it goes from {' to '.join(before_after(alike))}: these two recordings contradict each other."
     assert said in verdict_sentence(replace(whole, heldout=(worse, alike)))
     assert "contradict each other" not in verdict_sentence(replace(whole, heldout=(first, alike)))
+    unsure = replace(first, gain=0.05, gain_interval=(-0.1, 0.2), corrected=0.95 * first.refitted)
+    assert "contradict each other" not in verdict_sentence(replace(whole, heldout=(unsure, alike)))
     assert "contradict each other" not in verdict_sentence(replace(whole, heldout=(alike, worse)))
 
 

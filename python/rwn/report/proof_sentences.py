@@ -115,9 +115,9 @@ def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
 
 
 def _disagrees(row: HeldoutRow, other: HeldoutRow) -> bool:
-    """Whether what another recording says of the same signal is for certain, and this one says nothing like it."""
+    """Whether another recording has the same signal certainly better, and this one certainly worse."""
     alike = (other.region, other.signal) == (row.region, row.signal) and other.recording != row.recording
-    return alike and other.certain_gain[0] > 0.0 >= row.certain_gain[0]
+    return alike and worse(row) and other.certain_gain[0] > 0.0
 
 
 def refitted_alone(found: DiagnosisData) -> Iterator[str]:

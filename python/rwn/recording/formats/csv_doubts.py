@@ -1,4 +1,4 @@
-"""What a CSV says in two ways: units beside a name and below it, points that are decimal or mark thousands."""
+"""What a CSV says in two ways: units beside a name and in rows, points and commas for decimals or for thousands."""
 
 from __future__ import annotations
 
@@ -9,25 +9,26 @@ from collections.abc import Sequence
 from rwn.errors import InputError
 from rwn.recording import units
 
+_OTHER = {".": ",", ",": "."}
 _THOUSANDS = {mark: re.compile(rf"\s*[+-]?[1-9]\d{{0,2}}{re.escape(mark)}\d{{3}}\s*") for mark in ".,"}
 
 
 def with_row_of_units(
-    names: Sequence[str], given: Sequence[str | None], below: Sequence[str], where: str
+    names: Sequence[str], given: Sequence[str | None], row: Sequence[str], where: str
 ) -> list[str | None]:  # fmt: skip
-    """The units that stand beside the names, and for the others those of the row below.
+    """The units that are `given` already, beside the names or in another row, and for the others those of a row.
 
-    Raises InputError where a name has one of each, and they differ.
+    Raises InputError where a column has one of each, and they differ.
     """
-    for name, unit, other in zip(names, given, below, strict=True):
+    for name, unit, other in zip(names, given, row, strict=True):
         if unit and other and units.is_unit(other) and units.is_unit(unit) and not units.same(unit, other, where=where):
             raise InputError(
-                f"column '{name}' is in {unit} by its name and in {other} by the row of units below",
+                f"column '{name}' is in {unit} and, by a row of units, in {other}",
                 where=where,
                 expected="one unit for each column",
                 fix="correct the one that is wrong",
             )
-    return [unit or other or None for unit, other in zip(given, below, strict=True)]
+    return [unit or other or None for unit, other in zip(given, row, strict=True)]
 
 
 class Marks:
@@ -64,9 +65,9 @@ class Marks:
             self.unsure.setdefault((column, mark), cell)
         elif known is None:
             self.decimal[column] = known = mark
-        other = next((c for (k, m), c in self.unsure.items() if k == column and m != known), None) if known else None
-        if known is not None and (mark != known or other is not None):
-            raise self._unclear(column, cell if mark != known else other or cell, where)
+        before = self.unsure.get((column, _OTHER[known])) if known else None
+        if known and (mark != known or before):
+            raise self._unclear(column, before or cell, where)
 
     def refuse_thousands(self, where: str) -> None:
         """Raises InputError where marks may be of thousands: no cell shows them as decimal, and others have another."""
