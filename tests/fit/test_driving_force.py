@@ -70,6 +70,22 @@ def test_what_a_sound_axis_leaves_is_noise() -> None:
 
 
 @pytest.mark.slow
+def test_a_position_that_is_updated_less_often_is_bridged_and_lost_ones_are_not_compared() -> None:
+    whole, recorded = prepare([held(1)], SHEET), held(1)
+    lacking = np.arange(recorded.time.size) % 2 == 1
+    lacking[1000:1300] = True
+    last = np.maximum.accumulate(np.where(lacking, 0, np.arange(lacking.size)))
+    signals = {**recorded.signals, "position": recorded.signals["position"][last]}
+    given = rwn.Recording(name="held", time=recorded.time, signals=signals, missing={"position": lacking})
+    problem = prepare([given], SHEET)
+    (run,) = problem.runs
+    assert isinstance(run, BalancedRun)
+    compared = ~run.missing["driving force"]
+    assert 0.9 < np.mean(compared) < 0.97
+    assert np.isfinite(run.acceleration[compared]).all()
+    assert problem.noise["driving force"].level < 1.3 * whole.noise["driving force"].level
+
+
 def test_cogging_is_named_by_the_force_of_a_position_loop() -> None:
     found = rwn.diagnose([held(1)], SHEET, heldout=[held(2)])
     assert [e.name for e in found.effects] == ["cogging-torque"]

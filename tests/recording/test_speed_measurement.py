@@ -114,6 +114,23 @@ def test_a_difference_of_the_recorded_position_repeats_its_noise(way: SpeedMeasu
     assert speed_measurement(TIME, tachometer, position) is INSTANTANEOUS
 
 
+@pytest.mark.parametrize("update", [1, 2])
+def test_the_position_beside_it_tells_where_the_middle_of_a_difference_is(update: int) -> None:
+    """A drive that runs twice as fast as it updates what is logged, and takes differences about its own instants."""
+    fine = np.arange(8000) * 0.5e-3
+    angle = counted(200.0 * fine - 30.0 * np.sin(8.0 * fine), 8192)
+    centred, backward = (difference(way, fine, angle)[::2] for way in (CENTRAL, SpeedMeasurement(2, 0)))
+    position, time = angle[::2], np.arange(4000 * update) * 1e-3 / update
+
+    def found(speed: Array) -> SpeedMeasurement:
+        new = np.arange(time.size) % update == 0
+        rows = [np.repeat(x, update) for x in (speed, position)]
+        return speed_measurement(time, *rows, new=new, new_position=new)
+
+    assert found(backward) == SpeedMeasurement(update, 0)
+    assert found(centred) == SpeedMeasurement(update // 2, update // 2)
+
+
 def test_a_speed_that_holds_no_noise_is_taken_as_it_is() -> None:
     assert speed_measurement(TIME, 200.0 - 240.0 * np.cos(8.0 * TIME), ANGLE) is INSTANTANEOUS
     assert speed_measurement(TIME, 0.0 * SPEED, 0.0 * ANGLE) is INSTANTANEOUS

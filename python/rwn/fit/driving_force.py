@@ -68,9 +68,8 @@ class BalancedRun(Run):
 def balanced(run: Run, inertia: float) -> BalancedRun:
     """A recording with a position as the balance of forces takes it, of an axis of an `inertia` [kg m^2 or kg]."""
     length, step = _length(run, inertia), run.sample_time
+    run, lost = _bridged(run)
     rows = slice(length, run.time.size - length, length)
-    flags = [run.missing[s] for s in ("speed", "position") if s in run.missing]
-    lost = np.any(flags, axis=0) if flags else np.zeros(run.time.size, dtype=bool)
     near = smooth(lost.astype(float), length) != 0.0
 
     def every(values: Array) -> Array:
@@ -86,9 +85,22 @@ def balanced(run: Run, inertia: float) -> BalancedRun:
     )  # fmt: skip
 
 
+def _bridged(run: Run) -> tuple[Run, NDArray[np.bool_]]:
+    """A recording with lines through the positions that it lacks, and the rows (n,) of gaps longer than its updates."""
+    known = np.flatnonzero(~run.missing.get("position", np.zeros(run.time.size, dtype=bool)))
+    if known.size in (0, run.time.size):
+        return run, np.full(run.time.size, known.size == 0)
+    gaps = np.diff(known, prepend=-1, append=run.time.size)
+    long = np.repeat(gaps > np.median(gaps), gaps)[: run.time.size]
+    long[known] = False
+    position = np.interp(run.time, run.time[known], run.position[known])
+    return replace(run, position=position), long
+
+
 def _length(run: Run, inertia: float) -> int:
     """The smoothing that errs least: by what it takes off the force, and by the noise in the force of inertia."""
-    noise = max(noise_from_differences(run.position), run.quantisation("position") / np.sqrt(12.0))
+    noise = noise_from_differences(run.masked("position", run.position))
+    noise = max(noise, run.quantisation("position") / np.sqrt(12.0))
 
     def error(length: int) -> float:
         of_inertia = inertia * noise * noise_gain(length, derivative=2, step=run.sample_time)

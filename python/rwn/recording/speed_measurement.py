@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rwn.recording.by_content import ByContent
 from rwn.recording.clock import clock_beside, clock_of
 from rwn.recording.quantisation import NEAR, quantum
-from rwn.recording.speed_window import window_of
+from rwn.recording.speed_window import is_centred, window_of
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -86,24 +86,33 @@ def _measured(time: Array, speed: Array, position: Array, new: Flags, known: Fla
     if speed.size and position.size and (rows := window_of(time, speed, position, new)):
         return SpeedMeasurement(rows, 0)
     known = known & new
-    if not known.all():
-        update = max(round(float(np.median(np.diff(np.nonzero(known)[0])))), 1) if known.sum() > 1 else 1
-        way = _of_rows(time[known], *(x[known] if x.size else x for x in (speed, position)))
-        return SpeedMeasurement(way.before * update, way.after * update) if update > 1 else way
-    return _of_rows(time, speed, position)
+    updates = np.nonzero(known)[0]
+    update = max(round(float(np.median(np.diff(updates)))), 1) if updates.size > 1 else 1
+    when, *values = time[known], *(x[known] if x.size else x for x in (speed, position))
+    way = _of_the_position(when, *values)
+    if way is None:
+        way = _of_rows(when, *values)
+        if way == BACKWARD and position.size and is_centred(time, speed, position, updates):
+            half = update // 2  # of the time between two rows no row shows the middle
+            return SpeedMeasurement(half, half)
+    return SpeedMeasurement(way.before * update, way.after * update) if update > 1 else way
+
+
+def _of_the_position(time: Array, speed: Array, position: Array) -> SpeedMeasurement | None:
+    """The difference of the position beside it that a speed is; None where it is none."""
+    if speed.size < SHORTEST or not position.size:
+        return None
+    clock = clock_beside(time)  # a drive divides by its own period, however a computer notes the times
+    instants = [time] if clock is None else [time, np.asarray(clock.period * clock.ticks)]
+    errors = {way: min(_repeats(t, speed, position, way) for t in instants) for way in DIFFERENCES}
+    best = min(errors, key=lambda way: errors[way])
+    return best if errors[best] < REPEATED else None
 
 
 def _of_rows(time: Array, speed: Array, position: Array) -> SpeedMeasurement:
     if speed.size < SHORTEST:
         return INSTANTANEOUS
-    if position.size:
-        clock = clock_beside(time)  # a drive divides by its own period, however a computer notes the times
-        instants = [time] if clock is None else [time, np.asarray(clock.period * clock.ticks)]
-        errors = {way: min(_repeats(t, speed, position, way) for t in instants) for way in DIFFERENCES}
-        best = min(errors, key=lambda way: errors[way])
-        if errors[best] < REPEATED:
-            return best
-    elif (way := _of_intervals(time, speed)).is_difference:
+    if not position.size and (way := _of_intervals(time, speed)).is_difference:
         return way
     step = quantum(speed)
     if _is_rounded(_power, speed, step):
