@@ -53,16 +53,16 @@ class _ForwardSelection(NamedTuple):
 
 def rank(
     problem: Problem, *, progress: Progress, names: Sequence[str] | None = None, at_once: int = MOST_EFFECTS,
-    after: Ranking | None = None, filters: Sequence[SensorFilter] = (),
+    after: Ranking | None = None, filters: Sequence[SensorFilter] = (), known: Sequence[Fit] = (),
 ) -> Ranking:  # fmt: skip
     """Fits the nominal model, every single effect, and what still helps beside the best ones, `at_once` at most.
 
     `names`: of the effects that are tried; such a ranking is for comparison, simpler explanations than its best are
     not. `after`: a ranking of the same recordings by fewer effects, or by some of them, to go on from. `filters`: of
-    the sensors, that are known; the problem is without them.
+    the sensors, that are known; the problem is without them. `known`: see `_ranked`.
     """
     made = after.measurement if after else Measurement(as_prepared=problem, filters=tuple(filters))
-    return _ranked(made, progress=progress, names=names, at_once=at_once, after=after)
+    return _ranked(made, progress=progress, names=names, at_once=at_once, after=after, known=known)
 
 
 def _ranked(

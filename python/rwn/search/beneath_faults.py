@@ -24,6 +24,7 @@ from rwn.faults.gear import gear_ratio, is_needless
 from rwn.faults.plain_faults import plain_faults
 from rwn.faults.scale import as_gear
 from rwn.fit.budget import affords_more, meter
+from rwn.fit.fit import Fit
 from rwn.fit.preparation import prepare
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
@@ -65,12 +66,13 @@ class _RefinedDelay(NamedTuple):
 
 
 def beneath_faults(
-    recordings: Sequence[Recording], model: Model, *, filters: Sequence[SensorFilter] = (), say: Progress,
-    effort: float = 1.0,
+    recordings: Sequence[Recording], model: Model, *, filters: Sequence[SensorFilter] = (), known: Sequence[Fit] = (),
+    say: Progress, effort: float = 1.0,
 ) -> tuple[list[Fault], Ranking]:  # fmt: skip
     """Faults of the recordings, and what explains these when they are undone.
 
-    `filters`: of the sensors, that are known already. `effort`: see `budget.meter`.
+    `filters`: of the sensors, that are known already. `known`: explanations by several effects that were found while
+    the recordings were thought to have come about otherwise. `effort`: see `budget.meter`.
     """
 
     def ranking(
@@ -78,7 +80,10 @@ def beneath_faults(
         after: Ranking | None = None,
     ) -> Ranking:  # fmt: skip
         problem = prepare(of, model, work=meter(effort))
-        return rank(problem, progress=say, at_once=at_once, names=names, after=after, filters=filters)
+        several = known if names is None and at_once == MOST_EFFECTS else ()
+        return rank(
+            problem, progress=say, at_once=at_once, names=names, after=after, filters=filters, known=several
+        )  # fmt: skip
 
     if model.drive.coefficients:  # its gain is in no unit that could be doubted
         return [], ranking(recordings)

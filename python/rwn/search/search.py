@@ -144,7 +144,8 @@ def _explained(
         if alike and not _tells_more(acted, as_acted, asked, ranking):
             break
         as_acted, (still, again, filters) = acted, asked
-        faults, ranking = beneath_faults(as_acted, again, filters=filters, say=say, effort=effort)
+        known = [best] if best and len(best.added) > 1 else []  # a search may not afford to find it again
+        faults, ranking = beneath_faults(as_acted, again, filters=filters, known=known, say=say, effort=effort)
     again = _stating_speed(stating_filters(again, ranking.problem.filters), ranking.problem.whole)
     return SearchResult(
         model=again, late=still, faults=tuple(faults), ranking=ranking, sensor_errors=tuple(sensor_errors)
