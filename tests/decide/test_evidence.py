@@ -68,3 +68,20 @@ def test_an_effect_is_compared_with_the_rest_of_its_explanation_also_where_that_
     found = CrossValidation(pruned, both, [], MODEL).evidence("coulomb-friction", ())
     assert found.odds == pytest.approx(ranked.odds, rel=0.05)
     assert both.score - ranking.nothing_missing.score > 2.0 * found.odds
+
+
+def test_halves_disagree_in_what_both_of_them_show(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A load that only one half meets may be anything in the other, where it has no deviation."""
+    values = [np.array([1.0, 2.0, 0.3]), np.array([1.3, 2.0, 90.0])]
+    spread = {id(v): s for v, s in zip(values, [np.array([0.06, 0.1, 0.01]), np.array([0.08, 0.1, 0.0])], strict=True)}
+    unknowns = [SimpleNamespace(nuisance=False)] * 3
+    halves = [
+        SimpleNamespace(
+            problem=None,
+            fit=SimpleNamespace(minimum=SimpleNamespace(values=v), hypothesis=SimpleNamespace(unknowns=unknowns)),
+        )
+        for v in values
+    ]
+    monkeypatch.setattr(module, "statistics", lambda *_: None)
+    monkeypatch.setattr(module, "deviations", lambda this, _: spread[id(this.minimum.values)])
+    assert module._birge(halves) == pytest.approx(3.0 / np.sqrt(2.0))  # 0.3 / 0.1 of the first, 0 of the second

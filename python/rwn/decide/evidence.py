@@ -168,7 +168,8 @@ def _birge(halves: Sequence[_Fold]) -> float:
     of_a, of_b = (deviations(half.fit, statistics(half.problem, half.fit)) for half in halves)
     spread = np.hypot(of_a, of_b)
     physics = [not u.nuisance for u in halves[0].fit.hypothesis.unknowns]
-    comparable = physics & (spread > 0.0) & (spread < np.abs(a) + np.abs(b))
+    seen = (of_a > 0.0) & (of_b > 0.0)  # what a half does not show has no deviation there, and any value
+    comparable = physics & seen & (spread < np.abs(a) + np.abs(b))
     apart = (a - b)[comparable] / spread[comparable]
     return max(float(np.sqrt(np.mean(apart**2))), 1.0) if apart.size else 1.0
 
