@@ -62,6 +62,11 @@ INTERVALS = {
     },
     ("stribeck-friction",): {"stribeck-friction.static_torque": (0.0, 1.0)},
     ("backlash",): {"backlash.gap": (0.0, 1.0)},
+    ("quadratic-drag",): {"quadratic-drag.drag_coefficient": (0.0, 1.0)},
+    ("constant-load", "quadratic-drag"): {
+        "quadratic-drag.drag_coefficient": (0.3, 0.7),
+        "constant-load.torque": (-1.0, 1.0),
+    },
 }
 
 
@@ -72,6 +77,7 @@ INTERVALS = {
         (("asymmetric-friction",), ("asymmetric-friction",)),  # one of its strengths is there
         (("stribeck-friction",), ()),
         (("backlash",), ("backlash",)),  # a gap is no strength: it has a limit above zero
+        (("quadratic-drag",), ("quadratic-drag",)),  # with a load that is not stated it is there
     ],
 )
 def test_what_may_as_well_be_absent_is_not_stated(
@@ -95,7 +101,7 @@ def test_what_may_as_well_be_absent_is_not_stated(
         for name in named
     )
     ranking: Any = SimpleNamespace(counted=None)
-    leading: Any = None
+    leading = fitted(None, None, {*named, "constant-load"} if named == ("quadratic-drag",) else set(named))
     _, found, chosen = decision._stated(ranking, Account(effects=rows, leading=leading, birge=1.7))
     assert tuple(e.name for e in found.stated) == chosen.fit.added == stated
     assert {e.name for e in found.effects} == set(named)  # it stays in the account

@@ -79,7 +79,8 @@ def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedF
 
     A law whose shape runs into a limit without the others bends towards another law: it is taken out of the account,
     and its fit is kept among those of the ranking that are at a limit. An effect whose strength may as well be zero
-    (95 %) is not stated, the one that removes least first.
+    (95 %), beside those that are stated and in the leading explanation too, is not stated, the one that removes least
+    first.
     """
     while True:
         chosen = together(ranking, found.leading, {e.name for e in found.stated})
@@ -93,7 +94,7 @@ def _stated(ranking: Ranking, found: Account) -> tuple[Ranking, Account, RankedF
 
 
 def _free_of_drift(ranking: Ranking, found: Account, chosen: RankedFit) -> tuple[Fit, Statistics]:
-    """The stated explanation as it is known best, and what the leading one leaves.
+    """An explanation as it is known best, and what the leading one leaves.
 
     Where a position drifts, it is fitted to its steps, and what is left is its own.
     """
@@ -113,7 +114,17 @@ def weighted_free_of_drift(ranking: Ranking, leading: RankedFit) -> Problem | No
 
 
 def _maybe_absent(ranking: Ranking, found: Account, chosen: RankedFit) -> list[str]:
-    """The stated effects of which the intervals of all strengths hold the zero at which an effect is absent.
+    """The stated effects that may be absent, by the explanation that is stated and by the leading one.
+
+    Without the effects that are not stated a fit may end anywhere; with them, what is alike is not told apart.
+    """
+    stated = [e.name for e in found.stated]
+    absent = _holding_zero(ranking, found, chosen, stated)
+    return _holding_zero(ranking, found, found.leading, absent) if absent else []
+
+
+def _holding_zero(ranking: Ranking, found: Account, chosen: RankedFit, names: Sequence[str]) -> list[str]:
+    """The effects of which the intervals of all strengths hold the zero at which an effect is absent.
 
     By noise and by how far fits to the halves disagree: what is left besides takes no name away.
     """
@@ -122,7 +133,7 @@ def _maybe_absent(ranking: Ranking, found: Account, chosen: RankedFit) -> list[s
     birge = found.birge if final is chosen.final else 1.0
     numbers, known = estimates(final, left, samples=left.effective / birge**2), final.hypothesis.table
     absent = []
-    for name in (e.name for e in found.stated):
+    for name in names:
         strengths = (f"{name}.{p.name}" for p in known[name].parameters if p.strength)
         intervals = [numbers[s].interval for s in strengths if s in numbers]
         if intervals and all(i is not None and i[0] <= 0.0 <= i[1] for i in intervals):
