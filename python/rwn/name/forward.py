@@ -71,7 +71,7 @@ def _ranked(
 ) -> Ranking:  # fmt: skip
     """The ranking under one measurement, or under the one that its best explanation shows (see `rank`).
 
-    `known`: explanations by several effects that were found under another measurement.
+    `known`: explanations that were found under another measurement.
     """
     problem = made.problem
     begun = problem.work.done

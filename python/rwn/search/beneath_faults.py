@@ -71,8 +71,8 @@ def beneath_faults(
 ) -> tuple[list[Fault], Ranking]:  # fmt: skip
     """Faults of the recordings, and what explains these when they are undone.
 
-    `filters`: of the sensors, that are known already. `known`: explanations by several effects that were found while
-    the recordings were thought to have come about otherwise. `effort`: see `budget.meter`.
+    `filters`: of the sensors, that are known already. `known`: explanations that were found while the recordings were
+    thought to have come about otherwise. `effort`: see `budget.meter`.
     """
 
     def ranking(
@@ -80,9 +80,9 @@ def beneath_faults(
         after: Ranking | None = None,
     ) -> Ranking:  # fmt: skip
         problem = prepare(of, model, work=meter(effort))
-        several = known if names is None and at_once == MOST_EFFECTS else ()
+        among = known if names is None and at_once == MOST_EFFECTS else ()
         return rank(
-            problem, progress=say, at_once=at_once, names=names, after=after, filters=filters, known=several
+            problem, progress=say, at_once=at_once, names=names, after=after, filters=filters, known=among
         )  # fmt: skip
 
     if model.drive.coefficients:  # its gain is in no unit that could be doubted

@@ -144,7 +144,7 @@ def _explained(
         if alike and not _tells_more(acted, as_acted, asked, ranking):
             break
         as_acted, (still, again, filters) = acted, asked
-        known = [best] if best and len(best.added) > 1 else []  # a search may not afford to find it again
+        known = [best] if best and best.added else []  # a search under another law may not come upon it again
         faults, ranking = beneath_faults(as_acted, again, filters=filters, known=known, say=say, effort=effort)
     again = _stating_speed(stating_filters(again, ranking.problem.filters), ranking.problem.whole)
     return SearchResult(
