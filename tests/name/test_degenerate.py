@@ -55,7 +55,10 @@ def test_a_shaft_that_is_wound_up_by_turns_is_none(
     this = fit_with("shaft-compliance")
     names = [u.name for u in this.hypothesis.unknowns]
     values = this.minimum.values.copy()
-    values[names.index("shaft-compliance.stiffness")] = problem.scales["torque"] / (2.0 * np.pi * turns)
+    behind = values[names.index("shaft-compliance.load_inertia")] / problem.scales["inertia"]
+    assert behind < 0.5
+    stiffness = behind * problem.scales["torque"] / (2.0 * np.pi * turns)  # of what moves the inertia behind it
+    values[names.index("shaft-compliance.stiffness")] = stiffness
     assert adds(replace(this, minimum=replace(this.minimum, values=values)), problem) != none
 
 

@@ -35,8 +35,16 @@ def _is_no_period_long(this: Fit, problem: Problem) -> bool:
 
 
 def _winds_up(this: Fit, problem: Problem) -> bool:
-    """Whether a shaft is said to be so soft that the torque of its drive winds it up by turns, as of a clutch."""
-    torque = problem.scales["torque"]
-    joints = (e for e in (this.hypothesis.table[name] for name in this.added) if e.second_mass)
-    stiffnesses = [f"{e.name}.{p.name}" for e in joints for p in e.parameters if p.unit == "N m/rad"]
-    return not problem.drive.linear and any(this.value(name) * MOST_TWIST < torque for name in stiffnesses)
+    """Whether a shaft is said to be so soft that the torque of its drive winds it up by turns, as of a clutch.
+
+    Of the torque what moves the inertia behind it goes through it.
+    """
+    if problem.drive.linear:
+        return False
+    torque, whole = problem.scales["torque"], problem.scales["inertia"]
+    for e in (this.hypothesis.table[name] for name in this.added):
+        of = {p.unit: this.value(f"{e.name}.{p.name}") for p in e.parameters} if e.second_mass else {}
+        behind = min(of.get("kg m^2", whole) / whole, 1.0)
+        if "N m/rad" in of and of["N m/rad"] * MOST_TWIST < behind * torque:
+            return True
+    return False
