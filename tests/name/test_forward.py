@@ -22,7 +22,7 @@ from rwn.model.model import Model
 from rwn.name import extending
 from rwn.name.backward import with_simpler
 from rwn.name.extending import beside, diverse
-from rwn.name.forward import _grown, rank
+from rwn.name.forward import _grown
 from rwn.name.initial_guesses import spectra
 from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits
 from rwn.name.screening import screen
@@ -49,13 +49,6 @@ def test_a_law_on_a_limit_of_its_parameters_is_known(fit_with: FitWith, name: st
         values = this.minimum.values.copy()
         values[k] = at * getattr(this.hypothesis.unknowns[k], limit)
         assert replace(this, minimum=replace(this.minimum, values=values)).limits_met == met
-
-
-def test_an_explanation_that_is_known_is_weighed_with_those_that_a_search_finds(problem: Problem) -> None:
-    pair = ("unbalance", "coulomb-friction")
-    known = fit(problem, hypothesis(problem.prior, pair, problem.scales))
-    found = rank(problem, progress=_silent, names=["unbalance", "coulomb-friction"], at_once=1, known=[known])
-    assert any(set(ranked_fit.added) == set(pair) for ranked_fit in found.fits)
 
 
 @pytest.mark.parametrize(("gain", "kept"), [(1.05, True), (0.95, False)])

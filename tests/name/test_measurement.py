@@ -23,7 +23,7 @@ from rwn.fit.residuals import Statistics, statistics
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.model.model import Model
 from rwn.name import extending, forward
-from rwn.name.forward import _grown
+from rwn.name.forward import _grown, rank
 from rwn.name.measurement import CHANGES, Measurement, is_explained
 from rwn.name.ranking import NO_EXTENSIONS, Fits
 from rwn.recording.filters import as_filtered
@@ -180,3 +180,10 @@ def test_several_machines_leave_noise_or_next_to_nothing(left: float, otherwise:
 
     assert is_explained(leaving(left), leaving(otherwise)) == yes
     assert is_explained(replace(leaving(left), variance=1.0, structured=()), leaving(otherwise))
+
+
+def test_an_explanation_that_is_known_is_weighed_with_those_that_a_search_finds(problem: Problem) -> None:
+    pair = ("unbalance", "coulomb-friction")
+    known = [fit(problem, hypothesis(problem.prior, pair, problem.scales))]
+    found = rank(problem, progress=lambda *_: None, names=list(pair), at_once=1, known=known)
+    assert set(pair) in [set(one.added) for one in found.fits]

@@ -42,8 +42,8 @@ def _winds_up(this: Fit, problem: Problem) -> bool:
     if problem.drive.linear:
         return False
     torque, whole = problem.scales["torque"], problem.scales["inertia"]
-    for e in (this.hypothesis.table[name] for name in this.added):
-        of = {p.unit: this.value(f"{e.name}.{p.name}") for p in e.parameters} if e.second_mass else {}
+    joints = [e for e in (this.hypothesis.table[name] for name in this.added) if e.second_mass]
+    for of in ({p.unit: this.value(f"{e.name}.{p.name}") for p in e.parameters} for e in joints):
         behind = min(of.get("kg m^2", whole) / whole, 1.0)
         if "N m/rad" in of and of["N m/rad"] * MOST_TWIST < behind * torque:
             return True

@@ -56,8 +56,9 @@ def window_of(time: Array, speed: Array, position: Array, new: Flags) -> int:
 def is_centred(time: Array, speed: Array, position: Array, rows: NDArray[np.intp]) -> bool:
     """Whether a speed, a difference over the time between two updates, has its middle at the own row.
 
-    `rows`: where it was updated, with the position. A drive that logs slower than it runs takes one over its own rows,
-    which are not recorded; what lies between is a line here. Errors are independent and Laplace's, as in `window_of`.
+    Of a recording (n,); `rows`: where speed and position were updated. A drive that logs slower than it runs takes one
+    over its own rows, which are not recorded; what lies between is a line here. Errors are independent and Laplace's,
+    as in `window_of`.
     """
     inner, half = rows[1:-1], 0.5 * float(np.median(np.diff(time[rows])))
     moving = inner[position[rows[2:]] != position[rows[:-2]]][:JUDGED]
