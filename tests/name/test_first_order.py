@@ -74,3 +74,18 @@ def test_a_start_that_runs_away_is_the_worst(dragged: Problem, nominal: Fit) -> 
     wild = start.start.copy()
     wild[start.by.index(dragged.prior.table["quadratic-drag"].at("drag_coefficient"))] = -1.0  # drives instead
     assert FirstOrder(dragged, nominal).left_by(start.starting_at(wild)) == (np.inf, np.inf)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_what_may_act_either_way_is_not_judged_by_the_sign_of_its_guess(sign: float) -> None:
+    time = 1e-3 * np.arange(2000)
+    signals = {"voltage": np.where(time < 1.0, 5.0, 8.0)}
+    load = Model(kind="dc", parameters=MOTOR, effects={"constant-load": {"torque": sign * 2e-3}})
+    speed = rwn.simulate(load, rwn.Recording(name="x", time=time, signals=signals)).signals["speed"]
+    noisy = speed + 0.1 * np.random.default_rng(3).standard_normal(time.size)
+    run = rwn.Recording(name="x", time=time, signals={**signals, "speed": noisy})
+    problem = prepare([run], Model(kind="dc", parameters=MOTOR))
+    order = FirstOrder(problem, fit_nominal(problem))
+    right, wrong = (order.left_by(_start(problem, "constant-load", torque=t * sign * 1e-3)).steps for t in (1.0, -1.0))
+    assert wrong == pytest.approx(right, abs=1.0)
+    assert right < _nothing(problem, fit_nominal(problem)).steps + _steps(0.05)

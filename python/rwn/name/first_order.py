@@ -35,7 +35,7 @@ class FirstOrder:
     """A fit, and the directions (n, q) in which its unknowns move what it leaves."""
 
     def __init__(self, problem: Problem, base: Fit) -> None:
-        self._problem = problem
+        self._problem, self._beside = problem, set(base.hypothesis.effects)
         values = base.minimum.values
         slopes = slopes_by_secants(problem, base.hypothesis, values, SECANTS[-1])
         lengths = np.linalg.norm(slopes, axis=0)
@@ -51,9 +51,16 @@ class FirstOrder:
             return FirstOrderCost(np.inf, np.inf)
         added = self._left - self._across(errors)
         energy = float(added @ added)
-        strength = float(np.clip(added @ self._left / energy, 1.0 / FARTHEST, FARTHEST)) if energy else 1.0
+        strength = float(added @ self._left) / energy if energy else 1.0
+        sign = -1.0 if strength < 0.0 and self._either_way(start) else 1.0
+        strength = sign * float(np.clip(sign * strength, 1.0 / FARTHEST, FARTHEST))
         left = float(np.sum((self._left - strength * added) ** 2))
         return FirstOrderCost(float(np.floor(np.log(max(left, 1e-300)) / np.log(ALIKE))), float(errors @ errors))
+
+    def _either_way(self, start: Hypothesis) -> bool:
+        """Whether what a start adds may act with either sign, whatever that of its guess."""
+        new = [start.table[name] for name in start.effects if name not in self._beside]
+        return all(p.lower < 0.0 for effect in new for p in effect.parameters if p.strength)
 
     def _across(self, errors: Array) -> Array:
         across: Array = errors - self._directions @ (self._directions.T @ errors)
