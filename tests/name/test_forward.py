@@ -65,7 +65,7 @@ def test_more_effects_are_kept_where_they_are_likelier(
     price = 0.5 * further * np.log(samples) + np.log(len(wanted))
     price *= 2.0 * max(left.variance, 1.0) * left.count / samples
     single = replace(single, minimum=replace(single.minimum, cost=several.cost + gain * price))
-    monkeypatch.setattr(extending, "beside", lambda *_: Extensions([several], frozenset()))
+    monkeypatch.setattr(extending, "beside", lambda *_, **__: Extensions([several], frozenset()))
     nominal = replace(single, minimum=replace(single.minimum, cost=2.0 * single.cost))
     grown = _grown(
         Fits(problem, nominal, [single]), [single], wanted, NO_EXTENSIONS, at_once=2, begun=0, progress=_silent

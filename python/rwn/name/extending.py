@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from rwn.fit.budget import affords_more, one_stage
-from rwn.fit.fit import Fit, refit
+from rwn.fit.fit import Fit, fit, refit
+from rwn.fit.hypothesis import hypothesis
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import with_noise_of
@@ -21,7 +22,7 @@ from rwn.name.screening import screen
 
 def beside_and_in_windows(
     alone: Fits, best: Fit, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Extensions, *,
-    size: int, windowed: Sequence[Fit],
+    size: int, windowed: Sequence[Fit], thorough: int = 1,
 ) -> tuple[Extensions, Sequence[Fit]]:  # fmt: skip
     """What helps beside `bases`, with what is found in short windows where a free run is far off.
 
@@ -32,7 +33,7 @@ def beside_and_in_windows(
     lost = has_lost_the_motion(problem, best)
     if lost:
         more = fitted_in_windows(problem, alone.nominal_fit, wanted, size, windowed)
-    found = beside(problem, bases, wanted, fits, known)
+    found = beside(problem, bases, wanted, fits, known, thorough=thorough)
     closest = min([best, *found.fits], key=lambda f: f.cost)
     if not lost and affords_more(problem.work) and is_far_off(problem, closest):
         more = fitted_in_windows(problem, alone.nominal_fit, wanted, size, windowed)
@@ -40,9 +41,10 @@ def beside_and_in_windows(
 
 
 def beside(
-    problem: Problem, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Extensions
-) -> Extensions:
-    """What helps beside each of `bases`: any effect beside the best, promising ones beside the others.
+    problem: Problem, bases: Sequence[Fit], wanted: Sequence[str], fits: Sequence[Fit], known: Extensions, *,
+    thorough: int = 1,
+) -> Extensions:  # fmt: skip
+    """What helps beside each of `bases`: any effect beside the first `thorough`, promising ones beside the others.
 
     Once the best found leaves noise alone, one that has no part in it is tried beside its parts: it may rival one.
     """
@@ -59,8 +61,9 @@ def beside(
         skipped = skipped or len(new) < len(untried)
         found += screen(problem, base, new, keep=1, best=min((f.cost for f in found), default=np.inf))
         tried |= {(base.added, name) for name in new}
-        met = {name for f in (*fits, *found) for name in f.added}
-        names = [name for name in wanted if name in met]
+        if place + 1 >= thorough:
+            met = {name for f in (*fits, *found) for name in f.added}
+            names = [name for name in wanted if name in met]
     return Extensions(distinct(found), tried, cut_short=skipped)
 
 
@@ -89,6 +92,22 @@ def diverse(fits: Sequence[Fit]) -> list[Fit]:
         if len(alike) < 2:
             kept.append(f)
     return kept[:3]
+
+
+def with_what_was_left_out(problem: Problem, nominal: Fit, bases: Sequence[Fit], wanted: Sequence[str]) -> list[Fit]:
+    """The bases, and first the nominal model with each plain law that the sheet leaves out, as dry friction.
+
+    Every drive has some. Where something else is missing too, that may hide how much it explains by itself, and what
+    else is missing may show beside it alone.
+    """
+    found = list[Fit]()
+    for name in wanted:
+        law = problem.prior.table[name].parameters
+        replaced = law[0].replaces if len(law) == 1 else None
+        if replaced and not problem.prior.motor.get(replaced) and all(base.added != (name,) for base in bases):
+            begun = hypothesis(problem.prior, (name,), problem.scales, {}, nominal.motor)
+            found.append(fit(problem, begun, share=one_stage(problem.work)))
+    return [*found, *bases]
 
 
 def made_of(this: Fit, wanted: Sequence[str]) -> bool:

@@ -24,7 +24,7 @@ from rwn.measurement.coarse_speed import as_recorded, recorded_steps, unrounded_
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.name.backward import distinct, with_simpler
 from rwn.name.degenerate import adds
-from rwn.name.extending import at_its_floor, beside_and_in_windows, diverse, made_of
+from rwn.name.extending import at_its_floor, beside_and_in_windows, diverse, made_of, with_what_was_left_out
 from rwn.name.further_lines import with_further_lines
 from rwn.name.measurement import Measurement, is_explained
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion
@@ -140,6 +140,10 @@ def _grown(
     fits = with_further_lines(problem, fits)
     best, left = _best_of(problem, [alone.nominal_fit, *fits])
     bases, windowed = diverse([f for f in fits if adds(f, problem)]), alone.windowed
+    diverse_ones = len(bases)
+    if bases and not left.at_the_floor:
+        bases = with_what_was_left_out(problem, alone.nominal_fit, bases, wanted)
+    thorough = 1 + len(bases) - diverse_ones
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     measured = None
     for size in range(2, at_once + 1):
@@ -150,7 +154,7 @@ def _grown(
         renew(problem.work, begun)
         progress(f"trying {size} effects at once", 0.9 - 0.7 * 0.5 ** (size - 1))
         found, windowed = beside_and_in_windows(
-            alone, best, bases, wanted, fits, known, size=size, windowed=windowed
+            alone, best, bases, wanted, fits, known, size=size, windowed=windowed, thorough=thorough
         )  # fmt: skip
         more, extensions = with_further_lines(problem, found.fits), found if size == 2 else extensions
         cut_short = size if found.cut_short else cut_short
@@ -159,7 +163,7 @@ def _grown(
             break
         fits, paired = [*fits, *more], True
         best, left = _best_of(problem, fits)
-        bases = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2]
+        bases, thorough = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2], 1
         complete = left.at_the_floor or at_its_floor(problem, best)
     return _ForwardSelection(fits, extensions, paired, complete, cut_short, measured)
 
