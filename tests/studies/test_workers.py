@@ -80,6 +80,25 @@ run(command)
     assert (done.returncode, done.stderr) == (130, "rwn: stopped\n")
 
 
+def test_what_was_cancelled_before_an_end_is_not_told_of() -> None:
+    script = """
+import time
+from rwn.endings import run
+from rwn.studies.trials.workers import workers
+def command():
+    with workers(1) as pool:
+        waiting = [pool.submit(time.sleep, 60) for _ in range(5)]
+        time.sleep(1)
+        assert waiting[-1].cancel()
+        stop = pool.shutdown
+        pool.shutdown = lambda **options: (time.sleep(0.5), stop(**options))  # its thread sees the ends before
+        raise KeyboardInterrupt
+run(command)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (130, "rwn: stopped\n")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("wait", [0.05, 1.0])  # while its workers start, and while they work
 @pytest.mark.parametrize("command", [("trials", "make", "--seed", "7", "--count", "50"), ("thesis", "run", "--all")])

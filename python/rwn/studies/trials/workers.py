@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import InvalidStateError, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import active_children, parent_process, resource_tracker
 from multiprocessing.connection import wait
@@ -38,11 +38,28 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     try:
         yield pool
     except BaseException:
-        for process in set(active_children()) - before:
-            process.kill()
-        pool.shutdown(cancel_futures=True)
+        with _cancelled_without_a_word():
+            for process in set(active_children()) - before:
+                process.kill()
+            pool.shutdown(cancel_futures=True)
         raise
     pool.shutdown()
+
+
+@contextmanager
+def _cancelled_without_a_word() -> Iterator[None]:
+    """A pool that loses its processes tells so to what was cancelled too, which raises in its thread (Python 3.11)."""
+    told = threading.excepthook
+
+    def tell(of: threading.ExceptHookArgs) -> None:
+        if not issubclass(of.exc_type, InvalidStateError):
+            told(of)
+
+    threading.excepthook = tell
+    try:
+        yield
+    finally:
+        threading.excepthook = told
 
 
 def _start_the_tracker() -> None:
