@@ -9,7 +9,7 @@ import pytest
 
 from rwn.fit.fit import Fit, fit_nominal
 from rwn.fit.problem import Problem
-from rwn.name.extending import beside, with_what_was_left_out
+from rwn.name.extending import beside, left_out
 from rwn.name.ranking import NO_EXTENSIONS
 
 FitWith = Callable[[str], Fit]
@@ -20,12 +20,12 @@ def test_dry_friction_is_built_upon_where_the_sheet_has_none(problem: Problem, f
     """However little it explains alone; its elaborations, and what the sheet has, only where they explain much."""
     nominal, bases = fit_nominal(problem), [fit_with("quadratic-drag")]
     assert not problem.prior.motor.get("coulomb_friction")
-    found = with_what_was_left_out(problem, nominal, bases, WANTED)
-    assert [f.added for f in found] == [("coulomb-friction",), ("quadratic-drag",)]
-    assert with_what_was_left_out(problem, nominal, found, WANTED) == found
-    assert with_what_was_left_out(problem, nominal, bases, WANTED[1:]) == bases
+    found = left_out(problem, nominal, bases, WANTED)
+    assert [f.added for f in found] == [("coulomb-friction",)]
+    assert left_out(problem, nominal, [*found, *bases], WANTED) == []
+    assert left_out(problem, nominal, bases, WANTED[1:]) == []
     known = replace(problem, prior=replace(problem.prior, motor={**problem.prior.motor, "coulomb_friction": 1e-3}))
-    assert with_what_was_left_out(known, nominal, bases, WANTED) == bases
+    assert left_out(known, nominal, bases, WANTED) == []
 
 
 @pytest.mark.parametrize("thorough", [1, 2])

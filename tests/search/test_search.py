@@ -1,4 +1,4 @@
-"""What recordings told of themselves stands in the layout of the model that is found."""
+"""What a search hands on: what recordings told of themselves, and what it has found to the next one."""
 
 from __future__ import annotations
 

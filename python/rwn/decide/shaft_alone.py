@@ -67,7 +67,7 @@ def shaft_of(this: Fit, problem: Problem, model: Model) -> Half | None:
     if any(hidden) or not all(run.current.size and len(run.recorded) > 1 for run in whole.runs):
         return None
     motor = {**problem.prior.motor, **this.motor}
-    torques = [np.asarray(drive.driving_torque(motor, _bridged(run), run.input)) for run in whole.runs]
+    torques = [np.asarray(drive.driving_torque(motor, run.bridged("current"), run.input)) for run in whole.runs]
     given = drive.mechanics.input
     recordings = [_driven(run, given, torque) for run, torque in zip(whole.runs, torques, strict=True)]
     shaft, signal = _shaft(model, this), _motion_of(whole.runs)
@@ -111,12 +111,3 @@ def _driven(run: Run, given: str, torque: Array) -> Recording:
     shown = {name: run.signal(name) for name in MEASURED if name != "current" and run.signal(name).size}
     missing = {name: lost for name, lost in run.missing.items() if name in shown}
     return Recording(name=run.name, time=run.time, signals={given: torque, **shown}, missing=missing)
-
-
-def _bridged(run: Run) -> Array:
-    """The current (n,) [A], on a line between the samples that were measured."""
-    lost = run.missing.get("current")
-    if lost is None or lost.all():
-        return run.current
-    return np.interp(run.time, run.time[~lost], run.current[~lost])
-

@@ -68,33 +68,27 @@ class BalancedRun(Run):
 def balanced(run: Run, inertia: float) -> BalancedRun:
     """A recording with a position as the balance of forces takes it, of an axis of an `inertia` [kg m^2 or kg]."""
     length, step = _length(run, inertia), run.sample_time
-    run, lost = _bridged(run)
     rows = slice(length, run.time.size - length, length)
-    near = smooth(lost.astype(float), length) != 0.0
+    measured, near = run.bridged("position"), smooth(_lost(run).astype(float), length) != 0.0
 
     def every(values: Array) -> Array:
         return np.ascontiguousarray(values[rows])
 
-    position = every(smooth(run.position, length))
+    position = every(smooth(measured, length))
     return BalancedRun(
         name=run.name, time=every(run.time), input=every(smooth(run.input, length)), position=position, angle=position,
-        velocity=every(smooth(run.position, length, derivative=1, step=step)),
-        acceleration=every(smooth(run.position, length, derivative=2, step=step)), missing={DRIVING_FORCE: near[rows]},
+        velocity=every(smooth(measured, length, derivative=1, step=step)),
+        acceleration=every(smooth(measured, length, derivative=2, step=step)), missing={DRIVING_FORCE: near[rows]},
         start_unknowns=run.start_unknowns, levels=run.levels, start=run.start, start_spread=run.start_spread,
         in_motion=run.in_motion,
     )  # fmt: skip
 
 
-def _bridged(run: Run) -> tuple[Run, NDArray[np.bool_]]:
-    """A recording with lines through the positions that it lacks, and the rows (n,) of gaps longer than its updates."""
-    known = np.flatnonzero(~run.missing.get("position", np.zeros(run.time.size, dtype=bool)))
-    if known.size in (0, run.time.size):
-        return run, np.full(run.time.size, known.size == 0)
-    gaps = np.diff(known, prepend=-1, append=run.time.size)
-    long = np.repeat(gaps > np.median(gaps), gaps)[: run.time.size]
-    long[known] = False
-    position = np.interp(run.time, run.time[known], run.position[known])
-    return replace(run, position=position), long
+def _lost(run: Run) -> NDArray[np.bool_]:
+    """The rows (n,) in gaps of the position that are longer than those between its updates."""
+    lacking = run.missing.get("position", np.zeros(run.time.size, dtype=bool))
+    gaps = np.diff(np.flatnonzero(~lacking), prepend=-1, append=run.time.size)
+    return lacking & np.repeat(gaps > np.median(gaps), gaps)[: run.time.size] if not lacking.all() else lacking
 
 
 def _length(run: Run, inertia: float) -> int:

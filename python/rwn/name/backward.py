@@ -49,7 +49,7 @@ def _simpler(problem: Problem, best: Fit) -> list[Fit]:
     def less(pair: tuple[tuple[str, ...], float]) -> Fit:
         names, share = pair
         starts = best.starts(n for n in names if n in best.added)
-        starts |= {n: _plain_values(best, n) for n in _plain_laws().values() if n in names and n not in starts}
+        starts |= {n: _plain_values(best, n) for n in plain_laws().values() if n in names and n not in starts}
         for general in best.added:
             if _special(general) != general and _special(general) in names:
                 starts[_special(general)] = table()[general].as_special_case(best.values_of(general))
@@ -78,14 +78,14 @@ def replaced(this: Fit) -> set[str]:
 
 
 @cache
-def _plain_laws() -> Mapping[frozenset[str], str]:
+def plain_laws() -> Mapping[frozenset[str], str]:
     """Nominal parameters -> the effect that is nothing but one of them: what others that take it over elaborate."""
     return {frozenset(_replaces(n)): n for n, e in table().items() if len(e.parameters) == 1 and _replaces(n)}
 
 
 def plainer(names: Sequence[str]) -> set[str]:
     """The same explanation with plain friction for its elaborations, and special cases for what generalises them."""
-    return {_plain_laws().get(frozenset(_replaces(n))) or _special(n) for n in names}
+    return {plain_laws().get(frozenset(_replaces(n))) or _special(n) for n in names}
 
 
 def elaborations() -> list[str]:

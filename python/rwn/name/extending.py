@@ -14,7 +14,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import with_noise_of
 from rwn.fit.residuals import statistics
 from rwn.name.affordable import affordable
-from rwn.name.backward import distinct, replaced
+from rwn.name.backward import distinct, plain_laws, replaced
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
 from rwn.name.ranking import Extensions, Fits
 from rwn.name.screening import screen
@@ -94,20 +94,19 @@ def diverse(fits: Sequence[Fit]) -> list[Fit]:
     return kept[:3]
 
 
-def with_what_was_left_out(problem: Problem, nominal: Fit, bases: Sequence[Fit], wanted: Sequence[str]) -> list[Fit]:
-    """The bases, and first the nominal model with each plain law that the sheet leaves out, as dry friction.
+def left_out(problem: Problem, nominal: Fit, bases: Sequence[Fit], wanted: Sequence[str]) -> list[Fit]:
+    """The nominal model with each plain law that the data sheet leaves out, as dry friction, where it is not a base.
 
     Every drive has some. Where something else is missing too, that may hide how much it explains by itself, and what
     else is missing may show beside it alone.
     """
     found = list[Fit]()
-    for name in wanted:
-        law = problem.prior.table[name].parameters
-        replaced = law[0].replaces if len(law) == 1 else None
-        if replaced and not problem.prior.motor.get(replaced) and all(base.added != (name,) for base in bases):
+    for (parameter,), name in plain_laws().items():
+        known = problem.prior.motor.get(parameter) or any(base.added == (name,) for base in bases)
+        if name in wanted and not known:
             begun = hypothesis(problem.prior, (name,), problem.scales, {}, nominal.motor)
             found.append(fit(problem, begun, share=one_stage(problem.work)))
-    return [*found, *bases]
+    return found
 
 
 def made_of(this: Fit, wanted: Sequence[str]) -> bool:

@@ -24,7 +24,7 @@ from rwn.measurement.coarse_speed import as_recorded, recorded_steps, unrounded_
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.name.backward import distinct, with_simpler
 from rwn.name.degenerate import adds
-from rwn.name.extending import at_its_floor, beside_and_in_windows, diverse, made_of, with_what_was_left_out
+from rwn.name.extending import at_its_floor, beside_and_in_windows, diverse, left_out, made_of
 from rwn.name.further_lines import with_further_lines
 from rwn.name.measurement import Measurement, is_explained
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion
@@ -140,10 +140,8 @@ def _grown(
     fits = with_further_lines(problem, fits)
     best, left = _best_of(problem, [alone.nominal_fit, *fits])
     bases, windowed = diverse([f for f in fits if adds(f, problem)]), alone.windowed
-    diverse_ones = len(bases)
-    if bases and not left.at_the_floor:
-        bases = with_what_was_left_out(problem, alone.nominal_fit, bases, wanted)
-    thorough = 1 + len(bases) - diverse_ones
+    first = left_out(problem, alone.nominal_fit, bases, wanted) if bases and not left.at_the_floor else []
+    bases, thorough = [*first, *bases], len(first) + 1
     complete, paired, cut_short = left.at_the_floor or not bases, False, 0
     measured = None
     for size in range(2, at_once + 1):

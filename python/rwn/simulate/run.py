@@ -87,6 +87,13 @@ class Run:
         """Values (n,) that belong to a signal's samples, NaN where these are not compared."""
         return np.where(self.not_compared(name), np.nan, values)
 
+    def bridged(self, name: str) -> Array:
+        """Values (n,) of a signal, on lines between the samples that were measured; as they are where none was."""
+        lost, values = self.missing.get(name), self.signal(name)
+        if lost is None or lost.all():
+            return values
+        return np.interp(self.time, self.time[~lost], values[~lost])
+
     def not_compared(self, name: str) -> Flags:
         """Samples (n,) that were not measured, or where a difference would reach outside the recording or a lost row.
 
