@@ -100,11 +100,12 @@ def test_something_is_left_however_much_was_spent() -> None:
 def test_where_the_budget_is_spent_more_effects_are_tried_beside_the_best_alone() -> None:
     names = [*LATE, "magnetic-saturation"]
     ranking = ranked(demo_problem(_spent(0.9)), names)
-    assert ranking.cut_short
     assert len({base for base, _ in ranking.extensions.tried}) == 1
     whole = ranked(demo_problem(), names)
-    assert not whole.cut_short
+    assert not whole.not_tried
     assert len({base for base, _ in whole.extensions.tried}) == 2
+    (left,) = ranking.not_tried
+    assert {(left.beside, name) for name in left.effects} == whole.extensions.tried - ranking.extensions.tried
     assert whole.closest.cost <= ranking.closest.cost
 
 
@@ -118,7 +119,7 @@ def test_pairs_that_are_known_are_weighed_though_nothing_is_left_to_try_more() -
     pairs = ranked(problem(0.0), names)
     again = ranked(problem(0.9), names, after=pairs)
     assert set(again.closest.added) == set(pairs.closest.added) == set(names)
-    assert not again.cut_short  # what is left is noise: nothing more would have been tried
+    assert not again.not_tried  # what is left is noise: nothing more would have been tried
 
 
 def test_more_effort_leaves_more() -> None:
@@ -143,7 +144,7 @@ def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) ->
     warnings = [rwn.diagnose([wavy], model).warnings]
     monkeypatch.setattr(budget, "TOTAL", 1e8)
     warnings.append(rwn.diagnose([wavy], model).warnings)
-    assert ["the search ended early" in " ".join(texts) for texts in warnings] == [False, True]
+    assert ["the search ended early: beside " in " ".join(texts) for texts in warnings] == [False, True]
 
 
 def test_the_search_that_looks_no_further_still_finds_what_is_missing() -> None:

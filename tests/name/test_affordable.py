@@ -12,6 +12,7 @@ from rwn.fit.problem import Problem
 from rwn.name import affordable as module
 from rwn.name.affordable import STEPS, affordable
 from rwn.name.extending import beside
+from rwn.name.not_tried import NotTried
 from rwn.name.ranking import NO_EXTENSIONS
 
 NAMES = ["input-delay", "coulomb-friction", "quadratic-drag", "unbalance"]
@@ -45,8 +46,9 @@ def test_of_a_dear_step_those_are_tried_that_explain_most_alone(
 def test_a_search_says_that_not_all_were_tried(
     problem: Problem, fit_with: Callable[[str], Fit], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    base = fit_with("quadratic-drag")
-    for count, tried, short in ((9.0, {"input-delay", "unbalance"}, False), (0.0, set(), True)):
+    base, wanted = fit_with("quadratic-drag"), ["input-delay", "quadratic-drag", "unbalance"]
+    none = [NotTried(beside=("quadratic-drag",), effects=("input-delay", "unbalance"))]
+    for count, tried, left in ((9.0, {"input-delay", "unbalance"}, []), (0.0, set(), none)):
         _paid_for(problem, base, count, monkeypatch)
-        found = beside(problem, [base], ["input-delay", "unbalance"], [base], NO_EXTENSIONS)
-        assert ({name for _, name in found.tried}, found.cut_short) == (tried, short)
+        found = beside(problem, [base], wanted, [base], NO_EXTENSIONS)
+        assert ({name for _, name in found.tried}, list(found.not_tried)) == (tried, left)

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from rwn.fit.levenberg_marquardt import FitStatus
+from rwn.name.not_tried import NotTried
 from rwn.report import assemble
 
 
@@ -23,7 +24,7 @@ def test_a_fit_that_did_not_converge_is_said(
     monkeypatch: pytest.MonkeyPatch, status: FitStatus, added: tuple[str, ...], said: bool
 ) -> None:
     monkeypatch.setattr(assemble, "_does_not_run", lambda _: [])
-    ranking: Any = SimpleNamespace(weighted=SimpleNamespace(noise={}), cut_short=0, at_a_limit=())
+    ranking: Any = SimpleNamespace(weighted=SimpleNamespace(noise={}), not_tried=(), at_a_limit=())
     chosen: Any = SimpleNamespace(added=added, final=SimpleNamespace(minimum=SimpleNamespace(status=status)))
     found = assemble._warnings(ranking, chosen, (), ())
     assert any("before it converged" in text for text in found) == said
@@ -34,10 +35,30 @@ def test_what_ran_into_a_limit_bears_plain_names(monkeypatch: pytest.MonkeyPatch
     better = SimpleNamespace(
         added=("amplifier-gain-curve", "coulomb-friction"), limits_met=("amplifier-gain-curve.exponent",)
     )
-    ranking: Any = SimpleNamespace(weighted=SimpleNamespace(noise={}), cut_short=0, at_a_limit=(better,))
+    ranking: Any = SimpleNamespace(weighted=SimpleNamespace(noise={}), not_tried=(), at_a_limit=(better,))
     chosen: Any = SimpleNamespace(added=(), final=None)
     (said,) = assemble._warnings(ranking, chosen, (), ())
     assert said.startswith("amplifier gain curve + Coulomb friction fits better, but exponent of amplifier gain curve")
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (("cogging-torque",), "cogging torque was not tried"),
+        (("cogging-torque", "input-delay"), "cogging torque and input delay were not tried"),
+        (tuple("abcdefghi"), "a, b, c, d, e, f, g, h and i were not tried"),
+        (tuple("abcdefghij"), "a, b, c, d, e, f, g, h and 2 others (not_tried in diagnosis.json) were not tried"),
+    ],
+)
+def test_what_was_not_tried_is_said_by_name(
+    monkeypatch: pytest.MonkeyPatch, names: tuple[str, ...], said: str
+) -> None:
+    monkeypatch.setattr(assemble, "_does_not_run", lambda _: [])
+    left = NotTried(beside=("coulomb-friction", "unbalance"), effects=names)
+    ranking: Any = SimpleNamespace(weighted=SimpleNamespace(noise={}), not_tried=(left,), at_a_limit=())
+    chosen: Any = SimpleNamespace(added=(), final=None)
+    (warning,) = assemble._warnings(ranking, chosen, (), ())
+    assert warning.startswith(f"the search ended early: beside Coulomb friction + unbalance, {said}; --effort 3")
 
 
 @pytest.mark.parametrize(

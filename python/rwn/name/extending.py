@@ -16,6 +16,7 @@ from rwn.fit.residuals import statistics
 from rwn.name.affordable import affordable
 from rwn.name.backward import distinct, plain_laws, replaced
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion, is_far_off
+from rwn.name.not_tried import NotTried
 from rwn.name.ranking import Extensions, Fits
 from rwn.name.screening import screen
 
@@ -48,23 +49,25 @@ def beside(
 
     Once the best found leaves noise alone, one that has no part in it is tried beside its parts: it may rival one.
     """
-    found, tried, names, skipped = [f for f in known.fits if made_of(f, wanted)], known.tried, list(wanted), False
+    found, tried, names = [f for f in known.fits if made_of(f, wanted)], known.tried, list(wanted)
+    left = list[NotTried]()
     for place, base in enumerate(bases):
         parts = _complete_explanation(problem, found)
         rivals = bool(parts) and not parts & set(base.added)
-        if (place or known.fits) and not rivals and not affords_more(problem.work):
-            skipped = True
-            continue
         here = [n for n in names if n in parts] if rivals else names
-        untried = [name for name in here if (base.added, name) not in tried]
-        new = affordable(problem, base, untried, fits)
-        skipped = skipped or len(new) < len(untried)
+        untried = [name for name in here if name not in base.added and (base.added, name) not in tried]
+        skip = (place or known.fits) and not rivals and not affords_more(problem.work)
+        new = [] if skip else affordable(problem, base, untried, fits)
+        if len(new) < len(untried):
+            left.append(NotTried(beside=base.added, effects=tuple(name for name in untried if name not in new)))
+        if skip:
+            continue
         found += screen(problem, base, new, keep=1, best=min((f.cost for f in found), default=np.inf))
         tried |= {(base.added, name) for name in new}
         if place + 1 >= thorough:
             met = {name for f in (*fits, *found) for name in f.added}
             names = [name for name in wanted if name in met]
-    return Extensions(distinct(found), tried, cut_short=skipped)
+    return Extensions(distinct(found), tried, tuple(left))
 
 
 def _complete_explanation(problem: Problem, found: Sequence[Fit]) -> frozenset[str]:

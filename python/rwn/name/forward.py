@@ -28,6 +28,7 @@ from rwn.name.extending import at_its_floor, beside_and_in_windows, diverse, lef
 from rwn.name.further_lines import with_further_lines
 from rwn.name.measurement import Measurement, is_explained
 from rwn.name.multiple_shooting import fitted_in_windows, fitted_to_free_run, has_lost_the_motion
+from rwn.name.not_tried import NotTried
 from rwn.name.observable import observable
 from rwn.name.prior_odds import loaded, prior_odds, steady_loads
 from rwn.name.ranking import NO_EXTENSIONS, Extensions, Fits, Ranking
@@ -47,7 +48,7 @@ class _ForwardSelection(NamedTuple):
     extensions: Extensions
     paired: bool  # some have several effects
     complete: bool  # more effects at once would not help
-    cut_short: int  # of so many effects at once only the most promising were tried, for what that costs; 0: all
+    not_tried: tuple[NotTried, ...]
     measured: Measurement | None = None  # how recordings were made, where it proved to be otherwise before the end
 
 
@@ -121,7 +122,7 @@ def _ranked(
         extensions=grown.extensions,
         speed_steps=recorded_steps(problem, best),
         complete=names is None and (grown.complete or at_once >= MOST_EFFECTS),
-        cut_short=0 if left.at_the_floor else grown.cut_short,
+        not_tried=() if left.at_the_floor else grown.not_tried,
         at_a_limit=tuple(f for f in at_a_limit if f.cost < best.cost),
     )
 
@@ -142,8 +143,8 @@ def _grown(
     bases, windowed = diverse([f for f in fits if adds(f, problem)]), alone.windowed
     first = left_out(problem, alone.nominal_fit, bases, wanted) if bases and not left.at_the_floor else []
     bases, thorough = [*first, *bases], len(first) + 1
-    complete, paired, cut_short = left.at_the_floor or not bases, False, 0
-    measured = None
+    complete, paired, measured = left.at_the_floor or not bases, False, None
+    not_tried = list[NotTried]()
     for size in range(2, at_once + 1):
         measured = otherwise(best) if otherwise and not complete else None
         if complete or measured:
@@ -155,7 +156,7 @@ def _grown(
             alone, best, bases, wanted, fits, known, size=size, windowed=windowed, thorough=thorough
         )  # fmt: skip
         more, extensions = with_further_lines(problem, found.fits), found if size == 2 else extensions
-        cut_short = size if found.cut_short else cut_short
+        not_tried += found.not_tried
         complete = not _is_worth_it(problem, more, best, rivals=len(wanted))
         if complete:
             break
@@ -163,7 +164,7 @@ def _grown(
         best, left = _best_of(problem, fits)
         bases, thorough = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2], 1
         complete = left.at_the_floor or at_its_floor(problem, best)
-    return _ForwardSelection(fits, extensions, paired, complete, cut_short, measured)
+    return _ForwardSelection(fits, extensions, paired, complete, tuple(not_tried), measured)
 
 
 def _is_worth_it(problem: Problem, more: Sequence[Fit], best: Fit, *, rivals: int) -> bool:

@@ -10,6 +10,7 @@ from rwn.fit.fit import Fit
 from rwn.fit.problem import Problem
 from rwn.fit.residuals import Statistics
 from rwn.name.measurement import Measurement
+from rwn.name.not_tried import NotTried
 from rwn.name.weights import RankedFit
 
 
@@ -27,7 +28,7 @@ class Extensions(NamedTuple):
 
     fits: list[Fit]
     tried: frozenset[tuple[tuple[str, ...], str]]  # what was added to what
-    cut_short: bool = False  # some would have been built on, but for what that costs
+    not_tried: tuple[NotTried, ...] = ()
 
 
 NO_EXTENSIONS = Extensions([], frozenset())
@@ -49,7 +50,7 @@ class Ranking:
     extensions: Extensions  # under the noise of `alone`
     speed_steps: tuple[float, ...] = ()  # of each recording, rad/s, where a coarse converter rounds the speed
     at_a_limit: tuple[Fit, ...] = ()  # what fits better, with a law that ran into a limit of its parameters
-    cut_short: int = 0  # of so many effects at once only the most promising were tried, for what that costs; 0: all
+    not_tried: tuple[NotTried, ...] = ()
     complete: bool = True  # no other effects and no more at once would have been tried, had they been allowed
 
     @property

@@ -44,6 +44,7 @@ from rwn.report.text import (
     listing,
     located,
     located_briefly,
+    not_tried_in_words,
     parameter_in_words,
     plain_name,
     quantity,
@@ -104,6 +105,7 @@ def assemble(
         next_experiment=_next_experiment(decision, said, alternatives, named=named),
         adequate_probability=ranking.nothing_missing.probability,
         account=decision.account.effects,
+        not_tried=ranking.not_tried,
         remainder=decision.remainder,
         seed=seed,
         version=__version__,
@@ -219,11 +221,7 @@ def _warnings(
             "the fit of what is stated ended before it converged: its intervals may be too narrow; --effort 3 lets it "
             "go on where what the search may cost has ended it"
         )
-    if ranking.cut_short:
-        texts.append(
-            f"the search ended early: of {ranking.cut_short} effects at once only the most promising were tried; "
-            "--effort 3, or recordings of fewer samples, leave room for the others"
-        )
+    texts += [not_tried_in_words(them) for them in ranking.not_tried]
     for f in ranking.at_a_limit[:1]:
         met = [parameter_in_words(name) for name in f.limits_met]
         texts.append(

@@ -46,6 +46,7 @@ class Diagnosis(DiagnosisData):
     adequate_probability: that nothing is missing; None in an older file.
     account: every effect of the leading explanation, stated or not, with what it explains.
     remainder: what the stated effects leave of the error.
+    not_tried: effects that were not tried beside those of an explanation, for what a search may cost (`effort`).
     sources: the files that were used. command, seed, version: what made this; elapsed [s]: how long it took.
     stand_in: what stands in the corrected model for what has no name; empty where nothing does.
     added: effects that the corrected model holds beyond those of the model as given.

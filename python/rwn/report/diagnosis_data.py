@@ -14,6 +14,7 @@ from rwn.decide.account import ActingEffect, Remainder
 from rwn.decide.verdict import Verdict
 from rwn.mismatch_map.regions import Region
 from rwn.name.found_effect import FoundEffect
+from rwn.name.not_tried import NotTried
 from rwn.prove.heldout import HeldoutRow
 from rwn.recording.inspection import Finding
 from rwn.report.fitted_filter import FittedFilter
@@ -89,6 +90,7 @@ class DiagnosisData:
     adequate_probability: float | None = None  # that nothing is missing
     account: tuple[ActingEffect, ...] = ()  # the effects of the leading explanation, stated or not
     remainder: Remainder = field(default_factory=Remainder)  # what the stated effects leave
+    not_tried: tuple[NotTried, ...] = ()  # for what a search may cost
     sources: tuple[Source, ...] = ()
     command: str = field(default="", compare=False)
     seed: int = 0

@@ -10,6 +10,7 @@ from rwn.fit.intervals import Estimate
 from rwn.mismatch_map.dependence import CLEAR, Law
 from rwn.mismatch_map.regions import Region
 from rwn.model.vocabulary import table
+from rwn.name.not_tried import NotTried
 from rwn.recording.signals import SIGNALS
 
 EXCESS = 0.1  # share of the residual's energy beyond that of the samples, from which a region is worth naming
@@ -26,6 +27,7 @@ _PREFIXABLE = (
     "m",
 )  # the first factor of a unit that takes a prefix
 DECADE = 10.0
+NAMED_AT_ONCE = 8  # effects in one sentence
 _SYMBOLS = (("ohm", "Ω"), ("^2", "²"), ("^3", "³"))
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -154,6 +156,19 @@ def listing(names: Sequence[str], joint: str = "and") -> str:
     """a, b and c."""
     *head, last = names
     return f"{', '.join(head)} {joint} {last}" if head else last
+
+
+def not_tried_in_words(left: NotTried) -> str:
+    """A sentence for the warnings, with the first of the names and how many there are."""
+    names = [plain_name(name) for name in left.effects]
+    more = len(names) - NAMED_AT_ONCE
+    if more > 1:
+        names = [*names[:NAMED_AT_ONCE], f"{more} others (not_tried in diagnosis.json)"]
+    return (
+        f"the search ended early: beside {' + '.join(map(plain_name, left.beside))}, {listing(names)} "
+        f"{'were' if len(names) > 1 else 'was'} not tried; --effort 3, or recordings of fewer samples, leave room for "
+        "more"
+    )
 
 
 def law_in_words(law: Law, *, linear: bool) -> str:
