@@ -120,6 +120,13 @@ struct Dual {
   double v = 0.0;
 
   Dual() = default;
+  // Member by member: copied whole, what lies behind `v` is loaded with it, and waits for what has just been stored.
+  RWN_INLINE Dual(const Dual& o) : d(o.d), v(o.v) {}
+  RWN_INLINE Dual& operator=(const Dual& o) {
+    d = o.d;
+    v = o.v;
+    return *this;
+  }
   Dual(double value) : v(value) {}  // NOLINT: constants mix with duals in the equations
 
   static Dual variable(double value, int index) {
