@@ -90,8 +90,7 @@ class Equations {
     Matrix a{};
     if constexpr (Drive::states > 0) {
       const bool stick = regime.stick() && !second_.drives();
-      S* entries = a.data();
-      electrics_.couple(entries, n, driven(), resistances_of(regime.level()), inverse_driven(), stick);
+      electrics_.couple(a.data(), n, driven(), resistances_of(regime.level()), inverse_driven(), stick);
     }
     if (!regime.stick()) a[w * n + w] = -(viscous_ * inverse_inertia_);
     if constexpr (masses == 2) second_.couple(a, regime);

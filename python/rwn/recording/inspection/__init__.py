@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rwn.recording.inspection.clipping import CLIPPING
+from rwn.recording.inspection.converter_steps import without_noise_on_steps
 from rwn.recording.inspection.finding import Check, Finding, Flags
 from rwn.recording.inspection.held import HELD
 from rwn.recording.inspection.hum import without_hum
@@ -33,6 +34,8 @@ def inspected(recordings: Sequence[Recording]) -> Inspected:
     """What every check found; samples that measure nothing are not compared with a simulation."""
     made, found = [], []
     for recording in recordings:
+        recording, steps = without_noise_on_steps(recording)
+        found += steps
         for check in CHECKS:
             for signal in (s for s in check.signals if s in recording.signals):
                 flags = check.flags(recording, signal)
