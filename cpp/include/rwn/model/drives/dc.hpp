@@ -37,7 +37,8 @@ struct DcDrive {
     S torque(const auto& x, const S& flux, const S&) const { return winding_.torque_constant * flux * x[0]; }
 
     /// Its part of A (n by n), the speed in row `w`; the resistance counts 2^level times.
-    void couple(auto&& a, std::size_t n, std::size_t w, double resistances, const S& inverse_inertia, bool stick) const {
+    void couple(auto&& a, std::size_t n, std::size_t w, double resistances, const S& inverse_inertia,
+                bool stick) const {
       a[0] = -(resistances * winding_.resistance * inverse_inductance_);
       a[w] = -(winding_.back_emf_constant * inverse_inductance_);
       if (!stick) a[w * n] = winding_.torque_constant * inverse_inertia;
