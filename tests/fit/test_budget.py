@@ -144,7 +144,7 @@ def test_a_search_that_was_cut_short_says_so(monkeypatch: pytest.MonkeyPatch) ->
     warnings = [rwn.diagnose([wavy], model).warnings]
     monkeypatch.setattr(budget, "TOTAL", 1e8)
     warnings.append(rwn.diagnose([wavy], model).warnings)
-    assert ["the search ended early: beside " in " ".join(texts) for texts in warnings] == [False, True]
+    assert ["not tried in addition to" in " ".join(texts) for texts in warnings] == [False, True]
 
 
 def test_the_search_that_looks_no_further_still_finds_what_is_missing() -> None:

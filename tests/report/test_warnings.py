@@ -58,7 +58,7 @@ def test_what_was_not_tried_is_said_by_name(
     ranking: Any = SimpleNamespace(weighted=SimpleNamespace(noise={}), not_tried=(left,), at_a_limit=())
     chosen: Any = SimpleNamespace(added=(), final=None)
     (warning,) = assemble._warnings(ranking, chosen, (), ())
-    assert warning.startswith(f"the search ended early: beside Coulomb friction + unbalance, {said}; --effort 3")
+    assert warning.startswith(f"the search ended early: {said} in addition to Coulomb friction + unbalance; --effort")
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered, log_density
 from rwn.measurement.likelihood import DECISIVE, is_decisive, log_likelihood, log_posterior
 from rwn.measurement.sensor_filter import filters_and_likelihood
-from rwn.measurement.unrecorded_input import ROUNDS, has_unknown_input, with_inferred_input
+from rwn.measurement.unrecorded_input import ROUNDS, has_unknown_input, rounds, with_inferred_input
 from rwn.model.initial_state import CERTAIN
 from rwn.model.model import Model
 from rwn.parallel import side_by_side
@@ -57,8 +57,11 @@ def likeliest(problem: Problem, this: Fit) -> str:
         found = refit(this, under_law, iterations=NEAR_ITS_END)
         if not has_unknown_input(under_law):
             return under_law, found
-        told = with_inferred_input(under_law, found)
-        return told, refit(found, told, iterations=NEAR_ITS_END)
+        told = under_law
+        for _ in range(rounds(under_law)):
+            told = with_inferred_input(told, found)
+            found = refit(found, told, iterations=NEAR_ITS_END)
+        return told, found
 
     refitted = dict(zip(candidates, side_by_side(with_input, candidates.values()), strict=True))
     return _chosen(refitted, {law: log_likelihood(*refitted[law]) for law in candidates})
@@ -160,9 +163,11 @@ def _input_inferred(problem: Problem, explanation: Fit, filters: Sequence[Sensor
     """
     if not has_unknown_input(problem):
         return problem
-    told = with_inferred_input(*under_own_noise(explanation, filtered(problem, filters)))
-    acted = zip(problem.runs, told.runs, strict=True)
-    return replace(problem, runs=tuple(replace(run, applied_input=t.applied_input) for run, t in acted))
+    for _ in range(rounds(problem)):
+        told = with_inferred_input(*under_own_noise(explanation, filtered(problem, filters)))
+        acted = zip(problem.runs, told.runs, strict=True)
+        problem = replace(problem, runs=tuple(replace(run, applied_input=t.applied_input) for run, t in acted))
+    return problem
 
 
 def _leading(refitted: Mapping[str, tuple[Problem, Fit]]) -> set[str]:

@@ -51,8 +51,12 @@ def under_own_colour(problem: Problem, this: Fit) -> Problem:
 
 
 def log_likelihood(problem: Problem, this: Fit) -> float:
-    """Of what a fit leaves, all signals together; up to a constant."""
-    return sum(log_likelihoods(problem, this).values())
+    """Of what a fit leaves, all signals together, and of the switches of an input among all that it might have been.
+
+    Up to a constant.
+    """
+    ways = sum(run.applied_input.log_ways for run in problem.runs if run.applied_input)
+    return sum(log_likelihoods(problem, this).values()) - ways
 
 
 def log_likelihoods(problem: Problem, this: Fit) -> dict[str, float]:

@@ -21,6 +21,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.refitting import refitted_beside
 from rwn.measurement.filter_colour import SensorFilter
 from rwn.measurement.known_filters import filtered
+from rwn.measurement.switched_input import is_of_stairs, switched
 from rwn.model.model import Model
 from rwn.model.vocabulary import motor_index
 from rwn.recording.inspection import Finding, inspected
@@ -40,6 +41,7 @@ SLOW = 0.9  # pole of the high-pass filter: it forgets within tens of rows
 LASTS = 60  # rows after which nothing is left of a response in the filter
 FINE = 8  # steps of a response per row
 ROUNDS = 2  # of fitting the model and the input
+ROUNDS_OF_SWITCHES = 3
 TELLING = 200  # unknown values in a row, by which the share of their deviations is known to five per cent
 STEPS = 20  # of expectation and maximisation
 LEAST_SHARE = 1e-6  # of a variance: less moves nothing
@@ -96,6 +98,12 @@ def with_inferred_input(problem: Problem, this: Fit) -> Problem:
     return replace(problem, runs=tuple(runs))
 
 
+def rounds(problem: Problem) -> int:
+    """How often a fit and the input take turns: a switch that is told wrong keeps a fit from telling others."""
+    applied = [run.applied_input for run in problem.runs if _is_unknown(run)]
+    return ROUNDS_OF_SWITCHES if any(given is not None and is_of_stairs(given) for given in applied) else 1
+
+
 def inferred_input_findings(unseen: Sequence[Run], given: str) -> list[Finding]:
     """What a check says of recordings that were not fitted, where their motion told some of their input, `given`."""
     return [
@@ -126,7 +134,9 @@ def _inferred(
     from scipy.sparse import diags_array
 
     unknown = given.spread > 0.0
-    one = unknown[1:] & unknown[:-1] & (np.diff(given.gaps) == 0 if given.gaps is not None else False)
+    stairs = is_of_stairs(given)
+    together = None if stairs else given.gaps  # values that lie off the line as one
+    one = unknown[1:] & unknown[:-1] & (np.diff(together) == 0 if together is not None else False)
     begins = np.concatenate([[True], ~one])
     first = np.flatnonzero(unknown & begins)
     after = np.flatnonzero(begins & np.concatenate([[False], unknown[:-1]]))
@@ -149,6 +159,8 @@ def _inferred(
         errors[signal] = compared * lfilter([1.0, -1.0], [1.0, -SLOW], filled) + responses[signal] @ before
     if not responses:
         return given
+    if stairs:
+        return switched(given, responses, errors)
     share, levels = _magnitudes(responses, errors, given.spread[first])
     responses = {s: r / levels[s] for s, r in responses.items()}
     rng = np.random.default_rng(0)

@@ -35,7 +35,8 @@ class PiecewiseInput(Values):
     What no row shows lies off the line between its neighbours, as far as the way through them bends: it may be anywhere
     in that, of which 1/sqrt(12) is the standard deviation. `gaps`: neighbours that are not known lie off it together
     where their numbers (m,) are the same; None: each by itself. `noise_left`: the share of the noise of a signal
-    that is left in its errors where the values were inferred from these.
+    that is left in its errors where the values were inferred from these. `ramps`: it may move from value to value.
+    `log_ways`: logarithm of the number of ways between which the values were chosen by the errors.
     """
 
     instants: Array
@@ -43,6 +44,8 @@ class PiecewiseInput(Values):
     spread: Array
     gaps: NDArray[np.int64] | None = None
     noise_left: Mapping[str, float] = field(default_factory=dict)
+    ramps: bool = False
+    log_ways: float = 0.0
 
     def since(self, begin: float) -> PiecewiseInput:
         """The input of the recording from `begin` [s] on, in the time of that part."""
@@ -100,7 +103,7 @@ def _in_parts(time: Array, values: Array, *, parts: int) -> PiecewiseInput | Non
 
 def _linear(time: Array, values: Array) -> PiecewiseInput | None:
     """It moved on the line from row to row."""
-    return _divided(time, values, np.full(time.size - 1, FINE), _on_line)
+    return replace(_divided(time, values, np.full(time.size - 1, FINE), _on_line), ramps=True)
 
 
 def _noted_late(time: Array, values: Array) -> PiecewiseInput:

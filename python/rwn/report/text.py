@@ -165,9 +165,8 @@ def not_tried_in_words(left: NotTried) -> str:
     if more > 1:
         names = [*names[:NAMED_AT_ONCE], f"{more} others (not_tried in diagnosis.json)"]
     return (
-        f"the search ended early: beside {' + '.join(map(plain_name, left.beside))}, {listing(names)} "
-        f"{'were' if len(names) > 1 else 'was'} not tried; --effort 3, or recordings of fewer samples, leave room for "
-        "more"
+        f"the search ended early: {listing(names)} {'were' if len(names) > 1 else 'was'} not tried in addition to "
+        f"{' + '.join(map(plain_name, left.beside))}; --effort 3, or recordings of fewer samples, leave room for more"
     )
 
 

@@ -1,0 +1,92 @@
+"""An input of stairs where no row shows it: between two rows of different values it switched once, or moved on a line.
+
+At which of the ticks between them the motion that followed tells: of the few ways that each gap may have gone, those
+that leave least of the errors are found one after the other, the others as they are thought to be, until none changes
+(iterated conditional modes, Besag 1986).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rwn.recording.intersample import PiecewiseInput
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_array, csr_array
+
+Array = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+SWEEPS = 10  # over all gaps; most need three
+RESTS = 0.5  # share of the rows from which an input of stairs does not change to the next
+
+
+def is_of_stairs(given: PiecewiseInput) -> bool:
+    """Whether the input rests at what a row shows until the next more often than not."""
+    rows = np.flatnonzero(given.spread == 0.0)
+    return bool(rows.size > 1 and np.mean(given.values[rows[1:]] == given.values[rows[:-1]]) > RESTS)
+
+
+def switched(given: PiecewiseInput, responses: Mapping[str, csr_array], errors: Mapping[str, Array]) -> PiecewiseInput:
+    """`given` with its unknown values as a switch in each gap between known ones leaves least of the errors.
+
+    Args:
+        given: an input of stairs.
+        responses: of each signal (n, m), in units of its noise, to 1 more at each of the m unknown values.
+        errors: of each signal (n,), in these units, under `given`.
+    """
+    from scipy.sparse import vstack  # late: the command line starts without it
+
+    unknown = np.flatnonzero(given.spread > 0.0)
+    response = vstack(list(responses.values())).tocsc()
+    left = np.concatenate(list(errors.values()))
+    gaps = [_gap(given, ticks, response, int(np.searchsorted(unknown, ticks[0]))) for ticks in _apart(unknown)]
+    chosen = np.full(len(gaps), -1)
+    for _ in range(SWEEPS):
+        before = chosen.copy()
+        for k, gap in enumerate(gaps):
+            here = left[gap.rows]
+            if chosen[k] >= 0:
+                here = here + gap.adds[:, chosen[k]]
+            chosen[k] = int(np.argmin(gap.size - 2.0 * (here @ gap.adds)))
+            left[gap.rows] = here - gap.adds[:, chosen[k]]
+        if np.array_equal(chosen, before):
+            break
+    values = given.values.copy()
+    for gap, way in zip(gaps, chosen, strict=True):
+        values[gap.ticks] = gap.ways[way]
+    return replace(given, values=values, log_ways=float(sum(np.log(len(gap.ways)) for gap in gaps)))
+
+
+class _Gap(NamedTuple):
+    """Ticks (u,) that no row shows, the ways (k, u) their values may go, and what each adds to some rows, (r, k)."""
+
+    ticks: Places
+    ways: Array
+    rows: Places
+    adds: Array
+    size: Array  # (k,) sums of squares of what they add
+
+
+def _gap(given: PiecewiseInput, ticks: Places, response: csc_array, column: int) -> _Gap:
+    """That of `ticks`, the first of which is `column` of the unknown ones."""
+    before, after = given.values[max(ticks[0] - 1, 0)], given.values[min(ticks[-1] + 1, given.values.size - 1)]
+    late = np.arange(ticks.size)[None, :] < np.arange(ticks.size + 1)[:, None]  # before the switch
+    ways = np.where(late, before, after)
+    if given.ramps:
+        ways = np.vstack([ways, given.values[ticks]])
+    ways = np.unique(ways, axis=0)
+    block = response[:, column : column + ticks.size]
+    rows = np.unique(block.indices)
+    adds = block[rows].toarray() @ (ways - given.values[ticks]).T
+    return _Gap(ticks, ways, rows, adds, np.sum(adds**2, axis=0))
+
+
+def _apart(unknown: Places) -> list[Places]:
+    """Unknown ticks (m,) of each gap between known ones."""
+    return np.split(unknown, np.flatnonzero(np.diff(unknown) > 1) + 1)
