@@ -27,6 +27,7 @@ from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
 from rwn.name.forward import Progress
 from rwn.parallel import thread_pool
+from rwn.prove.as_simulated import as_simulated
 from rwn.recording.inspection import Finding, inspected
 from rwn.recording.inspection.overlap import overlaps
 from rwn.recording.recording import Recording, remarks
@@ -99,8 +100,9 @@ def diagnose(
         )  # fmt: skip
     findings = (*seen_in_fitted, *held, *held_back, *found.findings, *seen_in_judged, *common, *unseen.findings(found))
     layout = reduce(lambda known, fault: fault.in_layout(known), found.faults, made.corrected.recording)
-    corrected = replace(made.corrected, recording=layout)
-    made = replace(made, corrected=corrected, findings=findings, warnings=(*made.warnings, *said), sources=used)
+    rows = as_simulated(made.heldout, found.ranking.problem, unseen.runs, unseen.alone, correction.final)
+    made = replace(made, heldout=rows, corrected=replace(made.corrected, recording=layout), findings=findings)
+    made = replace(made, warnings=(*made.warnings, *said), sources=used)
     return in_file_units(made, (*fitted, *judged))
 
 
@@ -117,6 +119,7 @@ class _Unseen:
     """Recordings that were kept back, without the faults that were found, with what only their own motion tells."""
 
     runs: Sequence[Run]
+    alone: Sequence[Run]  # without what their own motion told of the input, or of their levels
     late: tuple[LateEnable, ...]
     sensor_errors: tuple[Finding, ...]
     contradicting: tuple[Finding, ...]
@@ -145,7 +148,8 @@ def _unseen(recordings: Sequence[Recording], fitted: Sequence[Recording], found:
     kept_back = replace(problem.in_free_run(), runs=runs(right))
     told = with_inferred_input(kept_back, best.final).runs
     told, contradicting = at_own_levels(found.ranking, told)
-    return _Unseen(runs=told, late=late, sensor_errors=(*mistaken, *found_in), contradicting=contradicting)
+    errors = (*mistaken, *found_in)
+    return _Unseen(runs=told, alone=kept_back.runs, late=late, sensor_errors=errors, contradicting=contradicting)
 
 
 def _check_options(seed: int, jobs: int | None, effort: float, progress: Any) -> None:

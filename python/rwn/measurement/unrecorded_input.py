@@ -45,6 +45,7 @@ ROUNDS_OF_SWITCHES = 3
 TELLING = 200  # unknown values in a row, by which the share of their deviations is known to five per cent
 STEPS = 20  # of expectation and maximisation
 LEAST_SHARE = 1e-6  # of a variance: less moves nothing
+TOLD = "told by the motion that followed"  # what is done about it in a recording that was not fitted
 LEAST_LEFT = 0.01  # of the noise of a signal: less is rounding
 
 
@@ -109,7 +110,7 @@ def inferred_input_findings(unseen: Sequence[Run], given: str) -> list[Finding]:
     return [
         Finding(
             kind="intersample", recording=run.name, signals=(given,), count=int(np.sum(applied.spread > 0.0)),
-            words=f"no row shows the {given} that acted between two of them", done="told by the motion that followed",
+            words=f"no row shows the {given} that acted between two of them", done=TOLD,
         )
         for run in unseen
         if (applied := run.applied_input) is not None and _is_unknown(run)

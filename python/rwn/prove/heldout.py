@@ -32,6 +32,8 @@ NOISE_FLOOR = (
 )
 GAIN = "1 - corrected / refitted; null: nothing was added, one of them ran away, or there was no error to remove"
 
+SIMULATED = "error as rwn simulate has it, where the others have numbers that were fitted to this recording; else null"
+
 
 @dataclass(frozen=True, kw_only=True)
 class HeldoutRow:
@@ -48,6 +50,7 @@ class HeldoutRow:
     noise_floor: Annotated[float | None, Meta(description=NOISE_FLOOR)]
     gain: Annotated[float | None, Meta(description=GAIN)] = None
     gain_interval: Annotated[tuple[float, float] | None, Meta(description="95 %, block bootstrap")] = None
+    simulated: Annotated[float | None, Meta(description=SIMULATED)] = None
 
     @property
     def certain_gain(self) -> tuple[float, float]:
@@ -90,8 +93,8 @@ def heldout_rows(
     rows = []
     for run in runs:
         # the model as given knows no levels of single recordings, as `rwn simulate` does not
-        given = _errors(_without_levels(problem), replace(run, levels=(), own_levels=()), nominal)
-        errors = [given, *(_errors(problem, run, h) for h in compared[1:])]
+        given = errors_alone(without_levels(problem), replace(run, levels=(), own_levels=()), nominal)
+        errors = [given, *(errors_alone(problem, run, h) for h in compared[1:])]
         begin = max(first, run.judged_from)
         late = np.arange(run.time.size) >= begin
         slow = _slow(run) & late
@@ -121,7 +124,7 @@ def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed:
     errors, force = [np.clip(e, -RAN_AWAY, RAN_AWAY) for e, _ in parts], parts[0][1]
     if not force.size:
         return []
-    percent = [100.0 * _rms(e) / _rms(force) for e in errors]
+    percent = [100.0 * rms(e) / rms(force) for e in errors]
     found = len(percent) == 3
     return [
         HeldoutRow(
@@ -133,12 +136,14 @@ def _force_row(problem: Problem, run: Run, compared: Sequence[Hypothesis], seed:
     ]  # fmt: skip
 
 
-def _without_levels(problem: Problem) -> Problem:
+def without_levels(problem: Problem) -> Problem:
+    """The problem of a model that knows no levels of single recordings."""
     of_runs = tuple(own for own in problem.prior.of_runs if not own.level)
     return replace(problem, prior=replace(problem.prior, of_runs=of_runs))
 
 
-def _errors(problem: Problem, run: Run, this: Hypothesis) -> dict[str, Array]:
+def errors_alone(problem: Problem, run: Run, this: Hypothesis) -> dict[str, Array]:
+    """Free-run errors (n,) of each signal of a run."""
     alone = replace(problem, runs=(run.following_nothing(),))
     found = alone.residuals(this.vector, this.active)[0]
     return dict(found)
@@ -160,17 +165,17 @@ def _row(
     found: bool,
     seed: int,
 ) -> HeldoutRow:
-    rms = [_rms(p) for p in parts]
-    gain = _gain(rms[1], rms[2]) if found else None
+    errors = [rms(p) for p in parts]
+    gain = _gain(errors[1], errors[2]) if found else None
     return HeldoutRow(
         recording=run.name,
         region=region,
         signal=signal,
         unit=units[signal],
         samples=parts[0].size,
-        nominal=rms[0],
-        refitted=rms[1],
-        corrected=rms[2] if found else None,
+        nominal=errors[0],
+        refitted=errors[1],
+        corrected=errors[2] if found else None,
         noise_floor=floor,
         gain=gain,
         gain_interval=gain_interval(parts[1], parts[2], seed=seed) if found else None,
@@ -186,7 +191,8 @@ def _gain(before: float, after: float) -> float | None:
     return 0.0 if after == 0.0 else None
 
 
-def _rms(x: Array) -> float:
+def rms(x: Array) -> float:
+    """Of errors (n,); inf where a simulation ran away."""
     return float(np.sqrt(np.nanmean(x**2))) if np.nanmax(np.abs(x)) < 0.5 * RAN_AWAY else float("inf")
 
 
@@ -272,7 +278,7 @@ def gain_interval(before: Array, after: Array, *, seed: int, draws: int = DRAWS)
     Blocks of twice the correlation time of the longer-lived squared error (after Politis, White 2004).
     """
     n = before.size
-    whole = _gain(_rms(before), _rms(after))
+    whole = _gain(rms(before), rms(after))
     if whole is None or not before.any():
         return None if whole is None else (whole, whole)
     length = int(np.clip(2.0 * max(correlation_time(before), correlation_time(after)), 1, max(1, n // 4)))

@@ -53,10 +53,10 @@ def _row(row: HeldoutRow, units: Units, *, linear: bool) -> HeldoutRow:
     if row.signal not in SIGNALS:  # a driving force is in percent
         return row
     scale, unit = _in_unit(row.signal, units, linear=linear)
-    corrected, floor = (None if x is None else x * scale for x in (row.corrected, row.noise_floor))
+    corrected, floor, simulated = (x and x * scale for x in (row.corrected, row.noise_floor, row.simulated))
     return replace(
         row, unit=unit, nominal=row.nominal * scale, refitted=row.refitted * scale, corrected=corrected,
-        noise_floor=floor,
+        noise_floor=floor, simulated=simulated,
     )  # fmt: skip
 
 

@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from functools import partial
 
 from rwn.faults.uneven_files import JUDGED_AT_ITS_OWN
+from rwn.measurement.unrecorded_input import TOLD
 from rwn.name.measurement import NEXT_TO_NOTHING
 from rwn.prove.heldout import HeldoutRow
 from rwn.prove.proof import LEFT_OUT
 from rwn.report.diagnosis_data import DiagnosisData
-from rwn.report.text import number, percent, prefix_for
+from rwn.report.text import listing, number, percent, prefix_for
 
 STANDS_OUT = 2.0  # error in units of the noise, from which three quarters of its square are something else
 SLIGHT = NEXT_TO_NOTHING  # of an error too
@@ -53,11 +54,12 @@ def worse(row: HeldoutRow) -> bool:
     return row.certain_gain[1] < 0.0
 
 
-def recording_in_words(name: str) -> str:
-    """ "run3.csv, which was not fitted", or the part of a recording that cross-validation left out."""
+def recording_in_words(row: HeldoutRow) -> str:
+    """ "run3.csv, not used for fitting", or the part of a recording that cross-validation left out."""
+    name = row.recording
     if name.endswith(LEFT_OUT):
         return f"{name.removesuffix(LEFT_OUT).strip()}, left out of the fit"
-    return f"{name}, not used for fitting"
+    return f"{name}, not used for fitting" + (" but for numbers of its own" if row.simulated is not None else "")
 
 
 def proof_of(found: DiagnosisData, how: str) -> Iterator[str]:
@@ -84,16 +86,24 @@ def proof_of(found: DiagnosisData, how: str) -> Iterator[str]:
 
 
 def _at_its_own(found: DiagnosisData, row: HeldoutRow) -> Iterator[str]:
-    """That a recording was judged with a number of its own, with which no corrected.toml simulates it."""
-    for finding in found.findings:
-        if finding.recording == row.recording and finding.done.startswith(JUDGED_AT_ITS_OWN):
-            yield f"There {finding.words}, and it was judged with its own: with corrected.toml rwn simulate errs more."
+    """What of a recording was judged with numbers of its own, and how far corrected.toml errs without them."""
+    if row.simulated is None:
+        return
+    here = [f for f in found.findings if f.recording == row.recording]
+    own = [f.words for f in here if f.done.startswith(JUDGED_AT_ITS_OWN)]
+    told = [f.done for f in here if f.done == TOLD]
+    if told:
+        own.append("its input between the rows was told by its motion")
+    what = listing(own or ["it has numbers of its own"])
+    error = error_in_words(row.simulated, *prefix_for(row.simulated, row.unit))
+    instead = f"not {before_after(row)[1]}" if row.simulated <= row.nominal else "more than the model as given"
+    yield f"There {what}; as rwn simulate runs corrected.toml, without that, it errs by {error}, {instead}."
 
 
 def _compared(row: HeldoutRow, corrected: float, how: str) -> str:
     """What a correction does to the error of one recording."""
     before, after = before_after(row)
-    there = f"on {recording_in_words(row.recording)},"
+    there = f"on {recording_in_words(row)},"
     where = f"the {row.signal} error {there}"
     near = f", {number(over_noise(row), 2)} times its noise" if 0.0 < over_noise(row) <= STANDS_OUT else ""
     if not math.isfinite(corrected):
@@ -125,7 +135,7 @@ def refitted_alone(found: DiagnosisData) -> Iterator[str]:
     row = headline(found)
     if row is not None and row.corrected is None:
         before, after = before_after(row)
-        where = f"the {row.signal} error on {recording_in_words(row.recording)},"
+        where = f"the {row.signal} error on {recording_in_words(row)},"
         yield f"With the refitted parameters alone {where} goes from {before}, as given, to {after}."
 
 
@@ -141,7 +151,7 @@ def how_far(found: DiagnosisData) -> Iterator[str]:
     row = max(rows, key=over_noise, default=None)
     if row is None or not row.noise_floor:
         return
-    where = recording_in_words(row.recording)
+    where = recording_in_words(row)
     if not math.isfinite(row.left):
         yield f"On {where}, the simulated {row.signal} runs away."
         return

@@ -156,7 +156,7 @@ def _more_than_noise(found: DiagnosisData) -> Iterator[str]:
     if row is not None and over_noise(row) > STANDS_OUT:
         where = f"the {row.signal} error is {number(over_noise(row), 2)} times its noise"
         where = where if math.isfinite(row.left) else f"the simulated {row.signal} runs away"
-        yield f"But on {recording_in_words(row.recording)}, {where}: that run shows what the fitted ones do not."
+        yield f"But on {recording_in_words(row)}, {where}: that run shows what the fitted ones do not."
     elif row is not None and not row.recording.endswith(LEFT_OUT):
         yield from how_far(found)
 

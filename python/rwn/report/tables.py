@@ -147,6 +147,9 @@ def _heldout_row(row: HeldoutRow, scale: float, unit: str) -> list[str]:
     shown = ["–" if e is None else escape(error_in_words(e, scale, unit)).replace(" ", "&nbsp;") for e in errors]
     said = (0, 1) if row.corrected is None else (1, 2)
     shown = [f"<b>{text}</b>" if k in said else text for k, text in enumerate(shown)]
+    if row.simulated is not None:
+        simulated = error_in_words(row.simulated, *words.prefix_for(row.simulated, row.unit))
+        shown[said[1]] += f" <span class=note>{escape(simulated)} as rwn simulate runs it</span>"
     gain = "–" if row.gain is None else words.percent(row.gain).replace("-", "−")
     if row.gain_interval is not None:
         digits = 1 if row.gain is not None and abs(row.gain) > 0.97 else 0
