@@ -22,7 +22,7 @@ from rwn.faults.uneven_files import at_own_levels, uneven_unseen
 from rwn.fit.nominal import check_it_begins, check_it_runs
 from rwn.fit.preparation import prepare
 from rwn.measurement.unrecorded_input import inferred_input_findings, with_inferred_input
-from rwn.model.files import model_of
+from rwn.model.files import model_to_fit
 from rwn.model.model import Model
 from rwn.model.recordings import read_recordings, recordings_to_fit, refuse_doubles
 from rwn.name.forward import Progress
@@ -76,7 +76,7 @@ def diagnose(
     began = time.perf_counter()
     say = progress or _silent
     _check_options(seed, jobs, effort, say)
-    model_given, model = model, model_of(model)
+    model_given, model = model, model_to_fit(model)
     fitted, judged = recordings_to_fit(recordings, model), read_recordings(heldout, model)
     refuse_doubles([*fitted, *judged])
     used = sources(model_given, fitted, judged)

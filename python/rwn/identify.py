@@ -21,7 +21,7 @@ from rwn.fit.problem import Problem
 from rwn.fit.residual_noise import noise_of, without_drift
 from rwn.fit.residuals import Statistics, statistics, structured
 from rwn.measurement.likeliest_law import with_intersample
-from rwn.model.files import model_of
+from rwn.model.files import model_to_fit
 from rwn.model.model import Model
 from rwn.model.recordings import recordings_to_fit
 from rwn.recording.inspection import Finding, inspected
@@ -106,7 +106,7 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
     Where that comes to no model of them, as with a sign error, `failure` says why. Raises InputError where a recording
     does not fit the model.
     """
-    model = model_of(model)
+    model = model_to_fit(model)
     given = recordings_to_fit(recordings, model)
     runs, findings = inspected(given)
     if model.effects:

@@ -54,6 +54,26 @@ def check_nominal(values: Mapping[str, float], known: Iterable[NominalParameter]
             )
 
 
+FARTHEST = 10.0  # times each other that two parameters may be which are one number but for losses
+
+
+def check_one_numbers(drive: Drive, parameters: Mapping[str, float], *, where: str) -> None:
+    """No two parameters that are one number in SI are far apart: one lacks its unit. Raises InputError."""
+    units = {entry.name: entry.unit for entry in drive.parameters}
+    for pair in drive.one_numbers:
+        small, large = sorted((pair.name, pair.like), key=lambda name: abs(parameters.get(name, 0.0)))
+        if abs(parameters.get(large, 0.0)) > FARTHEST * abs(parameters.get(small, math.inf)):
+            ratio = abs(parameters[large] / parameters[small]) if parameters[small] else math.inf
+            raise InputError(
+                f"{large} is {parameters[large]:g} {units[large]} and {small} {parameters[small]:g} {units[small]}, "
+                f"{ratio:.3g} times apart",
+                where=where,
+                expected="about the same number: in SI they are one of a machine",
+                fix=f'write the unit of the data sheet with the value, as in {pair.like} = "{parameters[pair.like]:g} '
+                f'{pair.data_sheet_unit}", or leave one of them out',
+            )
+
+
 LOOSEST = 3.0  # relative deviation; at 95 % it leaves a factor of 400 either way, which says as much as inf
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rwn.errors import InputError
 from rwn.input_file import input_file, path_of
+from rwn.model.checks import check_one_numbers
 from rwn.model.model import Model
 from rwn.model.toml_reader import parse_model
 from rwn.model.toml_writer import format_model
@@ -31,6 +32,13 @@ def model_of(source: Model | str | Path) -> Model:
         expected="a path, or a rwn.Model",
         fix='pass for instance "motor.toml"',
     )
+
+
+def model_to_fit(source: Model | str | Path) -> Model:
+    """The same, of which no two parameters contradict each other. Raises InputError."""
+    model = model_of(source)
+    check_one_numbers(model.drive, model.parameters, where=model.source or "model")
+    return model
 
 
 def write_model(model: Model, path: str | Path) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from rwn.faults.held_shaft import held_finding
 from rwn.faults.late_enable import late_enables, powered
 from rwn.faults.plain_faults import plain_faults
+from rwn.model.files import model_to_fit
 from rwn.model.model import Model
 from rwn.recording.clock import clock_of
 from rwn.recording.inspection import inspected
@@ -24,6 +25,7 @@ def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
 
     Raises InputError where a recording does not fit the model.
     """
+    model = model_to_fit(model)
     usable = [inspected([each]) for each in recordings]
     late = late_enables([recording for (recording,), _ in usable], model)
     for place, ((recording,), findings) in enumerate(usable):

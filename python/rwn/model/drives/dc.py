@@ -64,6 +64,8 @@ DC = DcMotor(
         "resistance": ("drop", "current"),
         "back_emf_constant": ("drop", "speed"),
     },
-    one_numbers=(OneNumber(name="torque_constant", like="back_emf_constant", spread=0.02),),  # with a constant field
+    one_numbers=(  # with a constant field
+        OneNumber(name="torque_constant", like="back_emf_constant", spread=0.02, data_sheet_unit="V/krpm"),
+    ),
     mechanics=AXIS,
 )

@@ -45,6 +45,7 @@ class OneNumber:
     name: str
     like: str  # the other one
     spread: float  # relative standard deviation of their ratio
+    data_sheet_unit: str  # that data sheets have `like` in
 
 
 @dataclass(frozen=True, kw_only=True)

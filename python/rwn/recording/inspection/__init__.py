@@ -16,6 +16,7 @@ from rwn.recording.inspection.hum import without_hum
 from rwn.recording.inspection.input_noise import without_input_noise
 from rwn.recording.inspection.motion import contradictions
 from rwn.recording.inspection.spikes import SPIKES
+from rwn.recording.inspection.supply_current import without_supply_current
 from rwn.recording.recording import Recording
 
 __all__ = ["CHECKS", "Check", "Finding", "Inspected", "inspected", "without_samples"]
@@ -34,8 +35,9 @@ def inspected(recordings: Sequence[Recording]) -> Inspected:
     """What every check found; samples that measure nothing are not compared with a simulation."""
     made, found = [], []
     for recording in recordings:
-        recording, steps = without_noise_on_steps(recording)
-        found += steps
+        for without in (without_supply_current, without_noise_on_steps):
+            recording, said = without(recording)
+            found += said
         for check in CHECKS:
             for signal in (s for s in check.signals if s in recording.signals):
                 flags = check.flags(recording, signal)
