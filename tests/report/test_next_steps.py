@@ -9,8 +9,10 @@ import pytest
 import made_up
 from made_up_curves import law
 from rwn.decide.account import Remainder
+from rwn.faults.uneven_files import DISAGREE
 from rwn.fit.intervals import Estimate
 from rwn.name.found_effect import FoundEffect
+from rwn.recording.inspection import Finding
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.diagnosis_data import Beneath
 from rwn.report.next_steps import next_steps
@@ -22,6 +24,8 @@ def unexplained(**changed: object) -> Diagnosis:
     """Something without a name, with no experiment that is known to tell."""
     return replace(made_up.unexplained(), **{**NEW, **changed})  # type: ignore[arg-type]
 
+
+DIFFERS = Finding(kind=DISAGREE, recording="b.csv", signals=(), count=0, words="", quantity="inertia")
 
 # the diagnosis, the beginning of each sentence in turn
 STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
@@ -57,6 +61,10 @@ STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
     "too little motion": (
         replace(made_up.adequate(), verdict="insufficient-excitation"),
         ("Record a run that moves both ways",),
+    ),
+    "recordings of two machines": (
+        replace(made_up.adequate(), findings=(DIFFERS, replace(DIFFERS, recording="c.csv", quantity=""))),
+        ("b.csv and c.csv and the other recordings are of machines that differ in inertia", "corrected.toml", "What"),
     ),
     "a mistake": (made_up.mistake(), ("Correct the recording, or the columns",)),
     "a mistake that was not undone": (replace(made_up.mistake(), beneath=None), ("Correct the recording",)),

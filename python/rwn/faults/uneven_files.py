@@ -14,6 +14,7 @@ from rwn.name.ranking import Ranking
 from rwn.recording.inspection import Finding
 from rwn.simulate.run import Run
 
+DISAGREE = "files-disagree"  # kind of the finding that a number differs which is one of a machine
 JUDGED_AT_ITS_OWN = "judged with its own"  # what is done about a recording that was not fitted
 
 
@@ -86,7 +87,7 @@ def _of_the_machine(level: Level) -> str:
 
 
 def _kind(level: Level) -> str:
-    return "files-disagree" if level.lasting else "uneven-load" if level.adds else "uneven-friction"
+    return DISAGREE if level.lasting else "uneven-load" if level.adds else "uneven-friction"
 
 
 def _off(level: Level, off: float) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rwn.decide.account import ActingEffect
+from rwn.faults.uneven_files import DISAGREE
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.held import held_part, holds_no_effect
 from rwn.report.proof_sentences import SLIGHT
@@ -26,7 +27,18 @@ def next_steps(found: DiagnosisData) -> tuple[str, ...]:
         "insufficient-excitation": _insufficient,
         "recording-mistake": _mistake,
     }[found.verdict](found)
-    return tuple(made)
+    return (*_apart(found), *made)
+
+
+def _apart(found: DiagnosisData) -> Iterator[str]:
+    """Recordings of different machines are no evidence of what one of them lacks."""
+    differ = dict.fromkeys(f.quantity for f in found.findings if f.kind == DISAGREE and f.quantity)
+    if differ:
+        other = listing([*dict.fromkeys(f.recording for f in found.findings if f.kind == DISAGREE)])
+        yield (
+            f"{other} and the other recordings are of machines that differ in {listing([*differ])}: diagnose those "
+            "that are alike by themselves first."
+        )
 
 
 def _missing(found: DiagnosisData) -> Iterator[str]:

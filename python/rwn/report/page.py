@@ -140,6 +140,9 @@ def _findings(found: DiagnosisData) -> str:
     return "".join(parts)
 
 
+OWN = " What has a second error was judged with numbers that were fitted to that recording itself."
+
+
 def _proof(found: DiagnosisData) -> str:
     kept_back = any(plot.use == "heldout" for plot in found.curves)
     rows = tables.heldout_table(found.heldout)
@@ -147,7 +150,8 @@ def _proof(found: DiagnosisData) -> str:
         what = "on recordings that were not fitted" if kept_back else "of fits that did not see what they are judged on"
         rows += (
             f'<p class="note">Free run from the input alone, rms error, {what}. '
-            "Gain = 1 − corrected / refitted, with its 95 % interval by block bootstrap.</p>"
+            "Gain = 1 − corrected / refitted, with its 95 % interval by block bootstrap."
+            f"{OWN if any(row.simulated is not None for row in found.heldout) else ''}</p>"
         )
     return rows + _recordings(found, "heldout" if kept_back else "fit")
 
