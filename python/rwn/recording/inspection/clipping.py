@@ -61,10 +61,16 @@ def _by_chance(count: int, expected: float) -> float:
     return float(pdtrc(count - 2, expected)) if count > 1 else 1.0
 
 
+def _words(signal: str, flags: Flags) -> str:
+    count = int(flags.sum())
+    are = "samples of the {} are" if count > 1 else "sample of the {} is"
+    return f"{count} {are.format(signal)} at the end of its range"
+
+
 CLIPPING = Check(
     kind="clipping",
     flags=_clipped,
-    words=lambda signal, flags: f"{int(flags.sum())} samples of the {signal} are at the end of its range",
+    words=_words,
     done="left out",
     signals=("current", "speed"),
 )
