@@ -1,4 +1,4 @@
-"""Instants as text, as loggers write them: 2024-01-01T12:00:00.001+01:00."""
+"""Instants as text, as loggers write them: 2024-01-01T12:00:00.001+01:00, 01.01.2024 12:00:00,001, 12:00:00.001."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ import re
 import numpy as np
 
 _STAMP = re.compile(
-    r"\s*(?P<day>\d{4}-\d\d-\d\d)[T ](?P<clock>\d\d:\d\d(:\d\d([.,]\d{1,9})?)?)"
+    r"\s*((?P<day>\d{4}[-/]\d\d[-/]\d\d|\d\d\.\d\d\.\d{4})[T ]+)?"
+    r"(?P<clock>\d\d:\d\d(:\d\d([.,]\d{1,9})?)?)"
     r"\s*(?P<zone>Z|(?P<sign>[+-])(?P<hours>\d\d):?(?P<minutes>\d\d))?\s*",
 )
+
+ANY_DAY = "1970-01-01"  # of a time of day
 
 
 def instant(cell: str) -> np.datetime64 | None:
@@ -17,8 +20,11 @@ def instant(cell: str) -> np.datetime64 | None:
     found = _STAMP.fullmatch(cell)
     if found is None:
         return None
+    day = (found["day"] or ANY_DAY).replace("/", "-")
+    if "." in day:
+        day = "-".join(reversed(day.split(".")))
     try:
-        local = np.datetime64(f"{found['day']}T{found['clock'].replace(',', '.')}", "ns")
+        local = np.datetime64(f"{day}T{found['clock'].replace(',', '.')}", "ns")
     except ValueError:  # the 31st of June
         return None
     minutes = 60 * int(found["hours"]) + int(found["minutes"]) if found["sign"] else 0
