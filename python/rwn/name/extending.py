@@ -55,11 +55,11 @@ def beside(
         parts = _complete_explanation(problem, found)
         rivals = bool(parts) and not parts & set(base.added)
         here = [n for n in names if n in parts] if rivals else names
-        untried = [name for name in here if name not in base.added and (base.added, name) not in tried]
+        untried = [name for name in here if (base.added, name) not in tried]
         skip = (place or known.fits) and not rivals and not affords_more(problem.work)
         new = [] if skip else affordable(problem, base, untried, fits)
-        if len(new) < len(untried):
-            left.append(NotTried(beside=base.added, effects=tuple(name for name in untried if name not in new)))
+        if skipped := tuple(name for name in untried if name not in (*new, *base.added)):
+            left.append(NotTried(beside=base.added, effects=skipped))
         if skip:
             continue
         found += screen(problem, base, new, keep=1, best=min((f.cost for f in found), default=np.inf))
