@@ -72,3 +72,13 @@ def test_a_torque_that_is_everywhere_is_nowhere_more_than_elsewhere() -> None:
 
 def test_an_axis_has_metres() -> None:
     assert {r.unit for r in found(np.ones(TIME.size), linear=True)} <= {"m/s", "m/s^2", "s", ""}
+
+
+def test_a_blow_now_and_then_is_at_single_instants() -> None:
+    struck = 0.01 * np.random.default_rng(3).standard_normal(SPEED.size)
+    struck[::500] += 5.0
+    best, *others = found(struck)
+    assert best.name == "single instants"
+    assert best.share > 0.5
+    assert best.samples_share <= 0.01
+    assert not any(r.name == "single instants" for r in (*others, *found(0.01 * np.sign(SPEED))))

@@ -11,10 +11,11 @@ from made_up_curves import law
 from rwn.decide.account import Remainder
 from rwn.faults.uneven_files import DISAGREE
 from rwn.fit.intervals import Estimate
+from rwn.mismatch_map.regions import INSTANTS, Region
 from rwn.name.found_effect import FoundEffect
 from rwn.recording.inspection import Finding
 from rwn.report.diagnosis import Diagnosis
-from rwn.report.diagnosis_data import Beneath
+from rwn.report.diagnosis_data import Beneath, Location
 from rwn.report.next_steps import next_steps
 
 NEW = {"next_experiment": ""}
@@ -27,11 +28,17 @@ def unexplained(**changed: object) -> Diagnosis:
 
 DIFFERS = Finding(kind=DISAGREE, recording="b.csv", signals=(), count=0, words="", quantity="inertia")
 
+AT_INSTANTS = Region(coordinate="time", low=0.3, high=2.0, unit="s", share=0.9, samples_share=0.01, name=INSTANTS)
+
 # the diagnosis, the beginning of each sentence in turn
 STEPS: dict[str, tuple[Diagnosis, tuple[str, ...]]] = {
     "a law over a signal": (
         unexplained(curves=(law(),)),
         ("It is drawn over speed in", "Nearest names, not stated: unbalance (31 %).", "Record again with more"),
+    ),
+    "at single instants": (
+        unexplained(curves=(), account=(), location=Location(regions=(AT_INSTANTS,))),
+        ("Look at the recordings where the error jumps: a logger that loses rows",),
     ),
     "an experiment in its place": (
         unexplained(next_experiment="Turn it by hand.", curves=(), account=()),

@@ -13,6 +13,8 @@ from rwn.simulate.unknown_inputs import UnknownInputs
 Array = NDArray[np.float64]
 
 
+INSTANTS = "single instants"
+FEW, MOST = 0.01, 0.5  # share of the samples, and of the energy in them, of a mismatch of single instants
 NO_STEP = 1e-9  # of the largest value: two that lie as near are one, but for rounding
 
 
@@ -36,6 +38,7 @@ def regions(inputs: Sequence[UnknownInputs], *, linear: bool = False) -> tuple[R
         for name in ("speed", "acceleration", "current", "angle", "time")
     }
     energy = np.concatenate([u.mismatch for u in inputs]) ** 2
+    at_instants = _instants(joined["time"], energy)
     energy = np.minimum(energy, np.percentile(energy, 99.9))
     speed = joined["speed"]
     length = "m" if linear else "rad"
@@ -46,6 +49,7 @@ def regions(inputs: Sequence[UnknownInputs], *, linear: bool = False) -> tuple[R
         _stretch("time", joined["time"], energy, "s"),
         _stretch("direction", np.sign(np.where(np.abs(speed) < 0.01 * peak, 0.0, speed)), energy, ""),
         _reversals(speed, energy, f"{length}/s"),
+        at_instants,
     ]
     if np.any(joined["current"]):
         found.append(_stretch("current", np.abs(joined["current"]), energy, "A"))
@@ -53,6 +57,19 @@ def regions(inputs: Sequence[UnknownInputs], *, linear: bool = False) -> tuple[R
         found.append(_stretch("angle", np.mod(joined["angle"], 2.0 * np.pi), energy, "rad"))
     kept = [r for r in found if r is not None and r.samples_share > 0.0]
     return tuple(sorted(kept, key=lambda r: -(r.share - r.samples_share)))
+
+
+def _instants(time: Array, energy: Array) -> Region | None:
+    """The few samples that hold most of the energy, where there are such: of noise they hold a tenth."""
+    count = max(1, int(FEW * energy.size))
+    these = np.argpartition(energy, -count)[-count:]
+    share = float(energy[these].sum() / (energy.sum() or 1.0))
+    if share < MOST:
+        return None
+    return Region(
+        coordinate="time", low=float(time[these].min()), high=float(time[these].max()), unit="s", name=INSTANTS,
+        share=share, samples_share=count / energy.size,
+    )  # fmt: skip
 
 
 def _stretch(name: str, x: Array, energy: Array, unit: str, bins: int = 12) -> Region | None:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from rwn.decide.account import ActingEffect
 from rwn.faults.uneven_files import DISAGREE
+from rwn.mismatch_map.regions import INSTANTS
 from rwn.report.diagnosis_data import DiagnosisData
 from rwn.report.held import held_part, holds_no_effect
 from rwn.report.proof_sentences import SLIGHT
@@ -81,7 +82,12 @@ def _unexplained(found: DiagnosisData) -> Iterator[str]:
 
 
 def _again(found: DiagnosisData) -> Iterator[str]:
-    if found.location.regions:
+    if found.location.regions and found.location.regions[0].name == INSTANTS:
+        yield (
+            "Look at the recordings where the error jumps: a logger that loses rows while its times go on evenly, a "
+            "glitch of a sensor or a blow shows at single instants, and is no law."
+        )
+    elif found.location.regions:
         yield (
             "Record again with more of the motion where it is strongest, and one run at half that amplitude: what "
             "grows with it and what does not tells causes apart."
