@@ -72,6 +72,15 @@ class Identification(Shown):
         names = ", ".join(self.parameters)
         return f"<Identification {self.status}: {names}; {self.residual_over_noise:.3g} x the noise is left>"
 
+    def __str__(self) -> str:
+        """`repr`, and a line for each parameter."""
+        low_and_high = {n: e.interval or (float("nan"), float("nan")) for n, e in self.parameters.items()}
+        values = (
+            f"  {name} = {e.value:.6g} [{low_and_high[name][0]:.6g}, {low_and_high[name][1]:.6g}] {e.unit}".rstrip()
+            for name, e in self.parameters.items()
+        )
+        return "\n".join((repr(self), *values))
+
     def _repr_html_(self) -> str:
         rows = ["".join(f"<td>{_cell(value)}</td>" for value in row.values()) for row in self._rows()]
         head = "".join(f"<th>{name}</th>" for name in COLUMNS)
@@ -132,8 +141,18 @@ def identify(recordings: Any, model: Model | str | Path) -> Identification:
         not_identifiable=_unseen(this, left),
         residual_over_noise=left.variance**0.5,
         findings=findings,
-        warnings=tuple(warning for recording in given for warning in recording.warnings),
+        warnings=(
+            *(warning for recording in given for warning in recording.warnings),
+            *([_more_than_noise(coloured)] if coloured and not reasons else ()),
+        ),
         recordings=tuple(given),
+    )
+
+
+def _more_than_noise(signals: Sequence[str]) -> str:
+    return (
+        f"what is left of the {' and '.join(signals)} is not noise: the model lacks something, and the parameters take "
+        "up some of it; rwn diagnose says what"
     )
 
 
