@@ -74,11 +74,8 @@ class Identification(Shown):
 
     def __str__(self) -> str:
         """`repr`, and a line for each parameter."""
-        low_and_high = {n: e.interval or (float("nan"), float("nan")) for n, e in self.parameters.items()}
-        values = (
-            f"  {name} = {e.value:.6g} [{low_and_high[name][0]:.6g}, {low_and_high[name][1]:.6g}] {e.unit}".rstrip()
-            for name, e in self.parameters.items()
-        )
+        rows = ([_cell(value) for value in row.values()] for row in self._rows())
+        values = (f"  {name} = {value} [{low}, {high}] {unit}".rstrip() for name, value, low, high, unit in rows)
         return "\n".join((repr(self), *values))
 
     def _repr_html_(self) -> str:

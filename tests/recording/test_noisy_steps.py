@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import rwn
 from rwn.recording.inspection import inspected
 from rwn.recording.inspection.converter_steps import without_noise_on_steps
-from rwn.recording.quantisation import noisy_steps
+from rwn.recording.noisy_steps import noisy_steps
 
 Array = NDArray[np.float64]
 

@@ -25,7 +25,7 @@ def as_simulated(
         alone: the same with nothing that their own motion told.
         corrected: whose values the corrected model has.
     """
-    plain, problem = without_levels(problem.in_free_run()), problem.in_free_run()
+    plain = without_levels(problem.in_free_run())
     this = corrected.hypothesis.starting_at(corrected.minimum.values)
     has_levels = any(own.level for own in problem.prior.of_runs)
     errors = {

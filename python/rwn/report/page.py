@@ -31,6 +31,7 @@ _VERDICTS = {
     "recording-mistake": ("Recording mistake", "#962d3e"),
 }
 _PANELS = ("response", "residual-time", "input")  # of a recording, over one time axis
+_OWN_NUMBERS = " What has a second error was judged with numbers that were fitted to that recording itself."
 _OFFLINE = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
 _HERE = Path(__file__).parent
 _PLOTLY = _HERE / "vendor" / "plotly-basic.min.js.gz"
@@ -140,9 +141,6 @@ def _findings(found: DiagnosisData) -> str:
     return "".join(parts)
 
 
-OWN = " What has a second error was judged with numbers that were fitted to that recording itself."
-
-
 def _proof(found: DiagnosisData) -> str:
     kept_back = any(plot.use == "heldout" for plot in found.curves)
     rows = tables.heldout_table(found.heldout)
@@ -151,7 +149,7 @@ def _proof(found: DiagnosisData) -> str:
         rows += (
             f'<p class="note">Free run from the input alone, rms error, {what}. '
             "Gain = 1 − corrected / refitted, with its 95 % interval by block bootstrap."
-            f"{OWN if any(row.simulated is not None for row in found.heldout) else ''}</p>"
+            f"{_OWN_NUMBERS if any(row.simulated is not None for row in found.heldout) else ''}</p>"
         )
     return rows + _recordings(found, "heldout" if kept_back else "fit")
 

@@ -91,8 +91,7 @@ def _at_its_own(found: DiagnosisData, row: HeldoutRow) -> Iterator[str]:
         return
     here = [f for f in found.findings if f.recording == row.recording]
     own = [f.words for f in here if f.done.startswith(JUDGED_AT_ITS_OWN)]
-    told = [f.done for f in here if f.done == TOLD]
-    if told:
+    if any(f.done == TOLD for f in here):
         own.append("its input between the rows was told by its motion")
     what = listing(own or ["it has numbers of its own"])
     error = error_in_words(row.simulated, *prefix_for(row.simulated, row.unit))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.inspection.finding import Finding
-from rwn.recording.quantisation import NoisySteps, noisy_steps
+from rwn.recording.noisy_steps import NoisySteps, noisy_steps
 from rwn.recording.recording import Recording
 from rwn.recording.signals import MEASURED, SIGNALS, si_unit
 
