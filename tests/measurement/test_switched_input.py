@@ -75,6 +75,17 @@ def test_an_input_may_have_moved_on_a_line() -> None:
     assert np.array_equal(switched(given, {"speed": still[0]}, {"speed": still[1]}).values, given.values)
 
 
+def test_a_gap_that_was_told_a_switch_may_go_back_to_the_line() -> None:
+    given = _thinned(_two_levels(np.random.default_rng(3), 600, 4), 2, "line")
+    unknown = np.flatnonzero(given.spread)
+    response = {"speed": csr_array(np.eye(unknown.size))}
+    once = switched(given, response, {"speed": np.full(unknown.size, 10.0)})  # all lie above the line
+    assert not np.array_equal(once.values, given.values)
+    back = switched(once, response, {"speed": given.values[unknown] - once.values[unknown]})
+    assert np.array_equal(back.values, given.values)
+    assert back.log_ways == once.log_ways
+
+
 def _recorded(every: int, effects: dict[str, dict[str, float]]) -> tuple[Array, rwn.Recording]:
     rng, time = np.random.default_rng(5), STEP * np.arange(4500)
     voltage = _two_levels(rng, time.size, 15)

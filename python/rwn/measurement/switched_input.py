@@ -75,11 +75,12 @@ class _Gap(NamedTuple):
 
 def _gap(given: PiecewiseInput, ticks: Places, response: csc_array, column: int) -> _Gap:
     """That of `ticks`, the first of which is `column` of the unknown ones."""
-    before, after = given.values[max(ticks[0] - 1, 0)], given.values[min(ticks[-1] + 1, given.values.size - 1)]
+    beside = [max(ticks[0] - 1, 0), min(ticks[-1] + 1, given.values.size - 1)]
+    before, after = given.values[beside]
     late = np.arange(ticks.size)[None, :] < np.arange(ticks.size + 1)[:, None]  # before the switch
     ways = np.where(late, before, after)
     if given.ramps:
-        ways = np.vstack([ways, given.values[ticks]])
+        ways = np.vstack([ways, np.interp(given.instants[ticks], given.instants[beside], [before, after])])
     ways = np.unique(ways, axis=0)
     block = response[:, column : column + ticks.size]
     rows = np.unique(block.indices)
