@@ -51,6 +51,20 @@ def test_no_command_shows_the_help(monkeypatch: pytest.MonkeyPatch, capsys: pyte
     assert "\n  diagnose " in capsys.readouterr().err
 
 
+def test_an_option_that_is_missing_is_explained(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["rwn", "check", "run.csv"])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    assert end.value.code == 2
+    assert "Missing option '--model'; expected the nominal model (TOML); fix: " in capsys.readouterr().err
+
+
+def test_a_wildcard_in_quotes(refuse: Refuse) -> None:
+    assert "; fix: take the quotes away" in refuse(csv_text(), extra=("--heldout", "run*.csv"))
+
+
 def test_judging_by_the_fitted_recording(refuse: Refuse) -> None:
     assert "given twice" in refuse(csv_text(), extra=("--heldout", "TMP/run.csv"))
 

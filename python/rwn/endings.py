@@ -100,6 +100,14 @@ def _stopped() -> None:
         os.write(sys.stderr.fileno(), b"rwn: stopped\n")
 
 
+def _what_is_missing(error: Exception) -> str:
+    """What an option or argument that was not given is for, in the words of --help."""
+    about = getattr(getattr(error, "param", None), "help", None)
+    if not about or type(error).__name__ != "MissingParameter":
+        return ""
+    return f"; expected {about[0].lower()}{about[1:].rstrip('.')}"
+
+
 def _refuse(error: Exception) -> NoReturn:
     """One line for what the user can mend; anything else is a defect of ours and keeps its traceback."""
     usage_error = hasattr(error, "format_message")  # what typer raises for wrong usage has it
@@ -110,7 +118,7 @@ def _refuse(error: Exception) -> NoReturn:
             print(error.format_message(), file=sys.stderr)
             sys.exit(REFUSED)
         usage = getattr(getattr(error, "ctx", None), "command_path", "rwn")
-        text = f"{error.format_message().rstrip('.')}; fix: see {usage} --help"
+        text = f"{error.format_message().rstrip('.')}{_what_is_missing(error)}; fix: see {usage} --help"
     elif isinstance(error, OSError) and error.filename is not None:
         text = f"{error.filename}: {error.strerror}; expected a file in reach; fix: check path, permissions, disk space"
     else:

@@ -51,7 +51,8 @@ def closest(name: str, names: Iterable[str]) -> str | None:
 def unrecognised(kind: str, name: str, names: Iterable[str], *, where: object) -> InputError:
     """The error for a `name` that is none of `names`, with the one that was probably meant."""
     known = list(names)
-    meant = closest(name, known)
+    words = [candidate for candidate in known if candidate in name.lower().split()]
+    meant = closest(name, known) or (words[0] if len(words) == 1 else None)
     return InputError(
         f"unknown {kind} '{name}'",
         where=where,

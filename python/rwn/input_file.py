@@ -9,6 +9,9 @@ from pathlib import Path
 
 from rwn.errors import InputError, plain
 
+_WILDCARDS = frozenset("*?[")
+_NO_MATCH = "take the quotes away, if a shell should expand this; if it did, no file is called so"
+
 
 @contextmanager
 def input_file(path: Path, expected: str) -> Iterator[None]:
@@ -33,7 +36,7 @@ def input_file(path: Path, expected: str) -> Iterator[None]:
             f"cannot read the file ({(error.strerror or str(error)).lower()})",
             where=path,
             expected=expected,
-            fix="check the path and its permissions",
+            fix=_NO_MATCH if _WILDCARDS & set(path.name) else "check the path and its permissions",
         ) from error
 
 

@@ -149,6 +149,7 @@ def test_a_model_cannot_be_changed_from_outside() -> None:
     ("wrong", "said"),
     [
         ({"kind": "DC"}, "unknown kind 'DC'.*did you mean 'dc'"),
+        ({"kind": "DC motor"}, "unknown kind 'DC motor'.*did you mean 'dc'"),
         ({"parameters": {"resistence": 1.0}}, "unknown parameter 'resistence'.*did you mean 'resistance'"),
         ({"uncertainty": {"inertias": 0.1}}, r"\[uncertainty\]: unknown parameter 'inertias'"),
         ({"effects": {"quadratic_drag": {}}}, "unknown effect.*did you mean 'quadratic-drag'"),

@@ -49,7 +49,7 @@ RECORDINGS: dict[str, tuple[str, tuple[str, ...]]] = {
     ),
     "missing voltage": (
         csv_text("time [s],x [V],current [A],speed [rad/s]"),
-        ("there is no 'voltage'", "kind 'dc'"),
+        ("there is no 'voltage'", "not used: x", "kind 'dc'"),
     ),
     "missing time": (csv_text("k [1],voltage [V],current [A],speed [rad/s]"), ("'time'", "sample_time")),
     "misspelt speed": (

@@ -15,6 +15,7 @@ from rwn.model.files import model_of
 from rwn.model.initial_state import initial_state_of
 from rwn.model.model import Model
 from rwn.recording.check import MIN_SAMPLES, SMALLEST, check_samples
+from rwn.recording.columns import NOT_USED
 from rwn.recording.copies import is_piece
 from rwn.recording.recording import Recording, read_recording
 from rwn.recording.signals import COLUMNS, SIGNALS, TIME
@@ -71,11 +72,13 @@ def _check_sensors(recording: Recording, model: Model, where: str) -> None:
 
 
 def _missing(recording: Recording, name: str, why: str) -> InputError:
-    has = ", ".join(recording.signals) or "no signal at all"
+    where = recording.source or recording.name
+    left = [said.removeprefix(f"{where}: ") for said in recording.warnings if said.startswith(f"{where}: {NOT_USED}")]
+    has = "; ".join([", ".join(recording.signals) or "no signal at all", *left])
     unit = SIGNALS[name].unit or SIGNALS[name].linear_unit
     return InputError(
         f"there is no '{name}' ({why}); it has {has}",
-        where=recording.source or recording.name,
+        where=where,
         expected=f"a column '{name} [{unit}]'",
         fix=f"add it, or map it under [recording.columns] in the model file{_other_kind(recording, name)}",
     )

@@ -18,6 +18,7 @@ from rwn.recording.signals import COLUMNS, SIGNALS, TIME, meant, si_unit
 
 Array = NDArray[np.float64]
 
+NOT_USED = "not used"  # said of the columns that are no signal
 
 def column_map(table: Table, layout: Layout, *, needed: Collection[str] = COLUMNS) -> dict[str, Column]:
     """Every signal's column: those of the layout, and those that the file calls by the signal's name.
@@ -154,7 +155,7 @@ def unused(table: Table, mapping: Mapping[str, Column]) -> tuple[str, ...]:
     if not extra:
         return ()
     shown = ", ".join(extra[:8]) + (f" and {len(extra) - 8} more" if len(extra) > 8 else "")
-    return (f"{table.where}: not used: {shown}",)
+    return (f"{table.where}: {NOT_USED}: {shown}",)
 
 
 def refuse_without_units(table: Table, mapping: Mapping[str, Column]) -> None:
