@@ -103,9 +103,8 @@ def main() -> None:
         name: partial(_core.simulate, _core.Task(kind, time=t, input=force), vector, active, wanted)
         for name, kind, force, vector, active, wanted in rows
     }
-    halts = {
-        name: f"{stops(np.array(runs[name]()[2])):.2f} stops per 1000 steps" for name, *_, active, _ in rows if active
-    }
+    halted = {name: stops(runs[name]().signals["speed"]) for name, *_, active, _ in rows if active}
+    halts = {name: f"{per_thousand:.2f} stops per 1000 steps" for name, per_thousand in halted.items()}
     runs |= in_numba(reversing)
     found = [(name, s, halts.get(name, ""), N) for name, s in zip(runs, best_of_each(list(runs.values())), strict=True)]
     found += [("axis, no effects, fresh memory", fresh, "", N), *effects()]
