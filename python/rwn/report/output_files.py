@@ -39,7 +39,7 @@ def output_folder(path: Path, *, overwrite: bool = False, inputs: Sequence[Path]
                 "the output folder exists and is not empty",
                 where=path,
                 expected="a new or empty folder",
-                fix="choose another --out, or add --overwrite",
+                fix="choose another --out, or add --overwrite (in Python overwrite=True)",
             )
         with _aside(path, path) as aside:
             yield aside / HALF
@@ -102,7 +102,7 @@ def output_file(path: Path, *, overwrite: bool = False, inputs: Sequence[Path] =
             "the output file exists",
             where=path,
             expected="a new file",
-            fix="choose another --out, or add --overwrite",
+            fix="choose another --out, or add --overwrite (in Python overwrite=True)",
         )
     there = _existing(path.parent)
     with _aside(there, path) as aside:
