@@ -81,7 +81,13 @@ def _written(rng: np.random.Generator) -> Array:
     return np.round(np.arange(200) * 0.02 + 1e-9 * rng.standard_normal(200), 4)
 
 
-@pytest.mark.parametrize("signal", [_plain, _periodic, _stairs, _levels, _written])
+def _turned(rng: np.random.Generator) -> Array:
+    """The position of a shaft at a steady speed, updated every fourth row, which creeps before it."""
+    pace = np.append(np.linspace(0.0, 1.0, 40) ** 2, 1.0 + 0.01 * np.sin(0.05 * np.arange(180)))
+    return np.repeat(np.cumsum(pace) + 0.05 * rng.standard_normal(pace.size), 4)
+
+
+@pytest.mark.parametrize("signal", [_plain, _periodic, _stairs, _levels, _written, _turned])
 def test_a_signal_without_steps_has_none(signal: Callable[[np.random.Generator], Array]) -> None:
     assert not any(noisy_steps(signal(np.random.default_rng(seed))) for seed in range(60))
 

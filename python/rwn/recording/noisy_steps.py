@@ -80,10 +80,17 @@ def _clearest_frequency(signal: Array) -> float:
 
 
 def _chance(signal: Array, steps: NoisySteps) -> float:
-    """That a signal without steps seems to have these: if each level that it came to lay anywhere, by itself."""
-    came = np.abs(np.diff(signal, prepend=np.inf)) > 0.5 * steps.step
-    cells = np.round((signal[came] - steps.offset) / steps.step)
-    turned = np.exp(2j * np.pi * (signal[came] - steps.offset) / steps.step)
+    """That a signal without steps seems to have these: if each level that it came to lay anywhere, by itself.
+
+    One that moves at a steady pace comes to levels that are equally far apart without any steps: only where a value
+    that is new lies further, or less far, from the one before than that from its own does a level count.
+    """
+    new = signal[np.diff(signal, prepend=np.inf) != 0.0]
+    turns = (new - steps.offset) / steps.step
+    moved = np.diff(np.round(turns), prepend=np.inf)
+    came = (moved != 0.0) & (moved != np.concatenate([[np.inf], moved[:-1]]))
+    came[0] = True
+    cells, turned = np.round(turns[came]), np.exp(2j * np.pi * turns[came])
     _, of = np.unique(cells, return_inverse=True)
     each = np.bincount(of, turned.real) / np.bincount(of) + 1j * np.bincount(of, turned.imag) / np.bincount(of)
     return float(MOST_STEPS * np.exp(-each.size * np.abs(np.mean(each)) ** 2))
