@@ -87,9 +87,8 @@ def _chance(signal: Array, steps: NoisySteps) -> float:
     """
     new = signal[np.diff(signal, prepend=np.inf) != 0.0]
     turns = (new - steps.offset) / steps.step
-    moved = np.diff(np.round(turns), prepend=np.inf)
-    came = (moved != 0.0) & (moved != np.concatenate([[np.inf], moved[:-1]]))
-    came[0] = True
+    moved = np.round(np.diff(turns, prepend=np.inf))
+    came = (moved != 0.0) & (moved != np.concatenate([[0.0], moved[:-1]]))
     cells, turned = np.round(turns[came]), np.exp(2j * np.pi * turns[came])
     _, of = np.unique(cells, return_inverse=True)
     each = np.bincount(of, turned.real) / np.bincount(of) + 1j * np.bincount(of, turned.imag) / np.bincount(of)
