@@ -218,3 +218,12 @@ def test_a_speed_next_to_zero_is_no_count(least: float) -> None:
     time = np.cumsum(1e-3 * (1.0 + 0.1 * rng.uniform(-1.0, 1.0, 400)))
     speed = np.append(np.full(100, least), rng.uniform(-5.0, 5.0, 300))
     assert speed_measurement(time, speed, np.empty(0)) == INSTANTANEOUS
+
+
+def test_a_shaft_that_turns_slowly_does_not_say_where_the_middle_is_by_most_rows() -> None:
+    """It stands, or turns by as many counts after a row as before it, in most of them: both differences fit there."""
+    fine = np.arange(8000) * 0.5e-3
+    angle = counted(5.0 * fine + 0.4 * np.sin(2.0 * fine), 512)
+    centred = difference(CENTRAL, fine, angle)[::2]
+    assert speed_measurement(TIME, centred, angle[::2]) is INSTANTANEOUS
+    assert speed_measurement(TIME, difference(CENTRAL, TIME, angle[::2]), angle[::2]) is CENTRAL

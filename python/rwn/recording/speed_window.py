@@ -66,7 +66,7 @@ def is_centred(time: Array, speed: Array, position: Array, rows: NDArray[np.intp
         return False
     line, at, own = position[rows], time[moving], speed[moving]
     backward, centred = (
-        np.median(np.abs(own - (np.interp(at + b, time[rows], line) - np.interp(at - a, time[rows], line)) / (a + b)))
+        np.mean(np.abs(own - (np.interp(at + b, time[rows], line) - np.interp(at - a, time[rows], line)) / (a + b)))
         for a, b in ((2.0 * half, 0.0), (half, half))
     )
     floor = 1e-12 * float(np.max(np.abs(speed)))
