@@ -37,7 +37,7 @@ def test_a_recording_keeps_the_units_of_its_source(tmp_path: Path) -> None:
 def test_what_is_there_stays_unless_it_may_be_replaced(tmp_path: Path) -> None:
     model, path = rwn.read_model(DEMO / "model.toml"), tmp_path / "model.toml"
     path.write_text("mine")
-    with pytest.raises(rwn.InputError, match="the output file exists.*overwrite=True"):
+    with pytest.raises(rwn.InputError, match=r"the output file exists.*overwrite=True"):
         rwn.save(model, path)
     assert path.read_text() == "mine"
     rwn.save(model, path, overwrite=True)
