@@ -17,6 +17,7 @@ from rwn.errors import InputError
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import BELIEVABLE
 from rwn.name.found_effect import FoundEffect
+from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording, read_recording
 from rwn.report.diagnosis import Diagnosis
 from rwn.report.file_units import in_file_units
@@ -124,6 +125,14 @@ def test_frc_speed_lags_the_voltage(shared: Path) -> None:
     assert 0.06 < frc.dead_time(run) < 0.12
     with pytest.raises(InputError, match="there is no test 'sideways'"):
         frc.read_sysid(folder / file, "sideways", columns, unit)
+
+
+def test_no_steps_are_found_in_what_moves_at_a_steady_pace(shared: Path) -> None:
+    """The positions of the drivetrain, updated every fourth row, are nearly as far apart as each other."""
+    folder = shared / "data" / frc.MACHINE.folder
+    for file, _, columns, unit in frc.MECHANISMS:
+        runs = [frc.read_sysid(folder / file, test, columns, unit) for test in (*frc.FITTED, *frc.HELDOUT)]
+        assert "converter-steps" not in {finding.kind for finding in inspected(runs).findings}
 
 
 @pytest.mark.slow
