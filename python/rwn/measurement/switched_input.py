@@ -44,8 +44,11 @@ def switched(given: PiecewiseInput, responses: Mapping[str, csr_array], errors: 
 
     unknown = np.flatnonzero(given.spread > 0.0)
     response = vstack(list(responses.values())).tocsc()
-    left = np.concatenate(list(errors.values()))
-    gaps = [_gap(given, ticks, response, int(np.searchsorted(unknown, ticks[0]))) for ticks in _apart(unknown)]
+    flat, moved = _gaps(given, unknown)
+    levelled = replace(given, values=_at_their_level(given, flat))
+    left = np.concatenate(list(errors.values())) - response @ (levelled.values - given.values)[unknown]
+    given = levelled
+    gaps = [_gap(given, ticks, response, int(np.searchsorted(unknown, ticks[0]))) for ticks in moved]
     chosen = np.full(len(gaps), -1)
     for _ in range(SWEEPS):
         before = chosen.copy()
@@ -74,20 +77,35 @@ class _Gap(NamedTuple):
 
 
 def _gap(given: PiecewiseInput, ticks: Places, response: csc_array, column: int) -> _Gap:
-    """That of `ticks`, the first of which is `column` of the unknown ones."""
+    """That of `ticks` between values that differ, the first of which is `column` of the unknown ones."""
     beside = [max(ticks[0] - 1, 0), min(ticks[-1] + 1, given.values.size - 1)]
     before, after = given.values[beside]
     late = np.arange(ticks.size)[None, :] < np.arange(ticks.size + 1)[:, None]  # before the switch
     ways = np.where(late, before, after)
     if given.ramps:
         ways = np.vstack([ways, np.interp(given.instants[ticks], given.instants[beside], [before, after])])
-    ways = np.unique(ways, axis=0)
-    block = response[:, column : column + ticks.size]
-    rows = np.unique(block.indices)
-    adds = block[rows].toarray() @ (ways - given.values[ticks]).T
+    ends = response.indptr[column : column + ticks.size + 1]
+    rows, at = np.unique(response.indices[ends[0] : ends[-1]], return_inverse=True)
+    block = np.zeros((rows.size, ticks.size))
+    block[at, np.repeat(np.arange(ticks.size), np.diff(ends))] = response.data[ends[0] : ends[-1]]
+    adds = block @ (ways - given.values[ticks]).T
     return _Gap(ticks, ways, rows, adds, np.sum(adds**2, axis=0))
 
 
-def _apart(unknown: Places) -> list[Places]:
-    """Unknown ticks (m,) of each gap between known ones."""
-    return np.split(unknown, np.flatnonzero(np.diff(unknown) > 1) + 1)
+def _gaps(given: PiecewiseInput, unknown: Places) -> tuple[list[Places], list[Places]]:
+    """Unknown ticks (m,) of each gap between known ones: of those beside which the values are one, and of the rest."""
+    gaps = np.split(unknown, np.flatnonzero(np.diff(unknown) > 1) + 1)
+    before = given.values[[max(ticks[0] - 1, 0) for ticks in gaps]]
+    after = given.values[[min(ticks[-1] + 1, given.values.size - 1) for ticks in gaps]]
+    flat, moved = list[Places](), list[Places]()
+    for ticks, differ in zip(gaps, before != after, strict=True):
+        (moved if differ else flat).append(ticks)
+    return flat, moved
+
+
+def _at_their_level(given: PiecewiseInput, gaps: list[Places]) -> Array:
+    """The values with gaps (m,) as the known values before them."""
+    values = given.values.copy()
+    for ticks in gaps:
+        values[ticks] = values[max(ticks[0] - 1, 0)]
+    return values
