@@ -87,7 +87,13 @@ def _turned(rng: np.random.Generator) -> Array:
     return np.repeat(np.cumsum(pace) + 0.05 * rng.standard_normal(pace.size), 4)
 
 
-@pytest.mark.parametrize("signal", [_plain, _periodic, _stairs, _levels, _written, _turned])
+def _turned_and_lost(rng: np.random.Generator) -> Array:
+    """The same with a tenth of the updates lost."""
+    updates = _turned(rng)[::4]
+    return np.repeat(updates[rng.random(updates.size) > 0.1], 4)
+
+
+@pytest.mark.parametrize("signal", [_plain, _periodic, _stairs, _levels, _written, _turned, _turned_and_lost])
 def test_a_signal_without_steps_has_none(signal: Callable[[np.random.Generator], Array]) -> None:
     assert not any(noisy_steps(signal(np.random.default_rng(seed))) for seed in range(60))
 

@@ -82,13 +82,15 @@ def _clearest_frequency(signal: Array) -> float:
 def _chance(signal: Array, steps: NoisySteps) -> float:
     """That a signal without steps seems to have these: if each level that it came to lay anywhere, by itself.
 
-    One that moves at a steady pace comes to levels that are equally far apart without any steps: only where a value
-    that is new lies further, or less far, from the one before than that from its own does a level count.
+    One that moves at a steady pace comes to levels that are equally far apart without any steps: only one at which it
+    stayed, with a value that is new, or from which it went back, counts.
     """
     new = signal[np.diff(signal, prepend=np.inf) != 0.0]
     turns = (new - steps.offset) / steps.step
-    moved = np.round(np.diff(turns, prepend=np.inf))
-    came = (moved != 0.0) & (moved != np.concatenate([[0.0], moved[:-1]]))
+    moved = np.round(np.diff(turns, prepend=turns[0]))
+    came = (moved != 0.0) & (moved * np.append(moved[1:], 0.0) <= 0.0)
+    if not came.any():
+        return 1.0
     cells, turned = np.round(turns[came]), np.exp(2j * np.pi * turns[came])
     _, of = np.unique(cells, return_inverse=True)
     each = np.bincount(of, turned.real) / np.bincount(of) + 1j * np.bincount(of, turned.imag) / np.bincount(of)
