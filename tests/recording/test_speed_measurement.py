@@ -227,3 +227,10 @@ def test_a_shaft_that_turns_slowly_does_not_say_where_the_middle_is_by_most_rows
     centred = difference(CENTRAL, fine, angle)[::2]
     assert speed_measurement(TIME, centred, angle[::2]) is INSTANTANEOUS
     assert speed_measurement(TIME, difference(CENTRAL, TIME, angle[::2]), angle[::2]) is CENTRAL
+
+
+@pytest.mark.parametrize("way", [CENTRAL, BACKWARD])
+def test_rows_that_are_lost_do_not_hide_how_a_speed_was_measured(way: SpeedMeasurement) -> None:
+    position = counted(20.0 * TIME + 2.0 * np.sin(5.0 * TIME), 2048)
+    kept = np.random.default_rng(1).random(TIME.size) > 0.3
+    assert speed_measurement(TIME[kept], difference(way, TIME, position)[kept], position[kept]) is way

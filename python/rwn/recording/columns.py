@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 
 NOT_USED = "not used"  # said of the columns that are no signal
 
+
 def column_map(table: Table, layout: Layout, *, needed: Collection[str] = COLUMNS) -> dict[str, Column]:
     """Every signal's column: those of the layout, and those that the file calls by the signal's name.
 

@@ -17,10 +17,10 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 SHORTEST = 20  # samples that say how a speed was obtained
-# Error of a difference of the recorded position, in units of the noise that it has, of three quarters of the rows: of
-# encoders it is up to 0.08 where rows are off their times, of speeds that were measured otherwise 0.12 and more
-# (trials 1 to 300 of 10147). In half of the rows a slow shaft may stand, or turn by as many counts after as before.
-REPEATED, ROWS = 0.1, 75.0
+REPEATED = 0.05  # error of a difference of the recorded position, in units of the noise that it has
+NEARER = 0.25  # the same of three quarters of the rows: of encoders up to 0.1, of what is half of a count off 0.5
+GAP = 1.5  # times the usual interval, beyond which rows were lost
+ROUNDED = 1e-3  # of the largest change of its pace, up to which digits that were not written make it
 # Power near half the sampling rate over that near a quarter: a rounded speed has 0.4 to 1, central differences 0.005,
 # differences over one sample 2.
 VANISHING = 0.05  # ratio below which there is no power, as of central differences
@@ -158,11 +158,20 @@ def integral(measurement: SpeedMeasurement, time: Array, speed: Array) -> Array:
 
 
 def _repeats(time: Array, speed: Array, position: Array, way: SpeedMeasurement) -> float:
-    """How far a speed is off a difference of the position, in units of the noise that this has."""
+    """How far a speed is off a difference of the position, in units of the noise that this has.
+
+    Where a slow shaft turns by as many counts after a row as before it, every difference fits: such rows say nothing.
+    """
     expected = difference(way, time, position)
-    noise = np.percentile(np.abs(np.diff(expected, 2)), ROWS)
-    error = np.percentile(np.abs(speed - expected), ROWS)
-    return float(error / noise) if noise > 0.0 else np.inf
+    noise = np.abs(np.diff(expected, 2))
+    intervals, bends = np.diff(time), np.abs(np.diff(position, 2))
+    whole = intervals < GAP * np.median(intervals)  # nothing is lost
+    tells = whole[1:] & whole[:-1] & (bends > ROUNDED * bends.max())
+    if not tells.any():
+        return np.inf
+    own, errors = np.median(noise[tells]), np.abs(speed - expected)[1:-1][tells]
+    fits = np.percentile(errors, 75.0) < NEARER * own
+    return float(np.median(errors) / own) if fits else np.inf
 
 
 def _of_counts(power: _Power, time: Array, speed: Array, step: float) -> SpeedMeasurement:

@@ -58,7 +58,7 @@ def is_centred(time: Array, speed: Array, position: Array, rows: NDArray[np.intp
 
     Of a recording (n,); `rows`: where speed and position were updated. A drive that logs slower than it runs takes one
     over its own rows, which are not recorded; what lies between is a line here. Errors are independent and Laplace's,
-    as in `window_of`.
+    of which the mean is the scale: in most rows of a slow shaft both differences may be the same.
     """
     inner, half = rows[1:-1], 0.5 * float(np.median(np.diff(time[rows])))
     moving = inner[position[rows[2:]] != position[rows[:-2]]][:JUDGED]
