@@ -105,7 +105,8 @@ def _what_is_missing(error: Exception) -> str:
     about = getattr(getattr(error, "param", None), "help", None)
     if not about or type(error).__name__ != "MissingParameter":
         return ""
-    return f"; expected {about[0].lower()}{about[1:].rstrip('.')}"
+    first = about[0] if about[1:2].isupper() else about[0].lower()  # an abbreviation stays as it is
+    return f"; expected {first}{about[1:].rstrip('.')}"
 
 
 def _refuse(error: Exception) -> NoReturn:

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from rwn.errors import InputError, plain
 
-_WILDCARDS = frozenset("*?[")
-_NO_MATCH = "take the quotes away, if a shell should expand this; if it did, no file is called so"
+_WILDCARDS = frozenset("*?")
+_NO_MATCH = "no file has this name: a shell expands wildcards, and only without quotes"
 
 
 @contextmanager
@@ -32,11 +32,12 @@ def input_file(path: Path, expected: str) -> Iterator[None]:
             )
         yield
     except OSError as error:
+        missing = isinstance(error, FileNotFoundError)
         raise InputError(
             f"cannot read the file ({(error.strerror or str(error)).lower()})",
             where=path,
             expected=expected,
-            fix=_NO_MATCH if _WILDCARDS & set(path.name) else "check the path and its permissions",
+            fix=_NO_MATCH if missing and _WILDCARDS & set(str(path)) else "check the path and its permissions",
         ) from error
 
 

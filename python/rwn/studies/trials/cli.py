@@ -23,7 +23,7 @@ Jobs = Annotated[int, typer.Option(min=1, help="Processes.")]
 
 @app.command()
 def make(
-    seed: Annotated[int, typer.Option(help="Below 10000: development; from 10000 on: test.")],
+    seed: Annotated[int, typer.Option(help="A seed: below 10000 for development, from 10000 on for tests.")],
     count: Annotated[int, typer.Option(min=1, help="Number of trials.")],
     out: Annotated[Path, typer.Option(help="Folder to make.")],
     first: Annotated[int | None, typer.Option(min=1, help="Make so many of the COUNT, from the first on.")] = None,
