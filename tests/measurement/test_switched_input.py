@@ -66,6 +66,8 @@ def test_the_switches_are_found_at_their_ticks(every: int, law: str) -> None:
 def test_an_input_that_moves_at_most_rows_is_none_of_stairs() -> None:
     swept = np.sin(0.02 * np.arange(600.0))
     assert not is_of_stairs(_thinned(swept, 2, "halves"))
+    held_for_longer = np.concatenate([swept, np.zeros(1000), swept])
+    assert not is_of_stairs(_thinned(held_for_longer, 2, "halves"))
 
 
 def test_an_input_may_have_moved_on_a_line() -> None:

@@ -23,13 +23,14 @@ Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 
 SWEEPS = 10  # over all gaps; most need three
-RESTS = 0.5  # share of the rows from which an input of stairs does not change to the next
 
 
 def is_of_stairs(given: PiecewiseInput) -> bool:
-    """Whether the input rests at what a row shows until the next more often than not."""
-    rows = np.flatnonzero(given.spread == 0.0)
-    return bool(rows.size > 1 and np.mean(given.values[rows[1:]] == given.values[rows[:-1]]) > RESTS)
+    """Whether most changes from one row to the next come alone: before and after them the input rests."""
+    changes = np.diff(given.values[given.spread == 0.0]) != 0.0
+    rests = np.concatenate([[True], ~changes, [True]])
+    alone = changes & rests[:-2] & rests[2:]
+    return 2 * int(np.count_nonzero(alone)) > int(np.count_nonzero(changes))
 
 
 def switched(given: PiecewiseInput, responses: Mapping[str, csr_array], errors: Mapping[str, Array]) -> PiecewiseInput:
