@@ -79,7 +79,7 @@ class _Gap(NamedTuple):
 
 def _gap(given: PiecewiseInput, ticks: Places, response: csc_array, column: int) -> _Gap:
     """That of `ticks` between values that differ, the first of which is `column` of the unknown ones."""
-    beside = [max(ticks[0] - 1, 0), min(ticks[-1] + 1, given.values.size - 1)]
+    beside = _beside(given, ticks)
     before, after = given.values[beside]
     late = np.arange(ticks.size)[None, :] < np.arange(ticks.size + 1)[:, None]  # before the switch
     ways = np.where(late, before, after)
@@ -96,11 +96,10 @@ def _gap(given: PiecewiseInput, ticks: Places, response: csc_array, column: int)
 def _gaps(given: PiecewiseInput, unknown: Places) -> tuple[list[Places], list[Places]]:
     """Unknown ticks (m,) of each gap between known ones: of those beside which the values are one, and of the rest."""
     gaps = np.split(unknown, np.flatnonzero(np.diff(unknown) > 1) + 1)
-    before = given.values[[max(ticks[0] - 1, 0) for ticks in gaps]]
-    after = given.values[[min(ticks[-1] + 1, given.values.size - 1) for ticks in gaps]]
     flat, moved = list[Places](), list[Places]()
-    for ticks, differ in zip(gaps, before != after, strict=True):
-        (moved if differ else flat).append(ticks)
+    for ticks in gaps:
+        before, after = given.values[_beside(given, ticks)]
+        (flat if before == after else moved).append(ticks)
     return flat, moved
 
 
@@ -108,5 +107,10 @@ def _at_their_level(given: PiecewiseInput, gaps: list[Places]) -> Array:
     """The values with gaps (m,) as the known values before them."""
     values = given.values.copy()
     for ticks in gaps:
-        values[ticks] = values[max(ticks[0] - 1, 0)]
+        values[ticks] = values[_beside(given, ticks)[0]]
     return values
+
+
+def _beside(given: PiecewiseInput, ticks: Places) -> list[int]:
+    """The known ticks before and after those of a gap; its own at an end of the recording."""
+    return [max(int(ticks[0]) - 1, 0), min(int(ticks[-1]) + 1, given.values.size - 1)]

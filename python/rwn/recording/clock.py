@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+LOST_ROW = 1.5  # median intervals between two rows, from which on one is missing between them
 IRREGULAR = 1e-3  # jitter that is more than rounded timestamps
 FIRST = 512  # rows that show a clock beside which they lie up to 0.4 periods off
 SEARCHED = 4.0  # deviations of the median step of the first rows, within which the period is looked for

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.recording.by_content import ByContent
-from rwn.recording.clock import clock_beside, clock_of
+from rwn.recording.clock import LOST_ROW, clock_beside, clock_of
 from rwn.recording.quantisation import NEAR, quantum
 from rwn.recording.speed_window import is_centred, window_of
 
@@ -18,8 +18,7 @@ Flags = NDArray[np.bool_]
 
 SHORTEST = 20  # samples that say how a speed was obtained
 REPEATED = 0.05  # error of a difference of the recorded position, in units of the noise that it has
-NEARER = 0.25  # the same of three quarters of the rows: of encoders up to 0.1, of what is half of a count off 0.5
-GAP = 1.5  # times the usual interval, beyond which rows were lost
+NEARER = 0.25  # the same of three quarters of the rows, which are nearer to it than to half of a count off it
 ROUNDED = 1e-3  # of the largest change of its pace, up to which digits that were not written make it
 # Power near half the sampling rate over that near a quarter: a rounded speed has 0.4 to 1, central differences 0.005,
 # differences over one sample 2.
@@ -165,7 +164,7 @@ def _repeats(time: Array, speed: Array, position: Array, way: SpeedMeasurement) 
     expected = difference(way, time, position)
     noise = np.abs(np.diff(expected, 2))
     intervals, bends = np.diff(time), np.abs(np.diff(position, 2))
-    whole = intervals < GAP * np.median(intervals)  # nothing is lost
+    whole = intervals < LOST_ROW * np.median(intervals)
     tells = whole[1:] & whole[:-1] & (bends > ROUNDED * bends.max())
     if not tells.any():
         return np.inf

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rwn.model.initial_state import INITIAL_POSITION, is_moving
+from rwn.recording.clock import LOST_ROW
 from rwn.recording.filters import before_filter
 from rwn.recording.interpolated import InterpolatedRows
 from rwn.recording.intersample import INTERSAMPLE, PiecewiseInput
@@ -25,7 +26,6 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 _NONE: Array = np.empty(0)
 STANDS = 3.0  # deviations of the noise of a speed, within which a shaft may stand still
-LOST_ROW = 1.5  # median intervals between two rows, from which on one is missing between them
 
 
 @dataclass(frozen=True, kw_only=True)
