@@ -217,6 +217,7 @@ struct Dual {
   }
 
   friend Dual exp(const Dual& x) {
+    if (x.v < -700.0) return Dual(0.0);  // below 1e-304: underflow takes libm longer than all else
     const double e = std::exp(x.v);
     return x.chain(e, e);
   }
