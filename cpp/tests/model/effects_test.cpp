@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "rwn/simulate/active_effects.hpp"
 #include "rwn/model/memory.hpp"
@@ -18,19 +20,78 @@ Motor<double> small_motor() {
   return m;
 }
 
+/// Terms that an effect adds to where `x` is, its parameters at their start.
 template <class E>
-double friction_of() {
+Terms<double> terms_of(const Motion<double>& x) {
   std::array<double, E::parameters.size()> p{};
   for (std::size_t k = 0; k < p.size(); ++k) p[k] = E::parameters[k].start;
-  Motion<double> x;
-  x.current = x.speed = x.position = x.angle = x.drive_torque = 0.5;
-  const Winding<double> winding{.resistance = 1.0, .inductance = 1.0, .torque_constant = 1.0, .back_emf_constant = 1.0};
-  x.winding = &winding;
-  std::array<double, max_memories> memory{};
-  x.memory = memory.data();
   Terms<double> t;
   if constexpr (requires { E::template apply<double>; }) E::apply(p.data(), small_motor(), x, t);
-  return t.friction;
+  return t;
+}
+
+/// The rate that an effect asks for at `x`, and the sum of what it remembers after a step that ends there.
+template <class E>
+std::pair<double, double> rate_and_memory(const Motion<double>& x) {
+  std::array<double, E::parameters.size()> p{};
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] = E::parameters[k].start;
+  std::array<double, max_memories> memory{};
+  double rate = 0.0;
+  if constexpr (requires { E::template rate<double>; }) rate = E::rate(p.data(), small_motor(), x, 1.0, 1e-3);
+  if constexpr (requires { E::template finish<double>; }) E::finish(p.data(), small_motor(), 1e-3, x, x, memory.data());
+  return {rate, std::accumulate(memory.begin(), memory.end(), 0.0)};
+}
+
+Motion<double> somewhere(const Winding<double>& winding, const double* memory) {
+  Motion<double> x;
+  x.input = 9.0;
+  x.current = 2.5;
+  x.speed = x.position = x.angle = x.drive_torque = x.travel = 0.5;
+  x.winding = &winding;
+  x.memory = memory;
+  return x;
+}
+
+template <class E>
+double friction_of() {
+  const Winding<double> winding{.resistance = 1.0, .inductance = 1.0, .torque_constant = 1.0, .back_emf_constant = 1.0};
+  const std::array<double, max_memories> memory{};
+  return terms_of<E>(somewhere(winding, memory.data())).friction;
+}
+
+// The integrator does not keep up to date what an effect does not say that it looks at, nor renews other terms than it
+// says that it adds to.
+template <class E>
+void expect_to_say_what_it_looks_at_and_adds_to() {
+  const Winding<double> winding{.resistance = 1.0, .inductance = 1.0, .torque_constant = 1.0, .back_emf_constant = 1.0};
+  std::array<double, max_memories> memory{};
+  memory.fill(0.3);
+  const auto says = functions_of<double, E>();
+  const Motion<double> whole = somewhere(winding, memory.data());
+  Motion<double> kept = whole;
+  const double stale = std::numeric_limits<double>::quiet_NaN();
+  if (!says.turns) kept.angle = stale;
+  if (!says.loaded) kept.drive_torque = stale;
+  if (says.memories == 0) kept.travel = stale;
+  const Terms<double> t = terms_of<E>(whole), same = terms_of<E>(kept), none;
+  EXPECT_EQ(rate_and_memory<E>(whole), rate_and_memory<E>(kept)) << E::info.name;
+  EXPECT_EQ(t.torque, same.torque) << E::info.name;
+  EXPECT_EQ(t.friction, same.friction) << E::info.name;
+  EXPECT_EQ(t.drop, same.drop) << E::info.name;
+  EXPECT_EQ(t.flux, same.flux) << E::info.name;
+  EXPECT_EQ(t.inertia, same.inertia) << E::info.name;
+  const bool winds = t.drop != none.drop || t.drop_slope != none.drop_slope || t.resistance != none.resistance ||
+                     t.inductance != none.inductance;
+  const bool scales = t.flux != none.flux || t.inertia != none.inertia || t.inertia_slope != none.inertia_slope;
+  EXPECT_TRUE(says.scales || !scales) << E::info.name;
+  EXPECT_TRUE(!says.torque_alone || !(winds || scales)) << E::info.name;
+  EXPECT_TRUE(says.electrical || !winds) << E::info.name;
+}
+
+TEST(Effects, EachSaysWhatItLooksAtAndAddsTo) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (expect_to_say_what_it_looks_at_and_adds_to<std::tuple_element_t<I, Effects>>(), ...);
+  }(std::make_index_sequence<effect_count>{});
 }
 
 // An effect that sets a friction level but is not `dry` would never stick nor brake.

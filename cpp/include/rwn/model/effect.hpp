@@ -92,6 +92,7 @@ struct EffectTraits {
   bool dry = false;               // contributes to the level of dry friction
   bool turns = false;             // depends on the angle
   bool loaded = false;            // depends on the torque that the drive transmits
+  bool inertial = false;          // changes the inertia
   bool one_sided = false;         // tells a direction from the other, or an angle from its opposite
   bool holds = false;             // nothing moves under it while the input is small
   std::string_view filters{};     // the signal of which it is the first-order filter, of one time constant

@@ -120,9 +120,11 @@ struct Dual {
   double v = 0.0;
 
   Dual() = default;
+  Dual(const Dual&) = default;  // without derivatives, a number
+  Dual& operator=(const Dual&) = default;
   // Member by member: copied whole, what lies behind `v` is loaded with it, and waits for what has just been stored.
-  RWN_INLINE Dual(const Dual& o) : d(o.d), v(o.v) {}
-  RWN_INLINE Dual& operator=(const Dual& o) {
+  RWN_INLINE Dual(const Dual& o) requires(N > 0) : d(o.d), v(o.v) {}
+  RWN_INLINE Dual& operator=(const Dual& o) requires(N > 0) {
     d = o.d;
     v = o.v;
     return *this;

@@ -33,6 +33,9 @@ struct EffectFunctions {
   bool dry = false;           // contributes to the dry friction level
   bool electrical = false;    // changes how fast the winding is
   bool loaded = false;        // changes with the current while the winding settles
+  bool turns = false;         // looks at the angle
+  bool torque_alone = true;   // adds to no other terms than torque and friction
+  bool scales = false;        // changes the flux or the inertia
   bool replaces = false;      // takes over the nominal dry friction
   int memories = 0;
 };
@@ -56,6 +59,9 @@ constexpr EffectFunctions<S> functions_of() {
   f.varies = has(hooks, Hook::apply) && E::traits.varies;
   f.electrical = E::info.site == Site::voltage || E::info.site == Site::flux;
   f.loaded = E::traits.loaded;
+  f.turns = E::traits.turns;
+  f.scales = E::info.site == Site::flux || E::traits.inertial;
+  f.torque_alone = !f.electrical && !f.scales;
   f.dry = E::traits.dry;
   f.memories = E::traits.memories;
   for (const Parameter& p : E::parameters) f.replaces = f.replaces || p.replaces == coulomb_friction;
@@ -69,6 +75,8 @@ EffectFunctions<S> functions_of(const ActiveOwnEffect<S>& own) {
   f.varies = own.varies();
   f.dry = own.term() == Term::friction;
   f.electrical = own.term() == Term::drop || is_factor(own.term());
+  f.scales = own.term() == Term::flux;
+  f.torque_alone = !f.electrical;
   return f;
 }
 

@@ -99,7 +99,7 @@ class Equations {
 
   /// A winding that has become faster than R/L (saturation, brush contact) is linearised at R 2^level, which keeps the
   /// remainder stable; `t` are the terms at s. Where its transient is over within h, so is that of where it settles.
-  int choose_level(const State& s, const Terms<S>& t, double h) const {
+  int choose_level(const State& s, const Terms<S>& t, double h) {
     if constexpr (Drive::states > 0) {
       if (!electrical()) return 0;
       double ratio = speed_up(s, t);
@@ -114,7 +114,7 @@ class Equations {
 
   /// The steps that the effects ask for over h, where `f` and `t` are those of its start (level 0). Where one of
   /// them changes with the current, the winding's transient is followed, in steps of lengths that come back.
-  Division divide(const State& s, double h, const Vector& f, const Terms<S>& t) const {
+  Division divide(const State& s, double h, const Vector& f, const Terms<S>& t) {
     double acceleration = std::abs(value_of(f[w]) + value_of(linear_acceleration(s)));
     if constexpr (Drive::states > 0) {
       const State there = electrics_.settled(s, s.x[driven()], input());  // the current may get there within h
@@ -128,29 +128,23 @@ class Equations {
     return {h, effects_.rate(s, acceleration, h)};
   }
 
-  /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`, which is fresh.
-  Vector nonlinear(const Moving& s, const S* memory, const S& start, int level, Terms<S>& t) const {
+  /// dx/dt - A x, with A of level `level`; `start` is the position at the start of the step. Fills `t`.
+  RWN_INLINE Vector nonlinear(const Moving& s, const S* memory, const S& start, int level, Terms<S>& t) {
     put_terms(t, s, memory, start);
     Vector f{};
     if constexpr (masses == 2) f[State::speed_behind] = second_.constant_torque(s) * second_.inverse_behind();
-    if (!winds_ && value_of(t.inertia) == 0.0 && value_of(t.inertia_slope) == 0.0) {  // torques alone are added
-      if constexpr (Drive::states > 0) electrics_.drive(f, input());
-      if (second_.drives()) f[driven()] += Torque::given(input()) * inverse_driven();
-      if (sticks(s)) return f;
-      S torque = t.torque;
-      if (Drive::forced && !second_.drives()) torque += input();
-      if (dry_) torque -= s.direction * t.friction;
-      if constexpr (masses == 2) torque -= second_.constant_torque(s);
-      f[w] = torque * inverse_inertia_;
-      return f;
+    if constexpr (Drive::states > 0) {
+      winds_ ? electrics_.remainder(f, s.x, s.x[driven()], t, input(), resistances_of(level))
+             : electrics_.drive(f, input());
     }
-    if constexpr (Drive::states > 0) electrics_.remainder(f, s.x, s.x[driven()], t, input(), resistances_of(level));
-    if (second_.drives()) f[driven()] += (drive_torque(s, t) - Torque::linear(electrics_, s.x)) * inverse_driven();
+    if (effects_.scales()) return accelerated(f, s, t);
+    if (second_.drives()) f[driven()] += Torque::given(input()) * inverse_driven();
     if (sticks(s)) return f;
-    const S torque = accelerating_torque(s, t);
-    const S linear_rate = linear_acceleration(s);
-    f[w] = value_of(t.inertia) == 0.0 ? torque * inverse_inertia_ : torque / (inertia_ + t.inertia);
-    f[w] -= linear_rate;
+    S torque = t.torque;
+    if (Drive::forced && !second_.drives()) torque += input();
+    if (dry_) torque -= s.direction * t.friction;
+    if constexpr (masses == 2) torque -= second_.constant_torque(s);
+    f[w] = torque * inverse_inertia_;
     return f;
   }
 
@@ -179,7 +173,7 @@ class Equations {
     return f;
   }
 
-  double acceleration(const State& s) const {
+  double acceleration(const State& s) {
     Terms<S> t;
     return value_of(nonlinear(s, s.memory.data(), s.position, 0, t)[w]) + value_of(linear_acceleration(s));
   }
@@ -209,11 +203,11 @@ class Equations {
 
   /// Torque by which friction holds a shaft beyond what pulls at it.
   double holding(const State& s) {
-    return -std::max(value_of(excess_torque(s, 1.0)), value_of(excess_torque(s, -1.0)));
+    return std::min(-value_of(excess_torque(s, 1.0)), -value_of(excess_torque(s, -1.0)));
   }
 
   /// What the equations leave over in a state whose speed changes by `acceleration` and whose current by `slope` [A/s].
-  UnknownInputs<S> unknown(const State& s, double acceleration, double slope) const {
+  UnknownInputs<S> unknown(const State& s, double acceleration, double slope) {
     const Terms<S> t = terms_of(s, s.position);
     UnknownInputs<S> left;
     left.torque = (inertia_ + t.inertia) * acceleration - accelerating_torque(s, t);
@@ -222,7 +216,7 @@ class Equations {
   }
 
   /// Lets the memories of effects follow a step of length h.
-  void finish(const State& before, State& after, const S& h) const { effects_.finish(before, after, h); }
+  void finish(const State& before, State& after, const S& h) { effects_.finish(before, after, h); }
 
  private:
   struct Constants {
@@ -233,29 +227,35 @@ class Equations {
   std::size_t driven() const { return second_.drives() ? State::speed_behind : w; }
   const S& inverse_driven() const { return second_.inverse_driven(inverse_inertia_); }
   S drive_torque(const Moving& s, const Terms<S>& t) const { return electrics_.torque(s.x, t.flux, input()); }
-
   bool sticks(const Moving& s) const { return dry_ && s.direction == 0.0; }
-
   const S& input() const { return effects_.input(); }
 
   /// How much faster than R/L the winding is in a state, whose terms are `t`.
-  double speed_up(const State& s, const Terms<S>& t) const {
+  double speed_up(const State& s, const Terms<S>& t) {
     return electrics_.speed_up(t, t.drop_slope + effects_.own_drop_slope(s));
   }
 
-  Terms<S> terms_of(const State& s, const S& start) const {
+  Terms<S> terms_of(const State& s, const S& start) {
     Terms<S> t;
     put_terms(t, s, s.memory.data(), start);
     return t;
   }
 
-  void put_terms(Terms<S>& t, const Moving& s, const S* memory, const S& start) const {
-    t.friction = base_friction_;
+  RWN_INLINE void put_terms(Terms<S>& t, const Moving& s, const S* memory, const S& start) {
+    using std::sin;
+    effects_.renew(t, base_friction_);
     effects_.add(t, s, memory, start);
-    if (pendulum_) {
-      using std::sin;
-      t.torque -= motor_[pendulum_torque] * sin(s.position);
-    }
+    if (pendulum_) t.torque -= motor_[pendulum_torque] * sin(s.position);
+  }
+
+  /// `f` with its accelerations, where the flux or the inertia is another than the linear part has.
+  [[gnu::noinline]] Vector accelerated(Vector f, const Moving& s, const Terms<S>& t) const {
+    if (second_.drives()) f[driven()] += (drive_torque(s, t) - Torque::linear(electrics_, s.x)) * inverse_driven();
+    if (sticks(s)) return f;
+    const S torque = accelerating_torque(s, t);
+    const S whole = value_of(t.inertia) == 0.0 ? torque * inverse_inertia_ : torque / (inertia_ + t.inertia);
+    f[w] = whole - linear_acceleration(s);
+    return f;
   }
 
   /// What accelerates the motor's mass while it slides.

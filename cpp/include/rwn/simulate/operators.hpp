@@ -44,7 +44,7 @@ class Operators {
     Regime regime{};
 
     /// x after half the step with f.
-    Vector half(const Vector& x, const Vector& f) const {
+    RWN_INLINE Vector half(const Vector& x, const Vector& f) const {
       SmallVector<T, n> y{};
       add_product<T, n>(y, this->eh, in<T>(x));
       add_product<T, n>(y, this->p1h, in<T>(f));
@@ -52,7 +52,7 @@ class Operators {
     }
 
     /// x after the step with f at its start, `middle` twice the mean of f halfway, and `last` at its end.
-    Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
+    RWN_INLINE Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
       SmallVector<T, n> y{};
       add_product<T, n>(y, this->e, in<T>(x));
       add_product<T, n>(y, this->f1, in<T>(f));
@@ -71,9 +71,9 @@ class Operators {
     /// Parts in which the series of a nonlinear step are gone along.
     int parts() const { return 3 * parts_of_flow<S>(0.5 * norm * h) + parts_of_flow<S>(norm * h); }
 
-    Vector half(const Vector& x, const Vector& f) const { return over(0.5 * h, x, {as<T>(f)}); }
+    RWN_INLINE Vector half(const Vector& x, const Vector& f) const { return over(0.5 * h, x, {as<T>(f)}); }
 
-    Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
+    RWN_INLINE Vector whole(const Vector& x, const Vector& f, const Vector& middle, const Vector& last) const {
       Flow<T, n> force{as<T>(f)};  // the quadratic whose phi functions are the weights of Cox and Matthews
       for (std::size_t j = 0; j < n; ++j) {
         const T begin = force.constant[j], half = as_scalar<T>(middle[j]), end = as_scalar<T>(last[j]);

@@ -179,23 +179,21 @@ class Stepper {
     const double h = value_of(length);
     const S& position = s.position;
     const S* memory = s.memory.data();  // as of the start of the step
-    Terms<S> ta, tb, tc;
     const Moving a = stage(s, way.half(s.x, f0_), 0.5 * h, s.x[w]);
-    const Vector fa = equations_.nonlinear(a, memory, position, level, ta);
+    const Vector fa = equations_.nonlinear(a, memory, position, level, terms_);
     const Moving b = stage(s, way.half(s.x, fa), 0.5 * h, a.x[w]);
-    Vector middle = equations_.nonlinear(b, memory, position, level, tb);
+    Vector middle = equations_.nonlinear(b, memory, position, level, terms_);
     Vector mixed;
     for (std::size_t j = 0; j < n; ++j) mixed[j] = 2.0 * middle[j] - f0_[j];
     const Moving c = stage(s, way.half(a.x, mixed), h, b.x[w]);
-    const Vector last = equations_.nonlinear(c, memory, position, level, tc);
+    const Vector last = equations_.nonlinear(c, memory, position, level, terms_);
     for (std::size_t j = 0; j < n; ++j) middle[j] += fa[j];
 
     State next = s;
     next.x = way.whole(s.x, f0_, middle, last);
     next.position += (h / 6.0) * (s.x[w] + 2.0 * (a.x[w] + b.x[w]) + c.x[w]);
     if (!is_constant(length)) {
-      Terms<S> t;
-      const Vector f = equations_.nonlinear(next, memory, position, level, t);
+      const Vector f = equations_.nonlinear(next, memory, position, level, terms_);
       shift(next.x, next.position, length - h, rates(operators_.system(equations_.regime(s, level)).value, next.x, f));
     }
     if (equations_.finishes()) equations_.finish(s, next, length);
@@ -204,11 +202,10 @@ class Stepper {
 
   /// The terms at the start of a step.
   void start(const State& s, int level) {
-    t0_ = {};
     f0_ = equations_.nonlinear(s, s.memory.data(), s.position, level, t0_);
   }
 
-  static Moving stage(const Moving& s, const Vector& x, double h, const S& speed) {
+  RWN_INLINE static Moving stage(const Moving& s, const Vector& x, double h, const S& speed) {
     Moving r = s;
     r.x = x;
     r.position += h * speed;
@@ -239,6 +236,7 @@ class Stepper {
   Operators<S, Drive, masses> operators_;
   Vector f0_{};  // at the start of a step, with its terms
   Terms<S> t0_{};
+  Terms<S> terms_{};  // of a stage
   typename All::template LinearStep<S>
       plain_{};  // of intervals as long as this; a copy: the operators' own are replaced
   double plain_length_ = -1.0;

@@ -51,10 +51,9 @@ struct DcDrive {
     void remainder(auto& f, const auto& x, const S& speed, const Terms<S>& t, const S& input,
                    double resistances) const {
       const S back_emf = winding_.back_emf(speed);
-      S rate = voltage_left(x, back_emf, t, input);
-      rate *= inverse_inductance_;
-      if (value_of(t.inductance) != 1.0) rate /= t.inductance;
-      f[0] = rate + (resistances * winding_.resistance * x[0] + back_emf) * inverse_inductance_;
+      S left = voltage_left(x, back_emf, t, input);
+      if (value_of(t.inductance) != 1.0) left /= t.inductance;
+      f[0] = (left + resistances * winding_.resting_voltage(x[0]) + back_emf) * inverse_inductance_;
     }
 
     /// Voltage that the equation leaves over along a motion whose current changes by `slope` [A/s].
@@ -95,7 +94,7 @@ struct DcDrive {
     static constexpr double settled_within = 0.001;  // of a current: a step's torque is then off by 2e-4 at most
 
     S voltage_left(const auto& x, const S& back_emf, const Terms<S>& t, const S& input) const {
-      return input - winding_.resistance * t.resistance * x[0] - back_emf * t.flux - t.drop;
+      return input - t.resistance * winding_.resting_voltage(x[0]) - back_emf * t.flux - t.drop;
     }
 
     Winding<S> winding_;

@@ -17,7 +17,7 @@ struct InertiaVariation {
                                                    .start = 0.1,
                                                    .scale = scale::inertia,
                                                    .strength = true}};
-  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .turns = true};
+  static constexpr EffectTraits traits{.hooks = Hook::apply | Hook::rate, .turns = true, .inertial = true};
 
   template <class S>
   static void apply(const S* p, const Motor<S>&, const Motion<S>& x, Terms<S>& t) {
