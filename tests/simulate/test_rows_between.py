@@ -25,9 +25,10 @@ def _drawn(rng: np.random.Generator) -> tuple[rwn.Model, str]:
              "time_step": 2e-3, "duration": 3.0, "loss": 10.0}  # fmt: skip
     names = [name for name, effect in table().items() if effect.site in KINDS[kind].sites]
     effects = {}
-    for name in rng.choice(names, int(rng.integers(0, 3)), replace=False):
-        effects[str(name)] = started(table()[str(name)], sizes)
-        for p in table()[str(name)].parameters:
+    drawn = [str(name) for name in rng.choice(names, int(rng.integers(0, 3)), replace=False)]
+    for name in drawn[: 1 if sum(table()[n].second_mass for n in drawn) > 1 else 2]:  # a drive has one joint
+        effects[name] = started(table()[name], sizes)
+        for p in table()[name].parameters:
             motor.pop(p.replaces or "", None)
     return rwn.Model(kind=kind, parameters=motor, effects=effects), "voltage" if kind == "dc" else "torque"
 

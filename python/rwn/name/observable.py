@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rwn.fit.problem import Problem
+from rwn.name.initial_guesses.spectra import SEEN_PERIODS
 from rwn.recording.signals import MOTION
 
 A_SIXTH = 1.0 / 6.0  # least travel [revolutions] that tells a torque over the angle from a load and a spring
@@ -25,6 +26,9 @@ def observable(name: str, problem: Problem) -> bool:
         if turns and any(p.replaces for p in effect.parameters):
             return True  # of a shaft that rubs, a part of a turn shows where it rubs more
         return revolutions(problem) > (A_SIXTH if turns else HALF_A_METRE)
+    slow = [p.upper for p in effect.parameters if p.order and p.upper < 1.0]
+    if slow:
+        return not problem.drive.linear and revolutions(problem) * slow[0] > SEEN_PERIODS
     beside = [p.beside for p in effect.parameters if p.beside]
     if beside:
         return all(problem.prior.uncertainty.get(nominal, 0.0) == 0.0 for nominal in beside)

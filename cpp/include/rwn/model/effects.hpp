@@ -16,6 +16,7 @@
 #include "rwn/model/effects/current_limit.hpp"
 #include "rwn/model/effects/current_sensor_delay.hpp"
 #include "rwn/model/effects/current_sensor_lag.hpp"
+#include "rwn/model/effects/geared_unbalance.hpp"
 #include "rwn/model/effects/inertia_variation.hpp"
 #include "rwn/model/effects/input_delay.hpp"
 #include "rwn/model/effects/load_dependent_friction.hpp"
@@ -53,12 +54,12 @@ namespace rwn {
 using Effects =
     std::tuple<ViscousFriction, CoulombFriction, StribeckFriction, AsymmetricFriction, ViscousAsymmetry, QuadraticDrag,
                PowerLawDrag, LoadDependentFriction, PowerLawLoadFriction, PreslidingHysteresis,
-               PositionDependentFriction, CoggingTorque, Unbalance, ConstantLoad, LoadSpring, LoadDisturbance, Backlash,
-               ShaftCompliance, LoadEncoderBacklash, LoadEncoderCompliance, InertiaVariation, BrushVoltageDrop,
-               CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone, VoltageSaturation,
-               SupplySag, PwmSupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay, SpeedSensorLag,
-               SpeedMovingAverage, SpeedSensorDelay, CurrentSensorLag, CurrentSensorDelay, SensorRectification,
-               SensorGain, SensorBias, SensorQuantization>;
+               PositionDependentFriction, CoggingTorque, Unbalance, GearedUnbalance, ConstantLoad, LoadSpring,
+               LoadDisturbance, Backlash, ShaftCompliance, LoadEncoderBacklash, LoadEncoderCompliance, InertiaVariation,
+               BrushVoltageDrop, CoastingBridge, ResistanceHeating, MagneticSaturation, TorqueRipple, ActuatorDeadzone,
+               VoltageSaturation, SupplySag, PwmSupplySag, CurrentLimit, SlewRateLimit, AmplifierGainCurve, InputDelay,
+               SpeedSensorLag, SpeedMovingAverage, SpeedSensorDelay, CurrentSensorLag, CurrentSensorDelay,
+               SensorRectification, SensorGain, SensorBias, SensorQuantization>;
 
 inline constexpr int effect_count = static_cast<int>(std::tuple_size_v<Effects>);
 

@@ -25,13 +25,17 @@ from rwn.simulate.unknown_inputs import unknown_inputs
 Array = NDArray[np.float64]
 
 NEIGHBOURS = 1.5  # steps of the grid within which an order may be the leakage of a stronger one
+SEEN_PERIODS = 2.0  # what came once need not come back
+PER_TURN = 4  # places of a revolution at which a torque of fewer than one period is added up
+FARTHEST = 2e5  # revolutions that are looked at: what a position in a wrong unit has travelled has no end
 LEVEL = 0.01  # chance that the highest line of a spectrum of noise is beyond `highest_by_chance`
 
 
 def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess] | None:
     """Spatial frequencies that explain most of what `base` leaves; none where no angle is known."""
     (order,) = (p for p in effect.parameters if p.order)
-    return [{order.name: n} for n in orders_left(problem, base, effect, count)]
+    found = slow_orders if order.upper < 1.0 else orders_left
+    return [{order.name: n} for n in found(problem, base, effect, count)]
 
 
 def orders_left(problem: Problem, base: Fit, effect: Effect, count: int, *, apart: float = NEIGHBOURS) -> list[float]:
@@ -59,6 +63,30 @@ def orders_left(problem: Problem, base: Fit, effect: Effect, count: int, *, apar
         spectrum = angle_spectrum(problem, base.vector, residuals, grid, with_current=with_current)
         found += orders_of(spectrum, grid, most, apart=apart)
     return list(dict.fromkeys(found))
+
+
+def slow_orders(problem: Problem, base: Fit, effect: Effect, count: int) -> list[float]:
+    """The orders below one period per revolution at which a torque explains most of what `base` leaves.
+
+    Those of which two periods are seen at least: what came once need not come back. The torque is added up by the
+    angle, four times a revolution, so that its spectrum is as fine as a long travel allows.
+    """
+    (order,) = (p for p in effect.parameters if p.order)
+    problem = along_the_shaft(problem, base.vector, base.active)
+    turns = [problem.simulator.angle_per_position * r.angle / (2.0 * np.pi) for r in problem.runs]
+    travel = min(max((float(np.ptp(t)) for t in turns if t.size), default=0.0), FARTHEST)
+    bins = 2 * (int(PER_TURN * travel) + 1)  # zeros behind it halve the steps of the grid
+    orders: Array = np.fft.rfftfreq(bins, 1.0 / PER_TURN).astype(np.float64)
+    power = np.zeros(orders.size)
+    for run, turned in zip(problem.runs, turns, strict=True):
+        if turned.size:
+            lacking = _lacking_torque(problem, base.vector, base.active, run)
+            near = turned - turned.min() <= travel
+            place = (PER_TURN * (turned - turned.min())[near]).astype(np.intp)
+            by_place = np.bincount(place, (lacking - lacking.mean())[near], minlength=bins)
+            power += np.abs(np.fft.rfft(by_place, n=bins)) ** 2
+    seen = (orders * travel >= SEEN_PERIODS) & (orders >= order.lower) & (orders <= order.upper)
+    return orders_of(power[seen], orders[seen], count) if np.any(seen) else []
 
 
 def along_the_shaft(problem: Problem, vector: Array, active: Sequence[int]) -> Problem:
