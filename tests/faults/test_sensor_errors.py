@@ -13,7 +13,7 @@ import rwn
 from made_up_files import files_of
 from ranked import ranked_from
 from rwn.faults.fault import SHIFT, UNIT, Fault
-from rwn.faults.sensor_errors import _far_off, without_sensor_errors
+from rwn.faults.sensor_errors import _far_off, _of_steps, without_sensor_errors
 from rwn.fit.fit import fit_nominal
 from rwn.fit.preparation import prepare
 from rwn.model.model import Model
@@ -69,6 +69,30 @@ def test_what_a_model_has_wrong_at_every_step_is_no_spike() -> None:
     recordings = _recordings({})
     assert not _left_out(recordings)
     assert not _left_out(recordings, replace(MODEL, parameters={**MOTOR, "inductance": 1e-4}))
+
+
+def test_what_is_off_at_most_steps_is_the_models() -> None:
+    """Rows that are noted a moment late hold a current that has begun to rise, beside each step alone."""
+    stepped = np.zeros(600, dtype=bool)
+    for begin in range(50, 600, 100):
+        stepped[begin : begin + 4] = True
+    changed = stepped.copy()
+    changed[81] = True  # a small step
+    flags = np.zeros(600, dtype=bool)
+    flags[[30, 51, 81, 151, 251, 351]] = True
+    assert np.flatnonzero(_of_steps(flags, stepped, changed)).tolist() == [51, 81, 151, 251, 351]
+    flags[[251, 351]] = False
+    assert not _of_steps(flags, stepped, changed).any(), "two of six steps may have one by chance"
+
+
+def test_a_recording_noted_late_after_steps_has_no_spikes() -> None:
+    recordings = _recordings({})
+    rows = np.flatnonzero(np.diff(recordings[0].signals["voltage"])) + 1
+    assert rows.size > 2
+    recordings = _recordings({"current": rows.tolist()}, size=0.2)
+    problem = prepare(recordings, MODEL)
+    found = without_sensor_errors(recordings, problem.in_free_run(), fit_nominal(problem))
+    assert not [f for f in found.findings if f.kind == "spikes"]
 
 
 def test_the_search_begins_anew_without_them() -> None:

@@ -12,12 +12,14 @@ from rwn.fit.problem import Problem
 from rwn.recording.inspection import Finding, Inspected, without_samples
 from rwn.recording.inspection.hum import without_hum
 from rwn.recording.inspection.outliers import BESIDE, most_deviations, outliers
-from rwn.recording.inspection.spikes import FEWEST, SPIKES
+from rwn.recording.inspection.spikes import FEWEST, SPIKES, after_steps
 from rwn.recording.noise import PER_MEDIAN
 from rwn.recording.recording import Recording
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+
+TWO_STEPS = 2  # that by chance may both have an error of a sensor
 
 
 def without_sensor_errors(recordings: Sequence[Recording], problem: Problem, this: Fit) -> Inspected:
@@ -31,6 +33,7 @@ def without_sensor_errors(recordings: Sequence[Recording], problem: Problem, thi
         if run.time.size == len(recording):
             for signal, error in errors.items():
                 flags = _far_off(run.masked(signal, error), problem.noise[signal].deviation)
+                flags &= ~_of_steps(flags, after_steps(recording) > 0.0, after_steps(recording, least=0.0) > 0.0)
                 if flags.any():
                     found.append(SPIKES.found(recording, signal, flags))
                     recording = without_samples(recording, signal, flags)
@@ -57,3 +60,15 @@ def _far_off(error: Array, noise: float) -> Flags:
     found = outliers(off, limit=limit, among=off.size, alone=lambda at: bool(apart[at] < BESIDE * off[at]))
     flags[compared] = found
     return flags
+
+
+def _of_steps(flags: Flags, stepped: Flags, changed: Flags) -> Flags:
+    """The flags (n,) of samples where the input `changed`, (n,), if they are at most of its large steps, `stepped`.
+
+    Errors of a sensor do not wait for the input; a model that times it wrong, or its winding, errs at most of its
+    steps. One step or two tell nothing.
+    """
+    begins = stepped & ~np.concatenate([[False], stepped[:-1]])
+    step = np.cumsum(begins)[flags & stepped]  # the number of the step that each belongs to
+    hit = np.unique(step).size
+    return flags & changed if hit > max(TWO_STEPS, 0.5 * begins.sum()) else np.zeros(flags.size, dtype=bool)

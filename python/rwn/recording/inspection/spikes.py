@@ -25,10 +25,10 @@ SETTLING = 3  # samples after a step of the input in which a current may peak by
 NEARBY = 25  # samples whose changes a step of the input stands out from: a sine has none
 
 
-def _after_steps(recording: Recording) -> Array:
+def after_steps(recording: Recording, *, least: float = BESIDE) -> Array:
     """How large a step of the input is (n,), in units of the largest, that a sample is at or shortly after; or 0.
 
-    Of those that stand out from the changes nearby and from small ones.
+    Of those that stand out from the changes nearby and are no smaller than `least`.
     """
     from scipy.ndimage import median_filter  # late: the command line starts without it
 
@@ -36,7 +36,7 @@ def _after_steps(recording: Recording) -> Array:
     for name in (s for s in recording.signals if s not in MEASURED):
         change = np.abs(np.diff(recording.signals[name], prepend=recording.signals[name][0]))
         largest = float(np.max(change, initial=0.0))
-        usual = np.maximum(median_filter(change, NEARBY) / BESIDE, BESIDE * largest)
+        usual = np.maximum(median_filter(change, NEARBY) / BESIDE, least * largest)
         stepped = np.where(change > usual, change, 0.0) / (largest or 1.0)
         for late in range(SETTLING + 1):
             sizes[late:] = np.maximum(sizes[late:], stepped[: sizes.size - late])
@@ -50,11 +50,11 @@ def _spikes(recording: Recording, signal: str) -> Flags:
     if measured.size < FEWEST:
         return np.zeros(missing.size, dtype=bool)
     since = np.append(0, measured[:-1] + 1)  # the last sample that was measured
-    after_steps = np.maximum.reduceat(_after_steps(recording), since)[: measured.size]
+    stepped = np.maximum.reduceat(after_steps(recording), since)[: measured.size]
     flags = np.zeros(missing.size, dtype=bool)
     x = np.asarray(recording.signals[signal])[measured]
     inputs = [np.asarray(recording.signals[s])[measured] for s in recording.signals if s not in MEASURED]
-    flags[measured] = _among(x, after_steps > 0.0) | _beside_steps(x, inputs, after_steps)
+    flags[measured] = _among(x, stepped > 0.0) | _beside_steps(x, inputs, stepped)
     flags &= ~_after_gaps(recording.time)
     return flags if flags.mean() <= RARE else np.zeros(missing.size, dtype=bool)
 
@@ -64,11 +64,11 @@ def _after_gaps(time: Array) -> Flags:
     return np.asarray(np.diff(clock_of(time).ticks, prepend=-1) > 1)
 
 
-def _among(x: Array, after_steps: Flags) -> Flags:
-    """The spikes among measured samples x (n,) of a signal; `after_steps` (n,): shortly after a step of the input."""
+def _among(x: Array, stepped: Flags) -> Flags:
+    """The spikes among measured samples x (n,) of a signal; `stepped` (n,): shortly after a step of the input."""
     found = np.zeros(x.size, dtype=bool)
     bridged = x
-    may_swing = np.pad(after_steps, 1, constant_values=True)
+    may_swing = np.pad(stepped, 1, constant_values=True)
     may_swing[[1, -2]] = True  # a run from rest may begin with a step
     for together in TOGETHER:
         mirrored = np.pad(bridged, 1, mode="reflect")  # the first sample has none before it, the last none behind it
@@ -78,7 +78,7 @@ def _among(x: Array, after_steps: Flags) -> Flags:
     return found | _alike(x, found)
 
 
-def _beside_steps(x: Array, inputs: Sequence[Array], after_steps: Array) -> Flags:
+def _beside_steps(x: Array, inputs: Sequence[Array], stepped: Array) -> Flags:
     """The few samples beside steps of the inputs that are off by themselves, and by much more than at other steps.
 
     Off what those beside them and the inputs make of them, which grows with the step: a winding answers within a
@@ -86,7 +86,7 @@ def _beside_steps(x: Array, inputs: Sequence[Array], after_steps: Array) -> Flag
     """
     from scipy.ndimage import maximum_filter1d  # late: the command line starts without it
 
-    steps = maximum_filter1d(after_steps, 2 * REACH + 1)  # the samples that have one within their reach
+    steps = maximum_filter1d(stepped, 2 * REACH + 1)  # the samples that have one within their reach
     beside = int(np.count_nonzero(steps))
     if beside == 0:
         return np.zeros(x.size, dtype=bool)
