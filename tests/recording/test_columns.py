@@ -113,6 +113,8 @@ def test_where_nothing_is_called_like_a_signal_the_map_is_asked_for() -> None:
     said = _refused(_table(a="V", b=None), Layout())
     assert said.what == "no column is called like a signal; there are a, b"
     assert said.fix == 'write for instance: columns.voltage = { source = "a" }'
+    several = _refused(_table(PWM="%", Strom="A", Zahl="rpm"), Layout())
+    assert "columns.current = { source = \"Strom\" }; columns.speed = { source = \"Zahl\" }" in several.fix
     unknown = _refused(_table(a="s", b=None), Layout())
     assert unknown.fix == 'write for instance: columns.speed = { source = "b", unit = "rad/s" }'
     nothing = _refused(_table(), Layout())

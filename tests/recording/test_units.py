@@ -99,6 +99,26 @@ def test_a_unit_of_another_kind_is_refused_with_one_that_would_do(unit: str, si:
     assert not units.has_dimension(unit, si, where="x")
 
 
+def test_a_share_or_a_count_is_asked_what_it_is_worth() -> None:
+    with pytest.raises(InputError) as refused:
+        units.factor("%", "V", where="run.csv")
+    assert refused.value.fix == 'say what it is worth, with its unit, by a scale: scale = "0.24 V/%", for instance'
+    assert not units.has_dimension("%", "rad", where="x"), "a share is no angle"
+
+
+@pytest.mark.parametrize(
+    ("text", "number", "unit"),
+    [("19.2/8192", 19.2 / 8192, ""), ("1/8192 turn", 1 / 8192, "turn"), ("3 1/min", 3.0, "1/min"), ("2 /s", 2.0, "/s")],
+)  # fmt: skip
+def test_a_number_may_be_a_fraction(text: str, number: float, unit: str) -> None:
+    assert units.split(text, where="x") == (pytest.approx(number), unit)
+
+
+def test_a_fraction_has_a_denominator() -> None:
+    with pytest.raises(InputError, match="is not a number with a unit"):
+        units.split("1/0 turn", where="x")
+
+
 def test_units_measure_the_same_kind_of_quantity_or_not() -> None:
     assert units.has_dimension("rpm", "rad/s", where="x")
     assert units.has_dimension("km/h", "m/s", where="x")

@@ -59,18 +59,21 @@ def column_map(table: Table, layout: Layout, *, needed: Collection[str] = COLUMN
             expected="a column map, [recording.columns] in the model file",
             fix=f"--profile {exported_by[0]}, which knows these names"
             if exported_by
-            else f"write for instance: {_mapped_by_its_unit(table)}",
+            else f"write for instance: {_mapped_by_their_units(table)}",
         )
     return mapping
 
 
-def _mapped_by_its_unit(table: Table) -> str:
-    """A line of a map for a column that has the unit of a signal; where none has, for the last one."""
+def _mapped_by_their_units(table: Table) -> str:
+    """Lines of a map for columns that have the units of signals; where none has, one for the last column."""
+    lines = dict[str, str]()
     for name, unit in table.units.items():
         for signal in SIGNALS.values():
             kinds = [kind for kind in (signal.unit, signal.linear_unit) if kind]
             if unit and any(units.has_dimension(unit, kind, where=table.where) for kind in kinds):
-                return f'columns.{signal.name} = {{ source = "{name}" }}'
+                lines.setdefault(signal.name, f'columns.{signal.name} = {{ source = "{name}" }}')
+    if lines:
+        return "; ".join(lines.values())
     source = next((name for name in reversed(list(table.units)) if name != TIME.name), "w")
     return f'columns.speed = {{ source = "{source}", unit = "rad/s" }}'
 

@@ -30,6 +30,7 @@ _COMMON = (
 
 
 _LONGEST = 80  # characters of a unit
+_NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _SKIPPED = re.compile(r"[!?$~§&@\\|<>=]")
 _POWER = re.compile(r"\^|\*\*")
 _SMALL_POWER = re.compile(r"(?<![\d. )])[ )]*(?:\^|\*\*) *\(? *[-+]? *\d(?:\.\d*)?(?![\d.])")
@@ -96,6 +97,8 @@ def _angle_power(unit: Any) -> float:
 
 
 def _other_dimension(unit: str, si_unit: str, given: Any, wanted: Any) -> str:
+    if given.dimensionless and not _angle_power(given):
+        return f'say what it is worth, with its unit, by a scale: scale = "0.24 {si_unit}/{unit}", for instance'
     if (1 / _registry().Quantity(1.0, given)).dimensionality == wanted.dimensionality:
         turned = "/".join(reversed(unit.split("/")))
         return f"this is a unit of the inverse (a speed constant, for instance): write 1 over the number, in {turned}"
@@ -130,17 +133,17 @@ def factor(unit: str, si_unit: str, *, where: object, strict_angle: bool = True)
 
 
 def split(text: str, *, where: object, example: str = "0.4 N/V") -> tuple[float, str]:
-    """A number and the unit after it ("" without one). Raises InputError where there is no number."""
-    match = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", text)
+    """A number, or a fraction of two, and the unit after it ("" without one). Raises InputError where there is none."""
+    match = re.fullmatch(rf"\s*([-+]?{_NUMBER})(?:\s*/\s*({_NUMBER})(?=\s|$))?\s*(.*?)\s*", text)
     comma = re.match(r"\s*[-+]?\d+,\d", text)
-    if match is None or comma:
+    if match is None or comma or (match[2] and float(match[2]) == 0.0):
         raise InputError(
             f"'{plain(text, longest=40)}' is not a number with a unit",
             where=where,
             expected=f'text like "{example}"',
             fix="write a point for the decimal comma" if comma else "write the number first, then its unit",
         )
-    return float(match[1]), match[2]
+    return float(match[1]) / float(match[2] or 1.0), match[3]
 
 
 def quantity(text: str, si_unit: str, *, where: object) -> float:
@@ -164,7 +167,8 @@ def product(unit: str, scale_unit: str) -> str:
 def has_dimension(unit: str, si_unit: str, *, where: object) -> bool:
     """Whether `unit` measures the same kind of quantity as `si_unit`. Raises InputError for a unit that is none."""
     given, wanted = _parse(unit, where=where), _parse(si_unit, where=where)
-    return bool(given.dimensionality == wanted.dimensionality)
+    share = given.dimensionless and not _angle_power(given)  # a percentage is no angle
+    return bool(given.dimensionality == wanted.dimensionality) and not (share and _angle_power(wanted))
 
 
 def same(one: str, other: str, *, where: object) -> bool:
