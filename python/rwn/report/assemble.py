@@ -256,4 +256,4 @@ def _contradictions(chosen: RankedFit, model: Model) -> Iterator[str]:
             if off > BELIEVABLE:
                 said = f"data sheet and recordings contradict each other in {parameter_in_words(u.name)}"
                 far = f", {off:.1f} declared deviations" if np.isfinite(off) else ""
-                yield f"{said}: it moved to {times_given(value / u.prior)}{far}"
+                yield f"{said}: it moved to {times_given(value / u.prior, declared=declared)}{far}"

@@ -100,7 +100,7 @@ def _not_held(found: DiagnosisData) -> Iterator[str]:
 def _contradiction(found: DiagnosisData) -> str:
     """A data sheet that is wrong is no measure of what is missing: said first."""
     far = [
-        f"{plain_name(name)} ({times_given(p.corrected.value / p.nominal)})"
+        f"{plain_name(name)} ({times_given(p.corrected.value / p.nominal, declared=p.uncertainty or 0.0)})"
         for name, p in found.nominal_fit.parameters.items()
         if p.corrected is not None and p.contradicted
     ]

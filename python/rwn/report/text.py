@@ -64,9 +64,16 @@ def number(value: float, digits: int = 3) -> str:
     return text.replace("-", "−")
 
 
-def times_given(factor: float) -> str:
-    """What became of a value of the data sheet, as a multiple of it."""
-    return f"{number(factor, 2)} times what was given" if factor > 0.0 else "zero"
+def times_given(factor: float, *, declared: float = 0.0) -> str:
+    """What became of a value of the data sheet, as a multiple of it.
+
+    `declared`: its relative uncertainty. What is a power of ten within two such may have been given in another unit.
+    """
+    if factor <= 0.0:
+        return "zero"
+    power = round(math.log10(factor))
+    unit = power != 0 and abs(math.log(factor / 10.0**power)) < 2.0 * declared
+    return f"{number(factor, 2)} times what was given{', which may be in another unit' if unit else ''}"
 
 
 def quantity(value: float, unit: str, digits: int = 3) -> str:
