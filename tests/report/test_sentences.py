@@ -78,3 +78,5 @@ def test_an_error_with_a_number_of_its_own_is_said_to_be_one() -> None:
     assert any(s.startswith(there) and s.endswith("more than the model as given.") for s in said)
     assert any(f"on {row.recording}, not used for fitting but for numbers of its own," in s for s in said)
     assert not any("rwn simulate runs" in s for s in sentences(replace(found, findings=(own,))))
+    alike = tuple(replace(r, simulated=r.corrected) if r is row else r for r in found.heldout)
+    assert not any("rwn simulate runs" in s for s in sentences(replace(found, heldout=alike, findings=(own,))))

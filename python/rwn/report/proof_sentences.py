@@ -95,6 +95,8 @@ def _at_its_own(found: DiagnosisData, row: HeldoutRow) -> Iterator[str]:
         own.append("its input between the rows was told by its motion")
     what = listing(own or ["it has numbers of its own"])
     error = error_in_words(row.simulated, *prefix_for(row.simulated, row.unit))
+    if error == before_after(row)[1]:  # by less than its figures show is nothing to speak of
+        return
     instead = f"not {before_after(row)[1]}" if row.simulated <= row.nominal else "more than the model as given"
     yield f"There {what}; as rwn simulate runs corrected.toml, without that, it errs by {error}, {instead}."
 
