@@ -20,6 +20,8 @@ def test_a_clean_recording_from_rest_is_said_to_be_one() -> None:
     recording = rwn.read_recording(DEMO / "train.csv", layout=MODEL.recording)
     lines = list(checked([recording], MODEL))
     assert lines[0].startswith("train.csv: 5000 samples of voltage, current, speed")
+    speed = recording.signals["speed"]
+    assert f"speed {min(speed):.3g} to {max(speed):.3g} rad/s" in lines[1], "a wrong scale shows"
     assert "  starts at rest" in lines
     assert not any("missing" in line or "spike" in line or "each is off" in line for line in lines)
 

@@ -14,6 +14,7 @@ from rwn.model.model import Model
 from rwn.recording.clock import clock_of
 from rwn.recording.inspection import inspected
 from rwn.recording.recording import Recording
+from rwn.recording.signals import SIGNALS
 from rwn.simulate.recorded_run import run_of
 from rwn.simulate.run import Run
 
@@ -32,13 +33,24 @@ def checked(recordings: Sequence[Recording], model: Model) -> Iterator[str]:
         run, signals = run_of(recording, model), ", ".join(recording.signals)
         enabled = [one.as_finding(model.drive.input) for one in late if one.place == place]
         yield f"{recording.name}: {len(recording)} samples of {signals}, {recording.duration:.4g} s"
-        yield from (f"  {words}" for words in (*_sampling(run), _start(run, model), *_speed(run)))
+        about = (_ranges(recording, model), *_sampling(run), _start(run, model), *_speed(run))
+        yield from (f"  {words}" for words in about)
         held = [] if run.moves or model.drive.coefficients else [held_finding(run, model)]
         yield from (f"  {finding.words}: {finding.done}" for finding in (*findings, *enabled, *held))
         yield from (f"  {warning}" for warning in recording.warnings)
     on = powered([recording for (recording,), _ in usable], late, model)
     faults = [] if model.drive.coefficients else plain_faults(on, model)[0]
     yield from (f"{fault.meaning}: rwn diagnose undoes it, and weighs what is missing beneath" for fault in faults)
+
+
+def _ranges(recording: Recording, model: Model) -> str:
+    """From where to where each signal goes in SI, which shows a unit or a scale that is plainly wrong."""
+    parts = []
+    for name, values in recording.signals.items():
+        signal = SIGNALS[name]
+        unit = signal.linear_unit if model.linear and signal.linear_unit else signal.unit
+        parts.append(f"{name} {np.nanmin(values):.3g} to {np.nanmax(values):.3g} {unit}")
+    return ", ".join(parts)
 
 
 def _sampling(run: Run) -> Iterator[str]:
