@@ -11,6 +11,7 @@ from rwn.faults.uneven_files import JUDGED_AT_ITS_OWN
 from rwn.name.found_effect import FoundEffect
 from rwn.recording.inspection import Finding
 from rwn.report.sentences import sentences
+from rwn.report.text import times_given
 
 
 def test_what_differs_from_file_to_file_is_said_after_the_verdict() -> None:
@@ -80,3 +81,8 @@ def test_an_error_with_a_number_of_its_own_is_said_to_be_one() -> None:
     assert not any("rwn simulate runs" in s for s in sentences(replace(found, findings=(own,))))
     alike = tuple(replace(r, simulated=r.corrected) if r is row else r for r in found.heldout)
     assert not any("rwn simulate runs" in s for s in sentences(replace(found, heldout=alike, findings=(own,))))
+
+
+def test_what_is_off_by_a_power_of_ten_may_be_in_another_unit() -> None:
+    assert times_given(1.1e-3, declared=0.1) == "0.0011 times what was given, which may be in another unit"
+    assert not any("unit" in times_given(x, declared=0.1) for x in (5.0, 1.05, 0.0))
