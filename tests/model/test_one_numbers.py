@@ -23,6 +23,12 @@ def test_a_constant_without_its_unit_is_refused(name: str, times: float) -> None
         assert "V/krpm" in said
 
 
+def test_a_thousandth_that_was_left_out_is_asked_for_where_it_was() -> None:
+    model = rwn.Model(kind="dc", parameters={**MOTOR, "torque_constant": 950.0 * MOTOR["torque_constant"]})
+    with pytest.raises(InputError, match=r'as in torque_constant = "[\d.]+ mN m/A"'):
+        model_to_fit(model)
+
+
 def test_constants_that_differ_by_losses_or_by_the_way_they_are_measured_are_not() -> None:
     for times in (0.6, 1.0, 2.0):
         model = rwn.Model(kind="dc", parameters={**MOTOR, "torque_constant": times * MOTOR["torque_constant"]})

@@ -9,6 +9,7 @@ from typing import Any
 from rwn.errors import InputError
 from rwn.model.drives.drive import Drive, NominalParameter
 from rwn.model.vocabulary import Effect, Parameter
+from rwn.recording.units import factor
 
 LARGEST = 1e15  # of any number in SI: no drive comes near
 LARGEST_COEFFICIENT = 1e200  # of a transfer function: powers of frequencies
@@ -64,13 +65,17 @@ def check_one_numbers(drive: Drive, parameters: Mapping[str, float], *, where: s
         small, large = sorted((pair.name, pair.like), key=lambda name: abs(parameters.get(name, 0.0)))
         if abs(parameters.get(large, 0.0)) > FARTHEST * abs(parameters.get(small, math.inf)):
             ratio = abs(parameters[large] / parameters[small]) if parameters[small] else math.inf
+            of_data_sheet = 1.0 / factor(pair.data_sheet_unit, units[pair.like], where=where)
+            meant = (pair.like, parameters[pair.like], pair.data_sheet_unit)
+            if ratio > math.sqrt(1e3 * of_data_sheet):  # nearer to a thousand than to what that unit makes
+                meant = (large, parameters[large], f"m{units[large]}")
             raise InputError(
                 f"{large} is {parameters[large]:g} {units[large]} and {small} {parameters[small]:g} {units[small]}, "
                 f"{ratio:.3g} times apart",
                 where=where,
                 expected="about the same number: in SI they are one of a machine",
-                fix=f'write the unit of the data sheet with the value, as in {pair.like} = "{parameters[pair.like]:g} '
-                f'{pair.data_sheet_unit}", or leave one of them out',
+                fix=f'write the unit of the data sheet with the value, as in {meant[0]} = "{meant[1]:g} {meant[2]}", '
+                "or leave one of them out",
             )
 
 
