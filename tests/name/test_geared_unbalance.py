@@ -43,6 +43,12 @@ def test_what_comes_once_need_not_come_back() -> None:
     assert spectra.slow_orders(short, nominal, short.prior.table["geared-unbalance"], 3) == []
 
 
+def test_what_noise_leaves_has_no_line() -> None:
+    plain = [turning(k, amplitude=0.0) for k in (1, 2, 3, 4)]
+    problem, nominal = nominal_of(plain, MODEL)
+    assert spectra.slow_orders(problem, nominal, problem.prior.table["geared-unbalance"], 3) == []
+
+
 @pytest.mark.slow
 def test_it_is_named_with_the_ratio_of_the_gear_and_corrects() -> None:
     found = rwn.diagnose([turning(1), turning(2)], MODEL, heldout=[turning(3)])

@@ -68,8 +68,9 @@ def orders_left(problem: Problem, base: Fit, effect: Effect, count: int, *, apar
 def slow_orders(problem: Problem, base: Fit, effect: Effect, count: int) -> list[float]:
     """The orders below one period per revolution at which a torque explains most of what `base` leaves.
 
-    Those of which two periods are seen at least: what came once need not come back. The torque is added up by the
-    angle, four times a revolution, so that its spectrum is as fine as a long travel allows.
+    Those of which two periods are seen at least, for what came once need not come back, and that stand out of the
+    spectrum more than noise does. The torque is added up by the angle, four times a revolution, so that this is as fine
+    as a long travel allows.
     """
     (order,) = (p for p in effect.parameters if p.order)
     problem = along_the_shaft(problem, base.vector, base.active)
@@ -86,7 +87,10 @@ def slow_orders(problem: Problem, base: Fit, effect: Effect, count: int) -> list
             by_place = np.bincount(place, (lacking - lacking.mean())[near], minlength=bins)
             power += np.abs(np.fft.rfft(by_place, n=bins)) ** 2
     seen = (orders * travel >= SEEN_PERIODS) & (orders >= order.lower) & (orders <= order.upper)
-    return orders_of(power[seen], orders[seen], count) if np.any(seen) else []
+    if not np.any(seen):
+        return []
+    seen &= power > highest_by_chance(power[seen])
+    return orders_of(power[seen], orders[seen], count) if np.count_nonzero(seen) > 1 else orders[seen].tolist()
 
 
 def along_the_shaft(problem: Problem, vector: Array, active: Sequence[int]) -> Problem:
