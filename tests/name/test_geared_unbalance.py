@@ -43,6 +43,14 @@ def test_what_comes_once_need_not_come_back() -> None:
     assert spectra.slow_orders(short, nominal, short.prior.table["geared-unbalance"], 3) == []
 
 
+def test_lines_that_stand_out_are_told_apart_by_the_steps_of_the_grid() -> None:
+    power = np.random.default_rng(1).exponential(size=200)
+    power[[10, 100, 130]] = 50.0, 200.0, 150.0
+    orders = 0.02 + 0.004 * np.arange(200)
+    assert spectra.standing_out(power, orders, 5) == orders[[100, 130, 10]].tolist()
+    assert spectra.standing_out(power[:1], orders[:1], 5) == []
+
+
 def test_what_noise_leaves_has_no_line() -> None:
     plain = [turning(k, amplitude=0.0) for k in (1, 2, 3, 4)]
     problem, nominal = nominal_of(plain, MODEL)

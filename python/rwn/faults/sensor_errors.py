@@ -33,7 +33,9 @@ def without_sensor_errors(recordings: Sequence[Recording], problem: Problem, thi
         if run.time.size == len(recording):
             for signal, error in errors.items():
                 flags = _far_off(run.masked(signal, error), problem.noise[signal].deviation)
-                flags &= ~_of_steps(flags, after_steps(recording) > 0.0, after_steps(recording, least=0.0) > 0.0)
+                if flags.any():
+                    stepped, changed = after_steps(recording), after_steps(recording, least=0.0)
+                    flags &= ~_of_steps(flags, stepped > 0.0, changed > 0.0)
                 if flags.any():
                     found.append(SPIKES.found(recording, signal, flags))
                     recording = without_samples(recording, signal, flags)

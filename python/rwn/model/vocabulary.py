@@ -106,6 +106,11 @@ class Effect:
         return (*self.parameters, *(p for p in self.further if p.line in lines))
 
     @property
+    def slow(self) -> bool:
+        """Whether it comes back with the angle after more than a revolution, as behind a gear."""
+        return any(p.order and p.upper < 1.0 for p in self.parameters)
+
+    @property
     def takes_time(self) -> bool:
         """Whether it is of a sensor that shows what was before: an offset or a rounding does not."""
         return self.site == "sensor" and any(p.unit == "s" for p in self.parameters)

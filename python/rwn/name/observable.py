@@ -26,9 +26,9 @@ def observable(name: str, problem: Problem) -> bool:
         if turns and any(p.replaces for p in effect.parameters):
             return True  # of a shaft that rubs, a part of a turn shows where it rubs more
         return revolutions(problem) > (A_SIXTH if turns else HALF_A_METRE)
-    slow = [p.upper for p in effect.parameters if p.order and p.upper < 1.0]
-    if slow:
-        return not problem.drive.linear and revolutions(problem) * slow[0] > SEEN_PERIODS
+    if effect.slow:
+        fastest = max(p.upper for p in effect.parameters if p.order)
+        return not problem.drive.linear and revolutions(problem) * fastest > SEEN_PERIODS
     beside = [p.beside for p in effect.parameters if p.beside]
     if beside:
         return all(problem.prior.uncertainty.get(nominal, 0.0) == 0.0 for nominal in beside)

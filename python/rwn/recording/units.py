@@ -96,8 +96,13 @@ def _angle_power(unit: Any) -> float:
     return float(dict(base._units).get("radian", 0))
 
 
+def _is_share(unit: Any) -> bool:
+    """Whether it is a percentage or a count, which has the dimension of an angle and is none."""
+    return bool(unit.dimensionless) and not _angle_power(unit)
+
+
 def _other_dimension(unit: str, si_unit: str, given: Any, wanted: Any) -> str:
-    if given.dimensionless and not _angle_power(given):
+    if _is_share(given):
         return f'say what it is worth, with its unit, by a scale: scale = "0.24 {si_unit}/{unit}", for instance'
     if (1 / _registry().Quantity(1.0, given)).dimensionality == wanted.dimensionality:
         turned = "/".join(reversed(unit.split("/")))
@@ -167,8 +172,7 @@ def product(unit: str, scale_unit: str) -> str:
 def has_dimension(unit: str, si_unit: str, *, where: object) -> bool:
     """Whether `unit` measures the same kind of quantity as `si_unit`. Raises InputError for a unit that is none."""
     given, wanted = _parse(unit, where=where), _parse(si_unit, where=where)
-    share = given.dimensionless and not _angle_power(given)  # a percentage is no angle
-    return bool(given.dimensionality == wanted.dimensionality) and not (share and _angle_power(wanted))
+    return bool(given.dimensionality == wanted.dimensionality) and not (_is_share(given) and _angle_power(wanted))
 
 
 def same(one: str, other: str, *, where: object) -> bool:

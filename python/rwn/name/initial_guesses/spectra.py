@@ -27,14 +27,14 @@ Array = NDArray[np.float64]
 NEIGHBOURS = 1.5  # steps of the grid within which an order may be the leakage of a stronger one
 SEEN_PERIODS = 2.0  # what came once need not come back
 PER_TURN = 4  # places of a revolution at which a torque of fewer than one period is added up
-FARTHEST = 2e5  # revolutions that are looked at: what a position in a wrong unit has travelled has no end
+FARTHEST = 2e5  # revolutions, whose spectrum takes some 20 MB: what a position in a wrong unit travels has no end
 LEVEL = 0.01  # chance that the highest line of a spectrum of noise is beyond `highest_by_chance`
 
 
 def read(problem: Problem, base: Fit, effect: Effect, count: int) -> list[Guess] | None:
     """Spatial frequencies that explain most of what `base` leaves; none where no angle is known."""
     (order,) = (p for p in effect.parameters if p.order)
-    found = slow_orders if order.upper < 1.0 else orders_left
+    found = slow_orders if effect.slow else orders_left
     return [{order.name: n} for n in found(problem, base, effect, count)]
 
 
@@ -87,10 +87,7 @@ def slow_orders(problem: Problem, base: Fit, effect: Effect, count: int) -> list
             by_place = np.bincount(place, (lacking - lacking.mean())[near], minlength=bins)
             power += np.abs(np.fft.rfft(by_place, n=bins)) ** 2
     seen = (orders * travel >= SEEN_PERIODS) & (orders >= order.lower) & (orders <= order.upper)
-    if not np.any(seen):
-        return []
-    seen &= power > highest_by_chance(power[seen])
-    return orders_of(power[seen], orders[seen], count) if np.count_nonzero(seen) > 1 else orders[seen].tolist()
+    return standing_out(power[seen], orders[seen], count)
 
 
 def along_the_shaft(problem: Problem, vector: Array, active: Sequence[int]) -> Problem:
@@ -253,6 +250,14 @@ def orders_of(spectrum: Array, orders: Array, count: int, *, apart: float = NEIG
         if len(found) == count:
             break
     return found
+
+
+def standing_out(spectrum: Array, orders: Array, count: int) -> list[float]:
+    """Of `orders`, (k,) evenly spaced, those that explain most and more than noise does at any of them."""
+    if orders.size == 0:
+        return []
+    level = highest_by_chance(spectrum)
+    return [n for n in orders_of(spectrum, orders, count) if spectrum[np.searchsorted(orders, n)] > level]
 
 
 def highest_by_chance(spectrum: Array) -> float:
