@@ -84,7 +84,6 @@ void expect_to_say_what_it_looks_at_and_adds_to() {
                      t.inductance != none.inductance;
   const bool scales = t.flux != none.flux || t.inertia != none.inertia || t.inertia_slope != none.inertia_slope;
   EXPECT_TRUE(says.scales || !scales) << E::info.name;
-  EXPECT_TRUE(!says.torque_alone || !(winds || scales)) << E::info.name;
   EXPECT_TRUE(says.electrical || !winds) << E::info.name;
 }
 

@@ -22,6 +22,9 @@
 //
 //   specialise(p, special)            parameters to start the special case from
 //
+// Of the motion it sees the angle, the drive's torque and the travel only where it says so: by `turns`, `loaded`, or by
+// having memories.
+//
 // A function that is listed and not there, or there and not listed, or of another signature, does not compile.
 #pragma once
 

@@ -16,6 +16,23 @@ inline constexpr Parameter peak_torque{.name = "amplitude",
                                        .start = 0.03,
                                        .scale = scale::torque,
                                        .strength = true};
+inline constexpr Parameter order{.name = "periods_per_rev",
+                                 .symbol = "N",
+                                 .unit = "1",
+                                 .meaning = "periods per revolution (per metre on a linear axis)",
+                                 .lower = 1.5,  // one is an unbalance
+                                 .upper = 1000.0,
+                                 .start = 12.0,
+                                 .order = true};
+/// That of a shaft that a gear makes slower.
+inline constexpr Parameter slow_order = [] {
+  Parameter p = order;
+  p.meaning = "periods per revolution, 1 over the ratio of the gear";
+  p.lower = 1e-3;
+  p.upper = 0.9;
+  p.start = 0.1;
+  return p;
+}();
 /// A peak torque that is tried from weak to strong: a strong one traps the motor, and no small step leads there.
 inline constexpr Parameter any_peak_torque = [] {
   Parameter p = peak_torque;

@@ -34,7 +34,6 @@ struct EffectFunctions {
   bool electrical = false;    // changes how fast the winding is
   bool loaded = false;        // changes with the current while the winding settles
   bool turns = false;         // looks at the angle
-  bool torque_alone = true;   // adds to no other terms than torque and friction
   bool scales = false;        // changes the flux or the inertia
   bool replaces = false;      // takes over the nominal dry friction
   int memories = 0;
@@ -61,7 +60,6 @@ constexpr EffectFunctions<S> functions_of() {
   f.loaded = E::traits.loaded;
   f.turns = E::traits.turns;
   f.scales = E::info.site == Site::flux || E::traits.inertial;
-  f.torque_alone = !f.electrical && !f.scales;
   f.dry = E::traits.dry;
   f.memories = E::traits.memories;
   for (const Parameter& p : E::parameters) f.replaces = f.replaces || p.replaces == coulomb_friction;
@@ -76,7 +74,6 @@ EffectFunctions<S> functions_of(const ActiveOwnEffect<S>& own) {
   f.dry = own.term() == Term::friction;
   f.electrical = own.term() == Term::drop || is_factor(own.term());
   f.scales = own.term() == Term::flux;
-  f.torque_alone = !f.electrical;
   return f;
 }
 

@@ -32,7 +32,7 @@ class EffectTerms {
       turns_ = turns_ || own || call.turns;
       loaded_ = loaded_ || own || call.loaded;
       travels_ = travels_ || call.memories > 0;
-      torque_alone_ = torque_alone_ && call.torque_alone;
+      torque_alone_ = torque_alone_ && !call.electrical && !call.scales;
       scales_ = scales_ || call.scales;
     }
   }

@@ -9,15 +9,7 @@ struct GearedUnbalance {
   static constexpr EffectInfo info{"geared-unbalance", Site::torque, "T = -A sin(N theta + p), N < 1",
                                    "an off-centre mass or wheel on a shaft that a gear makes slower",
                                    "Newton; Smith, Gear Noise and Vibration, 2003 (run-out)"};
-  static constexpr Parameter order{.name = "periods_per_rev",
-                                   .symbol = "N",
-                                   .unit = "1",
-                                   .meaning = "periods per revolution, 1 over the ratio of the gear",
-                                   .lower = 1e-3,
-                                   .upper = 0.9,
-                                   .start = 0.1,
-                                   .order = true};
-  static constexpr std::array parameters{periodic::peak_torque, order, periodic::phase};
+  static constexpr std::array parameters{periodic::peak_torque, periodic::slow_order, periodic::phase};
   static constexpr EffectTraits traits{
       .hooks = Hook::apply | Hook::rate, .turns = true, .one_sided = true, .guess = Guess::spectrum};
 
