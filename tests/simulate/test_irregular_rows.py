@@ -8,6 +8,7 @@ import pytest
 import rwn
 from made_up_motor import SMALL as MOTOR
 from rwn.model.model import Model
+from rwn.recording.layout import Layout
 from rwn.recording.speed_measurement import BACKWARD, CENTRAL, FORWARD, INSTANTANEOUS, SpeedMeasurement
 from rwn.simulate.run import Run
 
@@ -53,3 +54,19 @@ def test_a_difference_over_a_lost_row_is_not_compared(way: SpeedMeasurement, lef
     run = Run(name="lost", time=time, input=0.0 * time, speed=time, speed_measured=way)
     assert np.flatnonzero(run.not_compared("speed")).tolist() == left_out
     assert not run.not_compared("current").any()
+
+
+@pytest.mark.parametrize("way", [BACKWARD, FORWARD, CENTRAL])
+def test_a_difference_over_a_lost_row_is_simulated_as_the_drive_took_it(way: SpeedMeasurement) -> None:
+    time = STEP * np.arange(60)
+    kept = np.arange(60) != 30
+    voltage = np.where(time < 0.02, 0.0, 8.0)
+    model = Model(kind="dc", parameters=MOTOR, recording=Layout(initial="rest", speed_rows=(way.before, way.after)))
+
+    def speed(rows: np.ndarray) -> np.ndarray:
+        rest = {"voltage": voltage[rows], "speed": 0.0 * time[rows]}
+        return rwn.simulate(model, rwn.Recording(name="lost", time=time[rows], signals=rest)).signals["speed"]
+
+    whole, lost = speed(np.full(60, True))[kept], speed(kept)
+    assert np.ptp(whole) > 0.0
+    np.testing.assert_allclose(lost[1:-1], whole[1:-1], atol=0.01 * np.ptp(np.diff(whole)))

@@ -105,11 +105,11 @@ class Run:
         if name == "speed":
             without[: self.speed_measured.before] = True
             without[n - self.speed_measured.after :] = True
-            without |= self._across_lost_rows
+            without |= self.across_lost_rows
         return without
 
     @cached_property
-    def _across_lost_rows(self) -> Flags:
+    def across_lost_rows(self) -> Flags:
         """Samples (n,) whose speed was taken between positions on both sides of a lost row."""
         across = np.zeros(self.time.size, dtype=bool)
         if self.speed_measured.shows_counts:

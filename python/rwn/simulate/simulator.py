@@ -102,7 +102,7 @@ class Simulator:
         made = _core.simulate(self.task(run), _of_core(vector), list(active), list(by), self.work)
         signals, slopes = made.signals, made.slopes
         if run.speed_measured.is_difference:
-            signals["speed"] = difference(run.speed_measured, run.time, signals["position"])
+            signals["speed"] = _as_difference(run, signals["position"], signals["speed"])
             slopes["speed"] = difference(run.speed_measured, run.time, slopes["position"])
         within = {signal: np.clip(values, -RAN_AWAY, RAN_AWAY) for signal, values in signals.items()}
         return Output(status=made.status, signals=within, slopes=slopes)
@@ -128,6 +128,19 @@ class Simulator:
             chi2=sums.chi2, gradient=sums.gradient, curvature=sums.curvature, count=sums.count,
             finite=sums.status == "ok",
         )  # fmt: skip
+
+
+def _as_difference(run: Run, position: Array, speed: Array) -> Array:
+    """The simulated speed (n,) as a drive takes it of positions, whose clock goes on where its logger loses a row."""
+    way, across = run.speed_measured, run.across_lost_rows
+    taken = difference(way, run.time, position)
+    if across.any():
+        from scipy.interpolate import CubicHermiteSpline  # heavy
+
+        at, step = CubicHermiteSpline(run.time, position, speed), run.sample_time
+        first, last = (run.time[across] + rows * step for rows in (-way.before, way.after))
+        taken[across] = (at(last) - at(first)) / (last - first)
+    return taken
 
 
 def _of_core(vector: Array) -> Array:
