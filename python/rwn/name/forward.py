@@ -82,8 +82,11 @@ def _ranked(
     before = statistics(problem, nominal)
     extensions = after.extensions if after else NO_EXTENSIONS
     in_noise = partial(made.in_noise, problem) if names is None and not after else None
-    grown = _grown(alone, fits, wanted, extensions, at_once=at_once, begun=begun, progress=progress, otherwise=in_noise)
     again = refitted_beside(known, problem)
+    grown = _grown(
+        alone, fits, wanted, extensions, at_once=at_once, begun=begun, progress=progress, otherwise=in_noise,
+        known=again if made.changes else (),
+    )  # fmt: skip
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
         problem, nominal, fits, _ = _under_own_noise(problem, nominal, fits)
@@ -129,31 +132,33 @@ def _ranked(
 
 def _grown(
     alone: Fits, fits: list[Fit], wanted: Sequence[str], extensions: Extensions, *, at_once: int, begun: int,
-    progress: Progress, otherwise: Callable[[Fit], Measurement | None] | None = None,
+    progress: Progress, otherwise: Callable[[Fit], Measurement | None] | None = None, known: Sequence[Fit] = (),
 ) -> _ForwardSelection:  # fmt: skip
     """Single effects, then the best of them with more beside, as long as that helps.
 
     `extensions` are known already. `begun`: what the meter of the search had counted when it began. `otherwise`: how
     the recordings were made, by the best of each number of effects; None: as thought. Nothing is built on that under
-    another measurement than theirs.
+    another measurement than theirs. `known`: explanations by several effects, to go on from.
     """
     problem = alone.problem
-    fits = with_further_lines(problem, fits)
+    fits = distinct([*with_further_lines(problem, fits), *known])
     best, left = _best_of(problem, [alone.nominal_fit, *fits])
     bases, windowed = diverse([f for f in fits if adds(f, problem)]), alone.windowed
     first = left_out(problem, alone.nominal_fit, bases, wanted) if bases and not left.at_the_floor else []
-    bases, thorough = [*first, *bases], len(first) + 1
+    bases, thorough, least = [*first, *bases], len(first) + 1, 2
+    if further := _best_by_several(known, problem):
+        bases, thorough, least = further, 1, len(further[0].added) + 1
     complete, paired, measured = left.at_the_floor or not bases, False, None
     not_tried = list[NotTried]()
-    for size in range(2, at_once + 1):
+    for size in range(least, at_once + 1):
         measured = otherwise(best) if otherwise and not complete else None
         if complete or measured:
             break
-        known = extensions if size == 2 else NO_EXTENSIONS
+        tried = extensions if size == 2 else NO_EXTENSIONS
         renew(problem.work, begun)
         progress(f"trying {size} effects at once", 0.9 - 0.7 * 0.5 ** (size - 1))
         found, windowed = beside_and_in_windows(
-            alone, best, bases, wanted, fits, known, size=size, windowed=windowed, thorough=thorough
+            alone, best, bases, wanted, fits, tried, size=size, windowed=windowed, thorough=thorough
         )  # fmt: skip
         more, extensions = with_further_lines(problem, found.fits), found if size == 2 else extensions
         not_tried += found.not_tried
@@ -162,9 +167,14 @@ def _grown(
             break
         fits, paired = [*fits, *more], True
         best, left = _best_of(problem, fits)
-        bases, thorough = sorted((f for f in more if adds(f, problem)), key=lambda f: f.cost)[:2], 1
+        bases, thorough = _best_by_several(more, problem), 1
         complete = left.at_the_floor or at_its_floor(problem, best)
     return _ForwardSelection(fits, extensions, paired, complete, tuple(not_tried), measured)
+
+
+def _best_by_several(fits: Sequence[Fit], problem: Problem) -> list[Fit]:
+    """The explanations to go on from, once there are some by several effects."""
+    return sorted((f for f in fits if adds(f, problem)), key=lambda f: f.cost)[:2]
 
 
 def _is_worth_it(problem: Problem, more: Sequence[Fit], best: Fit, *, rivals: int) -> bool:
