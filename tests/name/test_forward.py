@@ -17,7 +17,7 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import Statistics, statistics, statistics_of, structured_of
+from rwn.fit.residuals import MOST_SAMPLES, statistics, statistics_of, structured_of
 from rwn.model.model import Model
 from rwn.name import extending
 from rwn.name.backward import with_simpler
@@ -60,11 +60,12 @@ def test_more_effects_are_kept_where_they_are_likelier(
     single = fit_with("unbalance")
     several = fit(problem, hypothesis(problem.prior, wanted, problem.scales), max_iterations=0)
     left = statistics(problem, several)
-    samples = left.independent
+    samples = left.effective_with_misfit
     further = several.unknowns_seen - single.unknowns_seen
     price = 0.5 * further * np.log(samples) + np.log(len(wanted))
-    price *= 2.0 * max(left.variance, 1.0) * left.count / samples
-    single = replace(single, minimum=replace(single.minimum, cost=several.cost + gain * price))
+    squares = left.variance * left.count
+    price = gain * price * 2.0 * squares / samples + squares / MOST_SAMPLES
+    single = replace(single, minimum=replace(single.minimum, cost=several.cost + price))
     monkeypatch.setattr(extending, "beside", lambda *_, **__: Extensions([several], frozenset()))
     nominal = replace(single, minimum=replace(single.minimum, cost=2.0 * single.cost))
     grown = _grown(
@@ -141,15 +142,12 @@ def test_what_no_recording_depends_on_costs_an_explanation_nothing(problem: Prob
         fits = [fit_nominal(on), *screen(on, fit_nominal(on), ["sensor-bias"])]
         left = statistics(on, fits[1])
         biased = next(r for r in weigh(fits, left, rivals=1) if r.added)
-        effective = _effective(left)
-        scale = 2.0 * max(left.variance, 1.0) * left.count / effective
-        misfit = (biased.fit.cost - min(f.cost for f in fits)) / scale
+        effective = left.effective_with_misfit
+        squares = left.variance * left.count
+        lost = biased.fit.cost - min(f.cost for f in fits) - squares / MOST_SAMPLES
+        misfit = max(lost, 0.0) * effective / (2.0 * squares)
         counts.append(round((biased.score + misfit) / np.log(effective), 6))
     assert counts == [-1.0, -0.5]
-
-
-def _effective(left: Statistics) -> float:
-    return max(left.independent, 2.0)
 
 
 def test_a_current_that_is_not_recorded_is_made_of_voltage_and_speed(problem: Problem) -> None:

@@ -155,7 +155,7 @@ def test_nothing_is_built_on_what_another_measurement_shows(
         return another
 
     alone = Fits(problem, nominal, [single])
-    monkeypatch.setattr(forward, "_best_of", lambda _, fits: (fits[-1], SimpleNamespace(at_the_floor=False)))
+    monkeypatch.setattr(forward, "_best_of", lambda _, fits: (fits[-1], SimpleNamespace(structured=("speed",))))
     known = NO_EXTENSIONS
     grown = _grown(alone, [single], [], known, at_once=4, begun=0, progress=lambda *_: None, otherwise=otherwise)
     assert grown.measured is another

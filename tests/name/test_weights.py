@@ -53,3 +53,18 @@ def test_a_fit_that_was_not_ranked_is_weighed_as_those_that_were(less: float, is
     assert gained == pytest.approx(ranked[("a",)] - ranked[("a", "b")])
     assert (gained < 0.0) is is_less_likely
     assert found.probability == pytest.approx(best.probability * np.exp(min(gained, 0.0)))
+
+
+WHITE = Statistics(count=20_000, variance=0.5, correlation_time=1.0)
+EXACT = 0.5 * 20_000 / 1000.0  # squares, in units of the noise that was expected, to which a simulation is exact
+
+
+@pytest.mark.parametrize(("less", "name"), [(0.9, "plain"), (2.5, "law")])
+def test_what_lies_above_the_errors_of_a_simulation_counts_in_all_samples(less: float, name: str) -> None:
+    """In units of the noise that is left, not of the noise that was expected."""
+    plain, law = _fit(10_000.0 + less * EXACT, "plain"), _fit(10_000.0, "law")
+    law.unknowns_seen = 2
+    rows = {r.added: r.score for r in weigh([plain, law], WHITE, rivals=1)}
+    gained = max(less - 1.0, 0.0) * EXACT / (2.0 * 0.5)
+    assert rows[("law",)] - rows[("plain",)] == pytest.approx(gained - 0.5 * np.log(20_000.0))
+    assert (rows[("law",)] > rows[("plain",)]) is (name == "law")

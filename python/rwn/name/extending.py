@@ -84,7 +84,7 @@ def at_its_floor(problem: Problem, best: Fit) -> bool:
     """
     own, best = with_priors_weighed(with_noise_of(problem, best), best)
     again = refit(best, own, share=one_stage(own.work))
-    return statistics(own, again).at_the_floor
+    return not statistics(own, again).structured
 
 
 def diverse(fits: Sequence[Fit]) -> list[Fit]:

@@ -83,10 +83,8 @@ def _ranked(
     extensions = after.extensions if after else NO_EXTENSIONS
     in_noise = partial(made.in_noise, problem) if names is None and not after else None
     again = refitted_beside(known, problem)
-    grown = _grown(
-        alone, fits, wanted, extensions, at_once=at_once, begun=begun, progress=progress, otherwise=in_noise,
-        known=again if made.changes else (),
-    )  # fmt: skip
+    grown = _grown(alone, fits, wanted, extensions, at_once=at_once, begun=begun, progress=progress, otherwise=in_noise,
+                   known=again if made.changes else ())  # fmt: skip
     fits = distinct([*grown.fits, *again])
     if grown.paired or again:
         problem, nominal, fits, _ = _under_own_noise(problem, nominal, fits)
@@ -144,11 +142,11 @@ def _grown(
     fits = distinct([*with_further_lines(problem, fits), *known])
     best, left = _best_of(problem, [alone.nominal_fit, *fits])
     bases, windowed = diverse([f for f in fits if adds(f, problem)]), alone.windowed
-    first = left_out(problem, alone.nominal_fit, bases, wanted) if bases and not left.at_the_floor else []
+    first = left_out(problem, alone.nominal_fit, bases, wanted) if bases and left.structured else []
     bases, thorough, least = [*first, *bases], len(first) + 1, 2
     if further := _best_by_several(known, problem):
         bases, thorough, least = further, 1, len(further[0].added) + 1
-    complete, paired, measured = left.at_the_floor or not bases, False, None
+    complete, paired, measured = not left.structured or not bases, False, None
     not_tried = list[NotTried]()
     for size in range(least, at_once + 1):
         measured = otherwise(best) if otherwise and not complete else None
@@ -168,7 +166,7 @@ def _grown(
         fits, paired = [*fits, *more], True
         best, left = _best_of(problem, fits)
         bases, thorough = _best_by_several(more, problem), 1
-        complete = left.at_the_floor or at_its_floor(problem, best)
+        complete = not left.structured or at_its_floor(problem, best)
     return _ForwardSelection(fits, extensions, paired, complete, tuple(not_tried), measured)
 
 

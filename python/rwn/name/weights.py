@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rwn.fit.fit import Fit
-from rwn.fit.residuals import Statistics
+from rwn.fit.residuals import MOST_SAMPLES, Statistics
 
 LOST = 1e12  # log of evidence against a fit whose simulation ran away: what no recording outweighs, and still a number
 
@@ -52,12 +52,14 @@ def weigh(
     """Probabilities of the fits, best first.
 
     BIC with the effective number of samples of the best explanation's residual (coloured residuals carry less), a
-    uniform prior over how many effects are missing, shared over the `rivals` names. `prior`: log prior odds per name.
-    `finals`: what the fits became under coloured noise, to be weighed in their place.
+    uniform prior over how many effects are missing, shared over the `rivals` names. A simulation is exact to a share of
+    its squared error: fits that differ by less than that are alike, and what lies above it counts. `prior`: log prior
+    odds per name. `finals`: what the fits became under coloured noise, to be weighed in their place.
     """
     finals = fits if finals is None else finals
-    effective = left.independent
-    scale = 2.0 * max(left.variance, 1.0) * left.count / max(effective, 2.0)
+    effective = left.effective_with_misfit
+    squares = max(left.variance, np.finfo(float).tiny) * left.count
+    scale, inexact = 2.0 * squares / max(effective, 2.0), squares / MOST_SAMPLES
     least = min((f.cost for f in finals if np.isfinite(f.cost)), default=0.0)
     base = min(f.unknowns_seen for f in finals)
     scores = []
@@ -65,7 +67,7 @@ def weigh(
         unknowns = f.unknowns_seen - base
         names = sum((prior or {}).get(name, 0.0) for name in f.added)
         scores.append(
-            -(min((f.cost - least) / scale, LOST) if np.isfinite(f.cost) else LOST)
+            -(min(max(f.cost - least - inexact, 0.0) / scale, LOST) if np.isfinite(f.cost) else LOST)
             - 0.5 * unknowns * np.log(max(effective, 2.0))
             - len(f.added) * np.log(rivals)
             + names
