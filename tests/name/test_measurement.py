@@ -14,7 +14,7 @@ import rwn
 from made_up_files import files_of
 from made_up_motor import SMALL
 from ranked import ranked
-from rwn.fit.fit import Fit, fit
+from rwn.fit.fit import Fit, fit, fit_nominal
 from rwn.fit.hypothesis import hypothesis
 from rwn.fit.nominal import weighted_by_nominal
 from rwn.fit.preparation import prepare
@@ -160,6 +160,27 @@ def test_nothing_is_built_on_what_another_measurement_shows(
     grown = _grown(alone, [single], [], known, at_once=4, begun=0, progress=lambda *_: None, otherwise=otherwise)
     assert grown.measured is another
     assert (asked, grown.complete, grown.paired) == ([single], False, False)
+
+
+def test_under_another_filter_a_search_goes_on_from_what_was_found(
+    problem: Problem, fit_with: Callable[[str], Fit], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    single, nominal = fit_with("unbalance"), fit_nominal(problem)
+    pair = fit(problem, hypothesis(problem.prior, ["unbalance", "coulomb-friction"], problem.scales))
+    tried = list[tuple[int, list[Fit]]]()
+
+    def nothing_found(_: Fits, __: Fit, bases: list[Fit], *___: object, size: int, **____: object) -> object:
+        tried.append((size, bases))
+        return NO_EXTENSIONS, ()
+
+    monkeypatch.setattr(forward, "beside_and_in_windows", nothing_found)
+    monkeypatch.setattr(forward, "_best_of", lambda *_: (pair, SimpleNamespace(structured=("speed",))))
+    monkeypatch.setattr(forward, "_is_worth_it", lambda *_, **__: False)
+    alone, wanted = Fits(problem, nominal, [single]), ["unbalance", "coulomb-friction"]
+    _grown(
+        alone, [single], wanted, NO_EXTENSIONS, at_once=4, begun=0, progress=lambda *_: None, known=[pair]
+    )  # fmt: skip
+    assert tried == [(3, [pair])]
 
 
 def test_what_is_known_of_the_recordings_goes_along_when_a_ranking_is_gone_on_with(recorded: Problem) -> None:

@@ -142,10 +142,11 @@ def _grown(
     fits = distinct([*with_further_lines(problem, fits), *known])
     best, left = _best_of(problem, [alone.nominal_fit, *fits])
     bases, windowed = diverse([f for f in fits if adds(f, problem)]), alone.windowed
-    first = left_out(problem, alone.nominal_fit, bases, wanted) if bases and left.structured else []
-    bases, thorough, least = [*first, *bases], len(first) + 1, 2
     if further := _best_by_several(known, problem):
         bases, thorough, least = further, 1, len(further[0].added) + 1
+    else:
+        first = left_out(problem, alone.nominal_fit, bases, wanted) if bases and left.structured else []
+        bases, thorough, least = [*first, *bases], len(first) + 1, 2
     complete, paired, measured = not left.structured or not bases, False, None
     not_tried = list[NotTried]()
     for size in range(least, at_once + 1):
