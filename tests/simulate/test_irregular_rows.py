@@ -11,6 +11,7 @@ from rwn.model.model import Model
 from rwn.recording.layout import Layout
 from rwn.recording.speed_measurement import BACKWARD, CENTRAL, FORWARD, INSTANTANEOUS, SpeedMeasurement
 from rwn.simulate.run import Run
+from rwn.simulate.simulator import _as_difference
 
 STEP, ROWS, PARTS = 1e-3, 400, 3
 LAWS = {
@@ -70,3 +71,11 @@ def test_a_difference_over_a_lost_row_is_simulated_as_the_drive_took_it(way: Spe
     whole, lost = speed(np.full(60, True))[kept], speed(kept)
     assert np.ptp(whole) > 0.0
     np.testing.assert_allclose(lost[1:-1], whole[1:-1], atol=0.01 * np.ptp(np.diff(whole)))
+
+
+@pytest.mark.parametrize("way", [BACKWARD, CENTRAL])
+def test_a_simulation_that_ran_away_is_no_error_where_a_row_was_lost(way: SpeedMeasurement) -> None:
+    time = STEP * np.delete(np.arange(60), 30)
+    run = Run(name="lost", time=time, input=0.0 * time, speed=0.0 * time, speed_measured=way)
+    away = np.where(time < 0.03, 0.0, 1e303)
+    assert np.isfinite(_as_difference(run, 1e-6 * away, away)).all()

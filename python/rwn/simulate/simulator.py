@@ -132,12 +132,14 @@ class Simulator:
 
 def _as_difference(run: Run, position: Array, speed: Array) -> Array:
     """The simulated speed (n,) as a drive takes it of positions, whose clock goes on where its logger loses a row."""
-    way, across = run.speed_measured, run.across_lost_rows
+    way, across = run.speed_measured, np.flatnonzero(run.across_lost_rows)
     taken = difference(way, run.time, position)
-    if across.any():
+    if across.size and np.max(np.abs(speed)) < RAN_AWAY:
         from scipy.interpolate import CubicHermiteSpline  # heavy
 
-        at, step = CubicHermiteSpline(run.time, position, speed), run.sample_time
+        reach = np.arange(-way.before - 1, way.after + 2)
+        near = np.unique(np.clip(np.add.outer(across, reach), 0, run.time.size - 1))
+        at, step = CubicHermiteSpline(run.time[near], position[near], speed[near]), run.sample_time
         first, last = (run.time[across] + rows * step for rows in (-way.before, way.after))
         taken[across] = (at(last) - at(first)) / (last - first)
     return taken
