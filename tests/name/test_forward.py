@@ -17,7 +17,7 @@ from rwn.fit.hypothesis import Hypothesis, hypothesis
 from rwn.fit.preparation import prepare
 from rwn.fit.prior_weight import with_priors_weighed
 from rwn.fit.problem import Problem
-from rwn.fit.residuals import MOST_SAMPLES, statistics, statistics_of, structured_of
+from rwn.fit.residuals import EXACT_TO, statistics, statistics_of, structured_of
 from rwn.model.model import Model
 from rwn.name import extending
 from rwn.name.backward import with_simpler
@@ -64,7 +64,7 @@ def test_more_effects_are_kept_where_they_are_likelier(
     further = several.unknowns_seen - single.unknowns_seen
     price = 0.5 * further * np.log(samples) + np.log(len(wanted))
     squares = left.variance * left.count
-    price = gain * price * 2.0 * squares / samples + squares / MOST_SAMPLES
+    price = gain * price * 2.0 * squares / samples + EXACT_TO * squares
     single = replace(single, minimum=replace(single.minimum, cost=several.cost + price))
     monkeypatch.setattr(extending, "beside", lambda *_, **__: Extensions([several], frozenset()))
     nominal = replace(single, minimum=replace(single.minimum, cost=2.0 * single.cost))
@@ -144,7 +144,7 @@ def test_what_no_recording_depends_on_costs_an_explanation_nothing(problem: Prob
         biased = next(r for r in weigh(fits, left, rivals=1) if r.added)
         effective = left.effective_with_misfit
         squares = left.variance * left.count
-        lost = biased.fit.cost - min(f.cost for f in fits) - squares / MOST_SAMPLES
+        lost = biased.fit.cost - min(f.cost for f in fits) - EXACT_TO * squares
         misfit = max(lost, 0.0) * effective / (2.0 * squares)
         counts.append(round((biased.score + misfit) / np.log(effective), 6))
     assert counts == [-1.0, -0.5]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rwn.fit.residuals import Statistics
+from rwn.fit.residuals import EXACT_TO, Statistics
 from rwn.name.weights import LOST, weigh, weighed_beside
 
 LEFT = Statistics(count=1000, variance=4.0, correlation_time=10.0, structured=("speed",))
@@ -56,7 +56,7 @@ def test_a_fit_that_was_not_ranked_is_weighed_as_those_that_were(less: float, is
 
 
 WHITE = Statistics(count=20_000, variance=0.5, correlation_time=1.0)
-EXACT = 0.5 * 20_000 / 1000.0  # squares, in units of the noise that was expected, to which a simulation is exact
+EXACT = EXACT_TO * 0.5 * 20_000  # squares, in units of the noise that was expected, to which a simulation is exact
 
 
 @pytest.mark.parametrize(("less", "name"), [(0.9, "plain"), (2.5, "law")])

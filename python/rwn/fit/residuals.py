@@ -27,7 +27,8 @@ NO_DIFFERENCES: Mapping[str, int] = MappingProxyType({})
 CERTAINLY = NormalDist().inv_cdf(1.0 - LEVEL)  # deviations (`loss_gained`) that a test at LEVEL asks for
 NEGLIGIBLE = 1.05  # variance in units of the noise below which no structure counts: noise is known to that
 MISSPECIFIED = 50.0  # most independent samples that a residual counts for which is all misfit
-MOST_SAMPLES = 1000.0  # most independent samples that noise counts for: a simulation is exact to 0.1 % of its square
+EXACT_TO = 1e-3  # share of its squared error to which a simulation is exact
+MOST_SAMPLES = 1.0 / EXACT_TO  # most independent samples that noise counts for
 
 
 @dataclass(frozen=True, kw_only=True)

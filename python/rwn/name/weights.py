@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rwn.fit.fit import Fit
-from rwn.fit.residuals import MOST_SAMPLES, Statistics
+from rwn.fit.residuals import EXACT_TO, Statistics
 
 LOST = 1e12  # log of evidence against a fit whose simulation ran away: what no recording outweighs, and still a number
 
@@ -52,14 +52,14 @@ def weigh(
     """Probabilities of the fits, best first.
 
     BIC with the effective number of samples of the best explanation's residual (coloured residuals carry less), a
-    uniform prior over how many effects are missing, shared over the `rivals` names. A simulation is exact to a share of
-    its squared error: fits that differ by less than that are alike, and what lies above it counts. `prior`: log prior
+    uniform prior over how many effects are missing, shared over the `rivals` names. A simulation is exact to `EXACT_TO`
+    of its squared error: fits that differ by less are alike, and what lies above it counts. `prior`: log prior
     odds per name. `finals`: what the fits became under coloured noise, to be weighed in their place.
     """
     finals = fits if finals is None else finals
     effective = left.effective_with_misfit
     squares = max(left.variance, np.finfo(float).tiny) * left.count
-    scale, inexact = 2.0 * squares / max(effective, 2.0), squares / MOST_SAMPLES
+    scale, inexact = 2.0 * squares / max(effective, 2.0), EXACT_TO * squares
     least = min((f.cost for f in finals if np.isfinite(f.cost)), default=0.0)
     base = min(f.unknowns_seen for f in finals)
     scores = []

@@ -103,6 +103,7 @@ class Simulator:
         signals, slopes = made.signals, made.slopes
         if run.speed_measured.is_difference:
             signals["speed"] = _as_difference(run, signals["position"], signals["speed"])
+            # across a lost row too, where nothing is compared
             slopes["speed"] = difference(run.speed_measured, run.time, slopes["position"])
         within = {signal: np.clip(values, -RAN_AWAY, RAN_AWAY) for signal, values in signals.items()}
         return Output(status=made.status, signals=within, slopes=slopes)
